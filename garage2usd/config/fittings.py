@@ -1,0 +1,39 @@
+"""Settings of what stands, hangs and parks in the garage."""
+
+from pydantic import Field
+
+from garage2usd.config.base import Settings
+
+__all__ = ["FittingsConfig", "ParkingConfig"]
+
+
+class FittingsConfig(Settings):
+    """The building's fittings."""
+
+    clear_height_m: float = Field(2.2, ge=2.0, le=6)
+    """Height that nothing hangs below."""
+    ceiling_height_m: float = Field(3.2, ge=2.4, le=8)
+    """Height of the ceiling's underside above the floor."""
+    wall_thickness_m: float = Field(0.3, ge=0.1, le=1)
+    """Thickness of the outer walls, outside the contour."""
+    tubes_per_cell: int = Field(2, ge=0, le=6)
+    """Tube lights over each lane square; squares with stalls carry one."""
+    ducts: bool = True
+    """Ventilation ducts along the aisles."""
+    speed_bump_rate: float = Field(0.15, ge=0, le=1)
+    """Share of straight lane squares that carry a speed bump."""
+    wheel_stops: bool = True
+    """A wheel stop in each stall."""
+    no_parking_sign_rate: float = Field(0.5, ge=0, le=1)
+    """Share of the free squares without stalls that carry no-parking signs."""
+
+
+class ParkingConfig(Settings):
+    """The parked cars."""
+
+    occupancy: float = Field(0.6, ge=0, le=1)
+    """Share of the stalls that hold a car."""
+    reversed_share: float = Field(0.3, ge=0, le=1)
+    """Share of the parked cars that stand nose out."""
+    max_yaw_deg: float = Field(2.0, ge=0, le=5)
+    """Largest angle between a parked car and its stall."""

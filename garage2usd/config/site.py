@@ -1,0 +1,77 @@
+"""Settings of the static objects: contour, portals, obstacles, and the size of the squares."""
+
+from pathlib import Path
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+
+from garage2usd.config.base import Settings
+
+__all__ = ["BayConfig", "SiteConfig"]
+
+SideM = Annotated[float, Field(ge=1, le=50)]
+SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
+
+MAX_SQUARES = 250_000
+
+
+class SiteConfig(Settings):
+    """Where the garage is: random by the paper's rules, or any part of it given."""
+
+    width_cells: int = Field(9, ge=3, le=1000)
+    """Columns of the structure matrix, the paper's w."""
+    height_cells: int = Field(7, ge=3, le=1000)
+    """Rows of the structure matrix, the paper's h."""
+    rectangles: int = Field(0, ge=0, le=64)
+    """How many random rectangles make the contour, the paper's n; 0 fills the whole width and height."""
+    entrances: int = Field(1, ge=1, le=16)
+    """How many entrances are drawn."""
+    exits: int = Field(1, ge=1, le=16)
+    """How many exits are drawn."""
+    min_portal_distance_cells: int = Field(4, ge=1, le=2000)
+    """Least Manhattan distance between two portals, the paper's sigma_1."""
+    obstacles: int = Field(0, ge=0, le=10_000)
+    """How many inner squares become obstacles."""
+    min_obstacle_distance_cells: int = Field(3, ge=1, le=2000)
+    """Least Manhattan distance between two obstacles, the paper's sigma_2."""
+
+    contour: str | None = None
+    """The contour as text: one line a row, '#' outside and '.' inside."""
+    entrance_cells: tuple[SquareIndex, ...] | None = None
+    """[row, col] of each entrance, instead of drawing them."""
+    exit_cells: tuple[SquareIndex, ...] | None = None
+    """[row, col] of each exit, instead of drawing them."""
+    obstacle_cells: tuple[SquareIndex, ...] | None = None
+    """[row, col] of each obstacle, instead of drawing them."""
+    structure: str | None = None
+    """A complete structure matrix as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3."""
+    structure_file: Path | None = None
+    """A file that holds such a text; a relative path starts at the configuration file."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if self.structure is not None and self.structure_file is not None:
+            raise ValueError("only one of structure and structure_file")
+        whole = self.structure is not None or self.structure_file is not None
+        parts = ("contour", "entrance_cells", "exit_cells", "obstacle_cells")
+        given = [name for name in parts if getattr(self, name) is not None]
+        if whole and given:
+            raise ValueError(f"no {given[0]} beside a complete structure")
+        if self.width_cells * self.height_cells > MAX_SQUARES:
+            raise ValueError(f"at most {MAX_SQUARES} squares in width_cells x height_cells")
+        return self
+
+
+class BayConfig(Settings):
+    """Size of the squares and of the stalls on them."""
+
+    column_widths_m: SideM | tuple[SideM, ...] = 8.1
+    """Width of every column along X, or of each: the paper's R."""
+    row_depths_m: SideM | tuple[SideM, ...] = 8.1
+    """Depth of every row along Z, or of each: the paper's C."""
+    stall_width_m: float = Field(2.4, ge=1.8, le=6)
+    """Width of one stall between its lines."""
+    stall_length_m: float = Field(5.3, ge=3.5, le=12)
+    """Length of one stall from its mouth to its wheel stop's wall."""
+    column_size_m: float = Field(0.6, ge=0.2, le=1.2)
+    """Side of the square structural columns between bays."""

@@ -1,0 +1,123 @@
+"""One hierarchy of errors: what failed, the value, what is allowed, and the seed that reproduces it."""
+
+from collections.abc import Sequence
+
+__all__ = [
+    "ConfigError",
+    "Garage2UsdError",
+    "GenerationError",
+    "OutputError",
+    "StageError",
+    "UnreachableStallError",
+]
+
+
+class Garage2UsdError(Exception):
+    """Base of every error that garage2usd raises on purpose."""
+
+
+class ConfigError(Garage2UsdError, ValueError):
+    """A value given by the user that cannot be used.
+
+    Parameters
+    ----------
+    field
+        Dotted name of the setting, for example ``site.width_cells``.
+    value
+        The value as given.
+    allowed
+        What would have been accepted, in words.
+    """
+
+    def __init__(self, field: str, value: object, allowed: str) -> None:
+        self.field = field
+        self.value = value
+        self.allowed = allowed
+        super().__init__(f"{field}: got {_brief(value)}; allowed: {allowed}")
+
+
+class GenerationError(Garage2UsdError):
+    """A random step that found no valid result within its bounded attempts.
+
+    Parameters
+    ----------
+    step
+        Name of the step on the road, for example ``portals``.
+    reason
+        What was missing, with figures.
+    seed
+        The seed that reproduces the failure.
+    attempts
+        How many attempts were made.
+    """
+
+    def __init__(self, step: str, reason: str, *, seed: int, attempts: int) -> None:
+        self.step = step
+        self.reason = reason
+        self.seed = seed
+        self.attempts = attempts
+        super().__init__(f"{step}: {reason} (seed {seed}, {attempts} attempts)")
+
+
+class UnreachableStallError(Garage2UsdError):
+    """Stalls that no entrance reaches, or that reach no exit.
+
+    Parameters
+    ----------
+    cells
+        (row, col) of each square that holds such stalls.
+    drawing
+        The structure matrix as text with those squares marked ``?``.
+    """
+
+    def __init__(self, cells: Sequence[tuple[int, int]], drawing: str) -> None:
+        self.cells = tuple(cells)
+        self.drawing = drawing
+        named = ", ".join(f"({row}, {col})" for row, col in self.cells)
+        super().__init__(f"stalls on squares {named} have no route from an entrance and to an exit:\n{drawing}")
+
+
+class StageError(Garage2UsdError):
+    """A USD stage that could not be authored.
+
+    Parameters
+    ----------
+    prim_path
+        Path of the prim, or of the layer, at which authoring failed.
+    reason
+        What failed.
+    """
+
+    def __init__(self, prim_path: str, reason: str) -> None:
+        self.prim_path = prim_path
+        self.reason = reason
+        super().__init__(f"{prim_path}: {reason}")
+
+
+class OutputError(Garage2UsdError, OSError):
+    """A file that could not be written; nothing was left behind.
+
+    Parameters
+    ----------
+    path
+        The path as given.
+    reason
+        What the operating system said.
+    """
+
+    def __init__(self, path: object, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"{path}: {reason}")
+
+    def __str__(self) -> str:
+        """Path and reason, without OSError's errno form."""
+        return f"{self.path}: {self.reason}"
+
+
+_BRIEF_CHARACTERS = 80
+
+
+def _brief(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."

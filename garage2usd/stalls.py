@@ -1,0 +1,120 @@
+"""Which squares hold stalls, and how many: the one answer that score and layout share.
+
+A free square is served through an edge that it shares with a lane. Stalls stand side by side along that edge,
+between the columns on its two ends, with their length across the square.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config.site import BayConfig
+from garage2usd.grid import Cell, Mask, Structure
+
+__all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "square_capacity", "stall_rows"]
+
+_MM_PER_M = 1000
+
+
+class Edge(IntEnum):
+    """The edges of a square in the order of `garage2usd.grid.NEIGHBOUR_STEPS`."""
+
+    UP = 0
+    DOWN = 1
+    LEFT = 2
+    RIGHT = 3
+
+
+@dataclass(frozen=True, eq=False)
+class CapacityTable:
+    """Stalls that each square would hold if it were free and served; four int64 arrays, shape (rows, cols).
+
+    Attributes
+    ----------
+    along_x, along_x_double
+        With one of the edges up and down open to a lane, and with both.
+    along_z, along_z_double
+        With one of the edges left and right open to a lane, and with both.
+    """
+
+    along_x: NDArray[np.int64]
+    along_x_double: NDArray[np.int64]
+    along_z: NDArray[np.int64]
+    along_z_double: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class StallRow:
+    """Stalls side by side on one square, all with their mouth on one edge."""
+
+    row: int
+    col: int
+    edge: Edge
+    count: int
+
+
+def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:
+    """Count the stalls that fit each square for each way of serving it.
+
+    Notes
+    -----
+    ``floor((edge - column_size) / stall_width)`` stalls if the depth takes the stall length; two rows if opposite
+    edges are both open and the depth takes two. 8.1 m squares hold three 2.4 x 5.3 m stalls. Computed in whole
+    millimetres.
+    """
+    stall_width, stall_length, column = (
+        round(side * _MM_PER_M) for side in (bay.stall_width_m, bay.stall_length_m, bay.column_size_m)
+    )
+    widths = np.broadcast_to(structure.column_widths_mm, structure.shape)
+    depths = np.broadcast_to(structure.row_depths_mm[:, None], structure.shape)
+
+    def single_and_double(edge: NDArray[np.int64], depth: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
+        fits = np.maximum(edge - column, 0) // stall_width
+        single = np.where(depth >= stall_length, fits, 0)
+        return single, np.where(depth >= 2 * stall_length, 2 * fits, single)
+
+    return CapacityTable(*single_and_double(widths, depths), *single_and_double(depths, widths))
+
+
+def square_capacity(structure: Structure, bay: BayConfig) -> NDArray[np.int64]:
+    """Number of stalls on each square as it is served now; int64, shape (rows, cols), 0 where not free."""
+    along_x, along_z = _served(structure, capacity_table(structure, bay))
+    return np.maximum(along_x, along_z)
+
+
+def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
+    """The rows of stalls of a structure, in reading order; up and down win a tie over left and right."""
+    table = capacity_table(structure, bay)
+    along_x, along_z = _served(structure, table)
+    lane = _open_edges(structure.cells == Cell.LANE)
+    rows: list[StallRow] = []
+    for row, col in np.argwhere(np.maximum(along_x, along_z) > 0).tolist():
+        upright = along_x[row, col] >= along_z[row, col]
+        edges = (Edge.UP, Edge.DOWN) if upright else (Edge.LEFT, Edge.RIGHT)
+        single = int((table.along_x if upright else table.along_z)[row, col])
+        total = int((along_x if upright else along_z)[row, col])
+        opened = [edge for edge in edges if lane[edge][row, col]]
+        rows.extend(StallRow(row, col, edge, single) for edge in opened[: total // single])
+    return tuple(rows)
+
+
+def _open_edges(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
+    """For each `Edge`, which squares have `mask` set beyond it."""
+    padded = np.pad(mask, 1)
+    return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
+
+
+def _served(structure: Structure, table: CapacityTable) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Stalls along X and along Z on each free square, with the lanes as they are."""
+    up, down, left, right = _open_edges(structure.cells == Cell.LANE)
+    free = structure.cells == Cell.FREE
+
+    def served(one: Mask, other: Mask, single: NDArray[np.int64], double: NDArray[np.int64]) -> NDArray[np.int64]:
+        return np.where(free, np.where(one & other, double, np.where(one | other, single, 0)), 0)
+
+    return (
+        served(up, down, table.along_x, table.along_x_double),
+        served(left, right, table.along_z, table.along_z_double),
+    )
