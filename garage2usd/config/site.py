@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+import numpy as np
+from pydantic import BeforeValidator, Field, model_validator
 
 from garage2usd.config.base import Settings
 
@@ -15,6 +16,16 @@ SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
 MAX_SQUARES = 250_000
 
 
+def _drawing(value: object) -> object:
+    """Let arrays of numbers -1 to 3 stand for the text form."""
+    if isinstance(value, np.ndarray):
+        return "\n".join(" ".join(str(int(cell)) for cell in row) for row in np.atleast_2d(value))
+    return value
+
+
+Drawing = Annotated[str, BeforeValidator(_drawing)]
+
+
 class SiteConfig(Settings):
     """Where the garage is: random by the paper's rules, or any part of it given."""
 
@@ -24,6 +35,8 @@ class SiteConfig(Settings):
     """Rows of the structure matrix, the paper's h."""
     rectangles: int = Field(0, ge=0, le=64)
     """How many random rectangles make the contour, the paper's n; 0 fills the whole width and height."""
+    min_fill: float = Field(0.5, ge=0, le=0.9)
+    """Least share of the squares that a random contour covers; 0 takes any, as the paper does."""
     entrances: int = Field(1, ge=1, le=16)
     """How many entrances are drawn."""
     exits: int = Field(1, ge=1, le=16)
@@ -35,16 +48,17 @@ class SiteConfig(Settings):
     min_obstacle_distance_cells: int = Field(3, ge=1, le=2000)
     """Least Manhattan distance between two obstacles, the paper's sigma_2."""
 
-    contour: str | None = None
-    """The contour as text: one line a row, '#' outside and '.' inside."""
+    contour: Drawing | None = None
+    """The contour as text: one line a row, '#' outside and '.' inside; in Python also an array of -1 and 0."""
     entrance_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each entrance, instead of drawing them."""
     exit_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each exit, instead of drawing them."""
     obstacle_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each obstacle, instead of drawing them."""
-    structure: str | None = None
-    """A complete structure matrix as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3."""
+    structure: Drawing | None = None
+    """A structure matrix as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3; in Python also
+    an array. Without lanes it is planned, with lanes it is taken as it is."""
     structure_file: Path | None = None
     """A file that holds such a text; a relative path starts at the configuration file."""
 

@@ -1,0 +1,146 @@
+"""All settings of a garage: frozen, validated models; TOML in, JSON schema out."""
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, Field, ValidationError
+
+from garage2usd.config.base import Settings
+from garage2usd.config.fittings import FittingsConfig, ParkingConfig
+from garage2usd.config.plan import PlanConfig
+from garage2usd.config.site import BayConfig, SiteConfig
+from garage2usd.errors import ConfigError
+
+__all__ = [
+    "BayConfig",
+    "FittingsConfig",
+    "GarageConfig",
+    "ParkingConfig",
+    "PlanConfig",
+    "SiteConfig",
+    "config_from_mapping",
+    "config_schema",
+    "load_config",
+]
+
+_MAX_FILE_BYTES = 16 * 1024 * 1024
+
+
+class GarageConfig(Settings):
+    """Everything that decides a garage. The same configuration and version give the same bytes."""
+
+    seed: int = Field(0, ge=0, lt=2**63)
+    """Seed of every random step."""
+    site: SiteConfig = SiteConfig()
+    """Contour, portals and obstacles."""
+    bay: BayConfig = BayConfig()
+    """Sizes of squares and stalls."""
+    plan: PlanConfig = PlanConfig()
+    """The lane planner."""
+    fittings: FittingsConfig = FittingsConfig()
+    """Walls, lights, ducts, bumps, stops and signs."""
+    parking: ParkingConfig = ParkingConfig()
+    """Parked cars."""
+
+    def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
+        """Validate `settings`.
+
+        Raises
+        ------
+        ConfigError
+            If a key is unknown or a value is not allowed.
+        """
+        try:
+            super().__init__(**settings)
+        except ValidationError as error:
+            raise _config_error(error) from None
+
+    def with_seed(self, seed: int) -> "GarageConfig":
+        """The same settings with another seed."""
+        return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
+
+    def digest(self) -> str:
+        """SHA-256 of the canonical JSON of all settings."""
+        canonical = json.dumps(self.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def config_from_mapping(settings: Mapping[str, Any]) -> GarageConfig:
+    """Validate settings given as nested mappings, as TOML reads them."""
+    return GarageConfig(**settings)
+
+
+def load_config(path: str | Path) -> GarageConfig:
+    """Read a TOML configuration.
+
+    Parameters
+    ----------
+    path
+        The file. A relative ``site.structure_file`` in it starts at the file's folder and is read here, so that the
+        configuration carries the structure itself.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read, is not TOML, or holds an unknown key or a value that is not allowed.
+    """
+    path = Path(path)
+    try:
+        settings = tomllib.loads(_read_text(path, field="CONFIG"))
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError("CONFIG", str(path), f"TOML ({error})") from None
+    config = config_from_mapping(settings)
+    if config.site.structure_file is None:
+        return config
+    text = _read_text(path.parent / config.site.structure_file, field="site.structure_file")
+    site = {key: value for key, value in settings["site"].items() if key != "structure_file"}
+    return config_from_mapping({**settings, "site": {**site, "structure": text}})
+
+
+def config_schema() -> dict[str, Any]:
+    """JSON schema (2020-12) of the configuration."""
+    schema = GarageConfig.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    return schema
+
+
+def _read_text(path: Path, *, field: str) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(_MAX_FILE_BYTES + 1)
+    except OSError as error:
+        raise ConfigError(field, str(path), f"a readable file ({error.strerror})") from None
+    if len(data) > _MAX_FILE_BYTES:
+        raise ConfigError(field, str(path), f"a file of at most {_MAX_FILE_BYTES} bytes")
+    try:
+        return data.decode()
+    except UnicodeDecodeError as error:
+        raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
+
+
+def _config_error(error: ValidationError) -> ConfigError:
+    """Turn pydantic's first finding into one line of field, value, allowed."""
+    finding = error.errors(include_url=False)[0]
+    # a union's branches (float, tuple) are named in the location; they are no keys of the user's
+    keys = [part for part in finding["loc"] if isinstance(part, int) or part.isidentifier()]
+    while keys and keys[-1] in {"float", "int", "str"}:
+        keys.pop()
+    field = ".".join(str(key) for key in keys) or "configuration"
+    if finding["type"] == "extra_forbidden":
+        return ConfigError(field, finding["input"], f"one of the keys {_known_keys(finding['loc'][:-1])}")
+    message = finding["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
+    return ConfigError(field, finding["input"], message)
+
+
+def _known_keys(location: tuple[int | str, ...]) -> str:
+    model: type[BaseModel] = GarageConfig
+    for key in location:
+        annotation = model.model_fields[str(key)].annotation
+        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
+            break
+        model = annotation
+    return ", ".join(model.model_fields)

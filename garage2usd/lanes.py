@@ -1,0 +1,149 @@
+"""The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
+
+from collections import Counter
+from dataclasses import dataclass
+from enum import StrEnum
+
+import networkx as nx
+import numpy as np
+
+from garage2usd.config import BayConfig
+from garage2usd.errors import UnreachableStallError
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.stalls import StallRow, stall_rows
+
+__all__ = ["LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph"]
+
+Square = tuple[int, int]
+
+
+class LaneKind(StrEnum):
+    """The paper's three kinds of lane square, and the portals."""
+
+    CROSSROADS = "crossroads"
+    T_JUNCTION = "t_junction"
+    STRAIGHT = "straight"
+    ENTRANCE = "entrance"
+    EXIT = "exit"
+
+
+class StallType(StrEnum):
+    """The paper's four types of free square, by the lanes around it."""
+
+    TYPE_1 = "type_1"
+    TYPE_2 = "type_2"
+    TYPE_3 = "type_3"
+    TYPE_4 = "type_4"
+
+
+@dataclass(frozen=True, eq=False)
+class LaneGraph:
+    """Lanes and portals as a frozen graph, with what they serve.
+
+    Attributes
+    ----------
+    graph
+        `networkx.Graph`; a node is a (row, col) with ``kind`` (`LaneKind`), ``x_m`` and ``z_m`` of its centre; an edge
+        joins squares that share a side, with ``length_m`` between their centres.
+    stall_types
+        `StallType` of every free square.
+    stall_rows
+        The rows of stalls, each with the lane beyond its edge reached from an entrance and leading to an exit.
+    """
+
+    graph: "nx.Graph[Square]"
+    stall_types: dict[Square, StallType]
+    stall_rows: tuple[StallRow, ...]
+
+    def kind(self, square: Square) -> LaneKind:
+        """Kind of one lane or portal."""
+        kind: LaneKind = self.graph.nodes[square]["kind"]
+        return kind
+
+    def kind_counts(self) -> dict[str, int]:
+        """How many squares there are of each kind of lane and portal, and of each stall type."""
+        counts = Counter(str(kind) for _, kind in self.graph.nodes(data="kind"))
+        counts.update(str(kind) for kind in self.stall_types.values())
+        return {str(kind): counts[str(kind)] for kind in (*LaneKind, *StallType)}
+
+
+def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
+    """Build the lane graph of a complete structure and prove that every stall is reached.
+
+    Raises
+    ------
+    UnreachableStallError
+        If a stall's lane has no route from an entrance and to an exit that keeps to lanes.
+
+    Notes
+    -----
+    ``n = sum S(theta)`` types a lane: 4 crossroads, 3 T-junction, at most 2 straight. Deviation: raw S counts an
+    entrance as two lanes, so lane and portal neighbours are counted instead. A free square with n lane neighbours is
+    Type 1 (n >= 3, or 2 across), Type 2 (2 adjacent), Type 3 (1), Type 4 (0).
+    """
+    graph = _typed_graph(structure)
+    rows = stall_rows(structure, bay)
+    _check_reachability(structure, graph, rows)
+    return LaneGraph(nx.freeze(graph), _stall_types(structure), rows)
+
+
+def _typed_graph(structure: Structure) -> "nx.Graph[Square]":
+    x_m = (structure.column_edges_m[:-1] + structure.column_edges_m[1:]) / 2
+    z_m = (structure.row_edges_m[:-1] + structure.row_edges_m[1:]) / 2
+    cells = structure.cells
+    graph: nx.Graph[Square] = nx.Graph()
+    drivable = [(row, col) for row, col in np.argwhere(cells >= Cell.LANE).tolist()]
+    for row, col in drivable:
+        graph.add_node((row, col), x_m=float(x_m[col]), z_m=float(z_m[row]))
+    for row, col in drivable:
+        for other in ((row + 1, col), (row, col + 1)):
+            joins_lane = other in graph and Cell.LANE in {cells[row, col], cells[other]}
+            if joins_lane:
+                length = abs(z_m[other[0]] - z_m[row]) + abs(x_m[other[1]] - x_m[col])
+                graph.add_edge((row, col), other, length_m=float(length))
+    for square in graph:
+        graph.nodes[square]["kind"] = _lane_kind(Cell(cells[square]), graph.degree(square))
+    return graph
+
+
+def _lane_kind(cell: Cell, degree: int) -> LaneKind:
+    if cell is Cell.ENTRANCE:
+        return LaneKind.ENTRANCE
+    if cell is Cell.EXIT:
+        return LaneKind.EXIT
+    return {4: LaneKind.CROSSROADS, 3: LaneKind.T_JUNCTION}.get(degree, LaneKind.STRAIGHT)
+
+
+def _stall_types(structure: Structure) -> dict[Square, StallType]:
+    lane = np.pad(structure.cells == Cell.LANE, 1)
+    types: dict[Square, StallType] = {}
+    for row, col in structure.where(Cell.FREE):
+        up, down, left, right = (lane[row + 1 + dr, col + 1 + dc] for dr, dc in NEIGHBOUR_STEPS)
+        count = int(up) + int(down) + int(left) + int(right)
+        across = (up and down) or (left and right)
+        if count >= 3 or (count == 2 and across):  # noqa: PLR2004
+            types[row, col] = StallType.TYPE_1
+        else:
+            types[row, col] = (StallType.TYPE_4, StallType.TYPE_3, StallType.TYPE_2)[count]
+    return types
+
+
+def _check_reachability(structure: Structure, graph: "nx.Graph[Square]", rows: tuple[StallRow, ...]) -> None:
+    """Every stall's lane must lie in a piece of lanes that touches an entrance and an exit."""
+    cells = structure.cells
+    lanes = graph.subgraph(square for square in graph if cells[square] == Cell.LANE)
+    served: set[Square] = set()
+    for piece in nx.connected_components(lanes):
+        touched = {int(cells[portal]) for lane in piece for portal in graph[lane]}
+        if {Cell.ENTRANCE, Cell.EXIT} <= touched:
+            served |= piece
+    unreached = set()
+    for stalls in rows:
+        dr, dc = NEIGHBOUR_STEPS[stalls.edge]
+        if (stalls.row + dr, stalls.col + dc) not in served:
+            unreached.add((stalls.row, stalls.col))
+    if unreached:
+        lines = [list(line) for line in str(structure).splitlines()]
+        for row, col in unreached:
+            lines[row][col] = "?"
+        raise UnreachableStallError(sorted(unreached), "\n".join("".join(line) for line in lines))

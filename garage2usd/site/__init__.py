@@ -1,0 +1,88 @@
+"""Static objects: contour, portals and obstacles, drawn by the paper's rules or given by the user."""
+
+import numpy as np
+
+from garage2usd.config import BayConfig, SiteConfig
+from garage2usd.errors import ConfigError, GenerationError
+from garage2usd.grid import Cell, CellArray, Structure, cells_from_text
+from garage2usd.randomness import Step, generator
+from garage2usd.site.contour import draw_contour
+from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
+from garage2usd.site.obstacles import draw_obstacles
+from garage2usd.site.portals import draw_portals
+
+__all__ = ["make_site"]
+
+_CONTOUR_ATTEMPTS = 64
+
+
+def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
+    """Make the structure matrix with its static objects and the size of its squares.
+
+    Parameters
+    ----------
+    site, bay
+        The settings; whatever they give is taken, the rest is drawn.
+    seed
+        Seed of the steps contour, portals and obstacles.
+
+    Returns
+    -------
+    Structure
+        S with portals and obstacles, and with lanes only where the user gave a complete structure.
+
+    Raises
+    ------
+    ConfigError
+        If something given does not fit the rest.
+    GenerationError
+        If a step found no valid result within its attempts.
+    """
+    if site.structure is not None:
+        cells = cells_from_text(site.structure, field="site.structure")
+        check_structure(cells)
+    elif site.structure_file is not None:
+        raise ConfigError("site.structure_file", str(site.structure_file), "a file read by load_config")
+    else:
+        cells = _static_cells(site, seed=seed)
+    _check_size(site, cells)
+    return Structure(
+        cells,
+        _sides_mm(bay.column_widths_m, cells.shape[1], "bay.column_widths_m"),
+        _sides_mm(bay.row_depths_m, cells.shape[0], "bay.row_depths_m"),
+    )
+
+
+def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
+    """Draw what is not given; a random contour on which portals or obstacles find no place is drawn again."""
+    random_contour = site.contour is None and site.rectangles > 0
+    attempts = _CONTOUR_ATTEMPTS if random_contour else 1
+    failure: GenerationError | None = None
+    for attempt in range(attempts):
+        inside = given_contour(site) if site.contour is not None else draw_contour(site, seed=seed, attempt=attempt)
+        cells = np.where(inside, Cell.FREE, Cell.OBSTACLE).astype(np.int8)
+        try:
+            if site.entrance_cells is not None or site.exit_cells is not None:
+                cells = place_portals(cells, site)
+            cells = draw_portals(cells, site, seed=seed, attempt=attempt)
+            if site.obstacle_cells is not None:
+                return place_obstacles(cells, site)
+            return draw_obstacles(cells, site, seed=seed, attempt=attempt)
+        except GenerationError as error:
+            failure = error
+    if failure is None:  # pragma: no cover - the loop runs at least once
+        raise GenerationError("site", "no attempt was made", seed=seed, attempts=0)
+    raise GenerationError(failure.step, failure.reason, seed=seed, attempts=attempts * failure.attempts) from failure
+
+
+def _check_size(site: SiteConfig, cells: CellArray) -> None:
+    for axis, field in ((0, "height_cells"), (1, "width_cells")):
+        if field in site.model_fields_set and getattr(site, field) != cells.shape[axis]:
+            raise ConfigError(f"site.{field}", getattr(site, field), f"{cells.shape[axis]}, as the drawing has, or no key")
+
+
+def _sides_mm(sides_m: float | tuple[float, ...], count: int, field: str) -> np.typing.NDArray[np.int64]:
+    sides = np.full(count, sides_m) if isinstance(sides_m, float) else np.array(sides_m)
+    if len(sides) != count:
+        raise ConfigError(field, f"{len(sides)} sides", f"one number, or one for each of the {count} lines of squares")
+    return np.rint(sides * 1000).astype(np.int64)

@@ -1,0 +1,92 @@
+"""Static objects that the user gives instead of having them drawn."""
+
+from garage2usd.config import SiteConfig
+from garage2usd.errors import ConfigError
+from garage2usd.grid import Cell, CellArray, Mask, cells_from_text, cells_to_text, edge_neighbour_count
+from garage2usd.site.portals import free_squares_connected
+
+__all__ = ["check_structure", "given_contour", "place_obstacles", "place_portals"]
+
+
+def given_contour(site: SiteConfig) -> Mask:
+    """The contour that was given as text; bool, shape (rows, cols).
+
+    Raises
+    ------
+    ConfigError
+        If it holds more than outside and inside, or its inside is not one piece.
+    """
+    cells = cells_from_text(site.contour or "", field="site.contour")
+    if not ((cells == Cell.OBSTACLE) | (cells == Cell.FREE)).all():
+        raise ConfigError("site.contour", cells_to_text(cells), "only '#' outside and '.' inside")
+    if not free_squares_connected(cells):
+        raise ConfigError("site.contour", cells_to_text(cells), "one connected piece of '.' squares")
+    return cells == Cell.FREE
+
+
+def place_portals(cells: CellArray, site: SiteConfig) -> CellArray:
+    """Write the given entrances and exits on a contour.
+
+    Raises
+    ------
+    ConfigError
+        If a square is off the matrix, outside, not on the contour's edge, or taken.
+    """
+    result = cells.copy()
+    on_edge = edge_neighbour_count(cells != Cell.OBSTACLE) < 4  # noqa: PLR2004
+    for field, squares, kind in (
+        ("site.entrance_cells", site.entrance_cells, Cell.ENTRANCE),
+        ("site.exit_cells", site.exit_cells, Cell.EXIT),
+    ):
+        if squares is not None and not squares:
+            raise ConfigError(field, [], "at least one [row, col]")
+        for square in squares or ():
+            if not _is_free(result, square) or not on_edge[square]:
+                raise ConfigError(field, list(square), "free squares on the edge of the contour, each once")
+            result[square] = kind
+    if not free_squares_connected(result):
+        raise ConfigError("site.entrance_cells, site.exit_cells", cells_to_text(result), "portals that part no squares")
+    return result
+
+
+def place_obstacles(cells: CellArray, site: SiteConfig) -> CellArray:
+    """Write the given obstacles on a contour with portals.
+
+    Raises
+    ------
+    ConfigError
+        If a square is off the matrix or taken, or the obstacles part the free squares.
+    """
+    result = cells.copy()
+    for square in site.obstacle_cells or ():
+        if not _is_free(result, square):
+            raise ConfigError("site.obstacle_cells", list(square), "free squares inside the contour, each once")
+        result[square] = Cell.OBSTACLE
+    if not free_squares_connected(result):
+        raise ConfigError("site.obstacle_cells", cells_to_text(result), "obstacles that leave the free squares connected")
+    return result
+
+
+def check_structure(cells: CellArray) -> None:
+    """Refuse a given structure matrix that no garage can have.
+
+    Raises
+    ------
+    ConfigError
+        If it has no entrance, no exit, or a portal that touches nothing.
+    """
+    drawing = cells_to_text(cells)
+    for kind, name in ((Cell.ENTRANCE, "entrance 'E' (2)"), (Cell.EXIT, "exit 'X' (3)")):
+        if not (cells == kind).any():
+            raise ConfigError("site.structure", drawing, f"at least one {name}")
+    has_lanes = (cells == Cell.LANE).any()
+    open_to = (cells == Cell.LANE) if has_lanes else (cells == Cell.FREE)
+    portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
+    if (portal & (edge_neighbour_count(open_to) == 0)).any():
+        raise ConfigError("site.structure", drawing, "every portal beside a lane" if has_lanes else "portals beside free squares")
+    if not has_lanes and not free_squares_connected(cells):
+        raise ConfigError("site.structure", drawing, "free squares in one connected piece, or lanes")
+
+
+def _is_free(cells: CellArray, square: tuple[int, int]) -> bool:
+    return square[0] < cells.shape[0] and square[1] < cells.shape[1] and bool(cells[square] == Cell.FREE)

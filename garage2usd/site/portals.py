@@ -1,0 +1,141 @@
+"""Entrances and exits on straight edges of the contour."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from garage2usd.config import SiteConfig
+from garage2usd.errors import GenerationError
+from garage2usd.grid import Cell, CellArray, Mask
+from garage2usd.randomness import Step, generator
+
+__all__ = ["draw_portals", "free_squares_connected", "straight_frontier"]
+
+_RESTARTS = 400
+
+
+def straight_frontier(inside: Mask) -> Mask:
+    """Squares on a straight edge of the contour, the only ones that may hold a portal.
+
+    Parameters
+    ----------
+    inside
+        bool, shape (rows, cols): the contour before portals and obstacles are written.
+
+    Returns
+    -------
+    Mask
+        bool, same shape.
+
+    Notes
+    -----
+    The paper asks that the eight squares rho sum to -3. Deviation: 52 of the 56 neighbourhoods with that sum are no
+    straight edge; the three squares of one side are tested themselves, and that the five others are inside. The
+    outside is padded with -1.
+    """
+    outside = np.pad(~inside, 1, constant_values=True)
+    rows, cols = inside.shape
+    rho = {
+        (dr, dc): outside[1 + dr : 1 + dr + rows, 1 + dc : 1 + dc + cols]
+        for dr in (-1, 0, 1)
+        for dc in (-1, 0, 1)
+        if (dr, dc) != (0, 0)
+    }
+    three_outside = sum(square.astype(np.int8) for square in rho.values()) == 3  # noqa: PLR2004
+    sides = (
+        [(-1, -1), (-1, 0), (-1, 1)],
+        [(1, -1), (1, 0), (1, 1)],
+        [(-1, -1), (0, -1), (1, -1)],
+        [(-1, 1), (0, 1), (1, 1)],
+    )
+    straight = np.zeros_like(inside)
+    for side in sides:
+        straight |= np.logical_and.reduce([rho[step] for step in side])
+    frontier: Mask = inside & three_outside & straight
+    return frontier
+
+
+def free_squares_connected(cells: CellArray) -> bool:
+    """Whether the free squares form one 4-connected piece and every portal touches it."""
+    free = cells == Cell.FREE
+    if ndimage.label(free)[1] != 1:
+        return False
+    portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
+    return bool((~portal | ndimage.binary_dilation(free)).all())
+
+
+def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int = 0) -> CellArray:
+    """Draw the entrances and exits that are not on the matrix yet.
+
+    Parameters
+    ----------
+    cells
+        int8, shape (rows, cols): contour with the portals that were given.
+    site
+        Its ``entrances``, ``exits``, ``min_portal_distance_cells`` (sigma_1); a kind that was given is not drawn.
+    seed, attempt
+        Seed and number of the restart.
+
+    Returns
+    -------
+    CellArray
+        A new matrix with the portals.
+
+    Raises
+    ------
+    GenerationError
+        If no draw keeps the distance and leaves the free squares connected; says how many squares were eligible and
+        the best distance found.
+
+    Notes
+    -----
+    ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given.
+    """
+    kinds: list[Cell] = []
+    if site.entrance_cells is None:
+        kinds += [Cell.ENTRANCE] * site.entrances
+    if site.exit_cells is None:
+        kinds += [Cell.EXIT] * site.exits
+    if not kinds:
+        return cells
+    rng = generator(seed, Step.PORTALS, attempt)
+    given = np.argwhere((cells == Cell.ENTRANCE) | (cells == Cell.EXIT))
+    eligible = np.argwhere(straight_frontier(cells != Cell.OBSTACLE) & (cells == Cell.FREE))
+    best = 0
+    for _ in range(_RESTARTS):
+        chosen = _spread(rng.permutation(eligible), given, count=len(kinds), distance=site.min_portal_distance_cells)
+        best = max(best, len(chosen))
+        if len(chosen) == len(kinds):
+            result = cells.copy()
+            for (row, col), kind in zip(chosen, kinds, strict=True):
+                result[row, col] = kind
+            if free_squares_connected(result):
+                return result
+    reason = (
+        f"{len(kinds)} portals at least {site.min_portal_distance_cells} squares apart found no place: "
+        f"{len(eligible)} eligible squares, {best} placed at best, {_widest(eligible)} squares between the farthest two"
+    )
+    raise GenerationError("portals", reason, seed=seed, attempts=_RESTARTS)
+
+
+def _spread(
+    candidates: NDArray[np.int64], given: NDArray[np.int64], *, count: int, distance: int
+) -> list[tuple[int, int]]:
+    """Take candidates in order while they keep the Manhattan distance to all taken before."""
+    taken: list[tuple[int, int]] = [(row, col) for row, col in given.tolist()]
+    chosen: list[tuple[int, int]] = []
+    for row, col in candidates.tolist():
+        if all(abs(row - r) + abs(col - c) >= distance for r, c in taken):
+            taken.append((row, col))
+            chosen.append((row, col))
+            if len(chosen) == count:
+                break
+    return chosen
+
+
+def _widest(squares: NDArray[np.int64]) -> int:
+    """Largest Manhattan distance between two squares: the spread of row + col or of row - col."""
+    if len(squares) == 0:
+        return 0
+    rows, cols = squares[:, 0], squares[:, 1]
+    return int(max(np.ptp(rows + cols), np.ptp(rows - cols)))
