@@ -1,0 +1,55 @@
+"""From squares to metres: every object of a garage as a placement, free of any file format."""
+
+from garage2usd.config import GarageConfig
+from garage2usd.grid import Structure
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout.building import columns, obstacles, outer_walls
+from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops
+from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall
+from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
+
+__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "lay_out"]
+
+
+def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Layout:
+    """Place every object of a garage.
+
+    Parameters
+    ----------
+    structure
+        A complete structure.
+    graph
+        Its lane graph, with every stall reached.
+    config
+        Sizes, fittings, parking and seed.
+
+    Returns
+    -------
+    Layout
+        Tiles and what belongs to them in reading order, then the building's objects.
+    """
+    bay, fittings, seed = config.bay, config.fittings, config.seed
+    grid = TileGrid(structure, graph, bay)
+
+    # what lies on the lanes decides what is painted there
+    bumps = speed_bumps(grid, graph, fittings, seed=seed)
+    with_bump = {bump.square for bump in bumps}
+    floors = [floor_panel(tile, grid, bay, has_bump=tile.square in with_bump) for tile in grid]
+
+    stalls = stalls_of(grid, graph, bay)
+    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, seed=seed)]
+
+    overhead = [
+        *(ceiling_panel(tile, fittings) for tile in grid),
+        *tube_lights(grid, fittings),
+        *ducts(structure, grid, fittings),
+    ]
+    on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
+    shell = [
+        *outer_walls(structure, grid, fittings),
+        *obstacles(structure, fittings),
+        *columns(structure, bay, fittings),
+    ]
+    by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
+    return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m)

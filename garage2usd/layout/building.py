@@ -1,0 +1,126 @@
+"""The building's shell: walls along the contour, vehicle doors, obstacles and columns."""
+
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
+from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.stalls import Edge
+
+__all__ = ["columns", "obstacles", "outer_walls"]
+
+_MAX_DOOR_WIDTH_M = 6.0
+_DOOR_JAMB_M = 0.6
+_DOOR_HEAD_M = 0.3
+
+
+def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> list[Placement]:
+    """A column on every inner corner of the squares, but none in the middle of lanes and none in a wall.
+
+    Half a column reaches into each square around its corner; stalls and carriageways keep that much clear.
+    """
+    cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
+    around = np.stack([cells[:-1, :-1], cells[:-1, 1:], cells[1:, :-1], cells[1:, 1:]])
+    inner = (around != Cell.OBSTACLE).all(axis=0)
+    off_lane = (around == Cell.FREE).any(axis=0)
+    spec = ColumnSpec(bay.column_size_m, fittings.ceiling_height_m)
+    return [
+        Placement(
+            f"Column_r{row:02d}_c{col:02d}",
+            ObjectKind.COLUMN,
+            spec,
+            (float(structure.column_edges_m[col]), 0.0, float(structure.row_edges_m[row])),
+        )
+        for row, col in np.argwhere(inner & off_lane).tolist()
+    ]
+
+
+def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]:
+    """A concrete core on every obstacle inside the contour."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    placements = []
+    for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~_outside(structure)).tolist():
+        width, depth = float(x[col + 1] - x[col]), float(z[row + 1] - z[row])
+        spec = ObstacleSpec(round(width, 6), round(depth, 6), fittings.ceiling_height_m)
+        position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
+        placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
+    return placements
+
+
+def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
+    """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
+
+    In a reflex corner the wall along X gives way to the one along Z by its thickness.
+    """
+    thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
+    outside = np.pad(_outside(structure), 1, constant_values=True)
+    walls: list[Placement] = []
+    for tile in grid:
+        walls += [
+            _wall(tile, edge, outside, fittings)
+            for edge in Edge
+            if outside[tile.square[0] + 1 + NEIGHBOUR_STEPS[edge][0], tile.square[1] + 1 + NEIGHBOUR_STEPS[edge][1]]
+        ]
+    post = WallPostSpec(thickness, height)
+    rows, cols = structure.shape
+    for row, col in product(range(rows + 1), range(cols + 1)):
+        around = ~outside[row : row + 2, col : col + 2]
+        if around.sum() == 1:
+            (down, right), *_ = np.argwhere(around).tolist()
+            x = float(structure.column_edges_m[col]) + (0.5 - right) * thickness
+            z = float(structure.row_edges_m[row]) + (0.5 - down) * thickness
+            name = f"Post_r{row:02d}_c{col:02d}"
+            walls.append(Placement(name, ObjectKind.WALL, post, (round(x, 6), 0.0, round(z, 6))))
+    return walls
+
+
+def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: FittingsConfig) -> Placement:
+    row, col = tile.square
+    dr, dc = NEIGHBOUR_STEPS[edge]
+    x, z = tile.x_m + dc * tile.half_x_m, tile.z_m + dr * tile.half_z_m
+    length = tile.width_m if dr else tile.depth_m
+    if dr:
+        reflex = [not outside[row + 1 + dr, col + 1 + side] for side in (-1, 1)]
+        length -= fittings.wall_thickness_m * sum(reflex)
+        x += fittings.wall_thickness_m / 2 * (reflex[0] - reflex[1])
+    spec: WallSpec | PortalSpec = WallSpec(round(length, 6), fittings.ceiling_height_m, fittings.wall_thickness_m)
+    kind = ObjectKind.WALL
+    if _holds_door(tile, edge, outside):
+        kind = ObjectKind.PORTAL
+        spec = PortalSpec(
+            spec.length_m,
+            spec.height_m,
+            spec.thickness_m,
+            door_width_m=round(min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M), 6),
+            door_height_m=round(max(fittings.clear_height_m, spec.height_m - 2 * _DOOR_HEAD_M), 6),
+            is_entrance=tile.cell is Cell.ENTRANCE,
+        )
+    # the inner face looks back over the edge into the square
+    yaw = edge_yaw_rad({Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}[edge])
+    name = f"{kind.name.capitalize()}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
+    return Placement(name, kind, spec, (round(x, 6), 0.0, round(z, 6)), yaw)
+
+
+def _holds_door(tile: Tile, edge: Edge, outside: NDArray[np.bool_]) -> bool:
+    """Whether an outer edge is the one with the portal's door: opposite its lane if it can be."""
+    if tile.cell not in {Cell.ENTRANCE, Cell.EXIT}:
+        return False
+    row, col = tile.square
+    outer = [e for e in Edge if outside[row + 1 + NEIGHBOUR_STEPS[e][0], col + 1 + NEIGHBOUR_STEPS[e][1]]]
+    inwards = NEIGHBOUR_STEPS[lane_edges(tile)[0]]
+    opposite = [e for e in outer if NEIGHBOUR_STEPS[e] == (-inwards[0], -inwards[1])]
+    return edge == (opposite or outer)[0]
+
+
+def _outside(structure: Structure) -> NDArray[np.bool_]:
+    """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
+    blocked = np.pad(structure.cells == Cell.OBSTACLE, 1, constant_values=True)
+    labels, _ = ndimage.label(blocked)
+    outside: NDArray[np.bool_] = (labels == labels[0, 0])[1:-1, 1:-1]
+    return outside

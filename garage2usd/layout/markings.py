@@ -1,0 +1,135 @@
+"""Painted lines, arrows and hatching, in the coordinates of one panel (origin in its middle)."""
+
+from functools import lru_cache
+
+import shapely
+
+from garage2usd.layout.specs import Marking, Polygon, Surface, rectangle
+from garage2usd.stalls import Edge
+
+__all__ = [
+    "LINE_WIDTH_M",
+    "arrow",
+    "corner_lines",
+    "dashes",
+    "edge_line",
+    "hatching",
+    "stall_lines",
+    "two_way_arrows",
+]
+
+LINE_WIDTH_M = 0.12
+_DASH_LENGTH_M = 2.0
+_DASH_PERIOD_M = 4.05
+_HATCH_WIDTH_M = 0.3
+_HATCH_PERIOD_M = 1.2
+_HATCH_MARGIN_M = 0.6
+
+
+def stall_lines(width_m: float, length_m: float) -> tuple[Marking, ...]:
+    """The lines of one stall, mouth at +Z: half of each side line, which the neighbour completes, and the rear line."""
+    half_width, half_length, half_line = width_m / 2, length_m / 2, LINE_WIDTH_M / 2
+    rear = -half_length + LINE_WIDTH_M
+    shapes = (
+        rectangle(-half_width, -half_length, half_width, rear),
+        rectangle(-half_width, rear, -half_width + half_line, half_length),
+        rectangle(half_width - half_line, rear, half_width, half_length),
+    )
+    return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in shapes)
+
+
+@lru_cache(maxsize=4096)
+def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: tuple[float, float]) -> Marking:
+    """The yellow line along one edge of a lane square, `setback` from it.
+
+    ``trims`` cuts its two ends (left and right, or top and bottom).
+    """
+    inner = setback + LINE_WIDTH_M
+    low, high = trims
+    shape = {
+        Edge.UP: rectangle(-half_x + low, -half_z + setback, half_x - high, -half_z + inner),
+        Edge.DOWN: rectangle(-half_x + low, half_z - inner, half_x - high, half_z - setback),
+        Edge.LEFT: rectangle(-half_x + setback, -half_z + low, -half_x + inner, half_z - high),
+        Edge.RIGHT: rectangle(half_x - inner, -half_z + low, half_x - setback, half_z - high),
+    }[edge]
+    return Marking(shape, Surface.PAINT_YELLOW)
+
+
+@lru_cache(maxsize=4096)
+def corner_lines(vertical: Edge, horizontal: Edge, half_x: float, half_z: float, setback: float) -> tuple[Marking, ...]:
+    """The yellow angle around a column in one corner of a lane square whose two sides there are open."""
+    inner = setback + LINE_WIDTH_M
+    sign_z = -1 if vertical is Edge.UP else 1
+    sign_x = -1 if horizontal is Edge.LEFT else 1
+
+    def piece(x0: float, x1: float, z0: float, z1: float) -> Marking:
+        xs = sorted((sign_x * (half_x - x0), sign_x * (half_x - x1)))
+        zs = sorted((sign_z * (half_z - z0), sign_z * (half_z - z1)))
+        return Marking(rectangle(xs[0], zs[0], xs[1], zs[1]), Surface.PAINT_YELLOW)
+
+    return piece(0, inner, setback, inner), piece(setback, inner, 0, setback)
+
+
+@lru_cache(maxsize=1024)
+def dashes(half_x: float, half_z: float, *, along_x: bool) -> tuple[Marking, ...]:
+    """The white centre line of a two-way lane square; its rhythm closes over the square."""
+    half_length, half_line = (half_x if along_x else half_z), LINE_WIDTH_M / 2
+    count = max(1, round(2 * half_length / _DASH_PERIOD_M))
+    period = 2 * half_length / count
+    half_dash = min(_DASH_LENGTH_M, period / 2) / 2
+    shapes: list[Polygon] = []
+    for index in range(count):
+        middle = -half_length + (index + 0.5) * period
+        if along_x:
+            shapes.append(rectangle(middle - half_dash, -half_line, middle + half_dash, half_line))
+        else:
+            shapes.append(rectangle(-half_line, middle - half_dash, half_line, middle + half_dash))
+    return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in shapes)
+
+
+def arrow(x: float, z: float, towards: Edge) -> Marking:
+    """A straight-on arrow of 2.4 m with its middle at (x, z)."""
+    outline = ((-0.08, 1.2), (0.08, 1.2), (0.08, -0.2), (0.3, -0.2), (0.0, -1.2), (-0.3, -0.2), (-0.08, -0.2))
+    turns = {
+        Edge.UP: lambda p: (p[0], p[1]),
+        Edge.DOWN: lambda p: (-p[0], -p[1]),
+        Edge.LEFT: lambda p: (p[1], -p[0]),
+        Edge.RIGHT: lambda p: (-p[1], p[0]),
+    }
+    turned = (turns[towards](point) for point in outline)
+    return Marking(tuple((x + px, z + pz) for px, pz in turned), Surface.PAINT_WHITE)
+
+
+def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, Marking]:
+    """An arrow on each half of a two-way lane square, for traffic that keeps to the right."""
+    if along_x:
+        offset = (half_z - setback) / 2
+        return arrow(0, offset, Edge.RIGHT), arrow(0, -offset, Edge.LEFT)
+    offset = (half_x - setback) / 2
+    return arrow(offset, 0, Edge.UP), arrow(-offset, 0, Edge.DOWN)
+
+
+@lru_cache(maxsize=256)
+def hatching(half_x: float, half_z: float) -> tuple[Marking, ...]:
+    """The yellow frame and diagonal stripes of a square where nobody may park."""
+    x, z = half_x - _HATCH_MARGIN_M, half_z - _HATCH_MARGIN_M
+    area = shapely.box(-x, -z, x, z)
+    inside = area.buffer(-LINE_WIDTH_M, join_style="mitre")
+    reach = x + z
+    stripes = []
+    for index in range(int(2 * reach / _HATCH_PERIOD_M) + 1):
+        start = -reach + index * _HATCH_PERIOD_M
+        stripe = shapely.Polygon(
+            [(start - z, -z), (start + _HATCH_WIDTH_M - z, -z), (start + _HATCH_WIDTH_M + z, z), (start + z, z)]
+        )
+        stripes.append(stripe.intersection(inside))
+    frame = (
+        rectangle(-x, -z, x, -z + LINE_WIDTH_M),
+        rectangle(-x, z - LINE_WIDTH_M, x, z),
+        rectangle(-x, -z + LINE_WIDTH_M, -x + LINE_WIDTH_M, z - LINE_WIDTH_M),
+        rectangle(x - LINE_WIDTH_M, -z + LINE_WIDTH_M, x, z - LINE_WIDTH_M),
+    )
+    shapes = [*frame, *(tuple(s.exterior.coords)[:-1] for s in stripes if s.geom_type == "Polygon" and s.area > 1e-6)]  # noqa: PLR2004
+    return tuple(
+        Marking(tuple((round(px, 6), round(pz, 6)) for px, pz in shape), Surface.PAINT_YELLOW) for shape in shapes
+    )

@@ -1,0 +1,137 @@
+"""Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
+
+import math
+
+from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.grid import NEIGHBOUR_STEPS
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout.markings import stall_lines
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, edge_yaw_rad, to_world
+from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
+from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
+from garage2usd.randomness import Step, generator
+
+__all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops"]
+
+WHEEL_STOP_FROM_REAR_M = 0.55
+"""Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
+_WHEEL_STOP_LENGTH_M = 1.65
+_LINE_CLEARANCE_M = 0.1
+_REAR_CLEARANCE_M = 0.12
+
+
+def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
+    """All stalls in reading order, numbered from 1 on each square."""
+    stalls: list[Stall] = []
+    for tile in grid:
+        number = 0
+        for row in grid.rows_by_square.get(tile.square, []):
+            dr, dc = NEIGHBOUR_STEPS[row.edge]
+            for index in range(row.count):
+                number += 1
+                stalls.append(
+                    Stall(
+                        name=f"Stall_r{row.row:02d}_c{row.col:02d}_{number}",
+                        square=tile.square,
+                        edge=row.edge,
+                        stall_type=graph.stall_types[tile.square],
+                        access_square=(row.row + dr, row.col + dc),
+                        centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
+                        yaw_rad=edge_yaw_rad(row.edge),
+                        width_m=bay.stall_width_m,
+                        length_m=bay.stall_length_m,
+                    )
+                )
+    return tuple(stalls)
+
+
+def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
+    """The floor of each stall with its lines."""
+    return [
+        Placement(
+            stall.name,
+            ObjectKind.STALL,
+            PanelSpec(
+                stall.width_m, stall.length_m, Surface.STALL, stall_lines(stall.width_m, stall.length_m)
+            ),
+            (stall.centre_m[0], 0.0, stall.centre_m[1]),
+            stall.yaw_rad,
+            stall.square,
+        )
+        for stall in stalls
+    ]
+
+
+def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
+    """A wheel stop near the rear of each stall."""
+    if not fittings.wheel_stops:
+        return []
+    placements = []
+    for stall in stalls:
+        x, z = to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
+        name = stall.name.replace("Stall", "WheelStop")
+        spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
+        position = (round(x, 6), 0.0, round(z, 6))
+        placements.append(Placement(name, ObjectKind.WHEEL_STOP, spec, position, stall.yaw_rad, stall.square))
+    return placements
+
+
+def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int) -> list[Placement]:
+    """Random cars, each inside its stall by construction.
+
+    Notes
+    -----
+    A car is drawn among the bodies that fit, then its yaw, then its offset from what the turned footprint leaves
+    between the lines. Every stall draws the same number of times, so that the occupancy moves no other car.
+    """
+    rng = generator(seed, Step.CARS)
+    placements = []
+    for stall in stalls:
+        occupied, reverse, yaw_share, side_share, along_share = rng.random(5).tolist()
+        body_index, paint_index = rng.random(2).tolist()
+        if occupied >= parking.occupancy:
+            continue
+        room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
+        bodies = [
+            body
+            for body in CAR_BODIES
+            if body.length_m <= room_m and body.overall_width_m <= stall.width_m - 2 * _LINE_CLEARANCE_M
+        ]
+        if not bodies:
+            continue
+        body = bodies[int(body_index * len(bodies))]
+        limit = math.radians(parking.max_yaw_deg)
+        yaw = _fitting_yaw((2 * yaw_share - 1) * limit, body.length_m, body.overall_width_m, stall)
+        half_x = (body.overall_width_m * math.cos(yaw) + body.length_m * abs(math.sin(yaw))) / 2
+        half_z = (body.length_m * math.cos(yaw) + body.overall_width_m * abs(math.sin(yaw))) / 2
+        side_slack = max(stall.width_m / 2 - _LINE_CLEARANCE_M - half_x, 0.0)
+        rear_most = -stall.length_m / 2 + _REAR_CLEARANCE_M + half_z
+        along = rear_most + along_share * max(stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M - 2 * half_z, 0.0)
+        x, z = to_world(((2 * side_share - 1) * side_slack, along), stall.centre_m, stall.yaw_rad)
+        turned = stall.yaw_rad + yaw + (math.pi if reverse < parking.reversed_share else 0.0)
+        placements.append(
+            Placement(
+                stall.name.replace("Stall", "Car"),
+                ObjectKind.CAR,
+                CarSpec(body.name, PAINTS[int(paint_index * len(PAINTS))]),
+                (round(x, 6), 0.0, round(z, 6)),
+                round(math.remainder(turned, math.tau), 6),
+                stall.square,
+            )
+        )
+    return placements
+
+
+def _fitting_yaw(yaw_rad: float, length_m: float, width_m: float, stall: Stall) -> float:
+    """The drawn yaw, made smaller where the turned footprint would leave the stall."""
+    side_room = stall.width_m - 2 * _LINE_CLEARANCE_M - width_m
+    end_room = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M - length_m
+    # width' <= width + length |sin yaw| and length' <= length + width |sin yaw|
+    limit = max(min(side_room / length_m, end_room / width_m), 0.0)
+    return math.copysign(min(abs(yaw_rad), math.asin(min(limit, 1.0))), yaw_rad)
+
+
+def _middle(tile: Tile, corners: tuple[tuple[float, float], ...]) -> tuple[float, float]:
+    xs, zs = zip(*corners, strict=True)
+    return round(tile.x_m + (min(xs) + max(xs)) / 2, 6), round(tile.z_m + (min(zs) + max(zs)) / 2, 6)

@@ -1,0 +1,146 @@
+"""What stands where: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
+
+import math
+from collections import Counter
+from dataclasses import dataclass
+from enum import StrEnum
+
+from garage2usd.grid import Structure
+from garage2usd.lanes import Square, StallType
+from garage2usd.layout.specs import Spec
+from garage2usd.stalls import Edge
+
+__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "edge_yaw_rad", "to_world"]
+
+
+class ObjectKind(StrEnum):
+    """Every kind of object in a garage."""
+
+    FLOOR = "floor"
+    STALL = "stall"
+    CEILING = "ceiling"
+    WALL = "wall"
+    PORTAL = "portal"
+    OBSTACLE = "obstacle"
+    COLUMN = "column"
+    LIGHT = "light"
+    DUCT = "duct"
+    SPEED_BUMP = "speed_bump"
+    WHEEL_STOP = "wheel_stop"
+    NO_PARKING_SIGN = "no_parking_sign"
+    CAR = "car"
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One object in the world.
+
+    Attributes
+    ----------
+    name
+        Prim name, PascalCase, unique within its square or, without a square, within its kind.
+    kind
+        What it is.
+    spec
+        The shape that is placed; equal specs share one prototype.
+    position_m
+        (x, y, z) of the shape's origin.
+    yaw_rad
+        Right-handed turn about +Y.
+    square
+        (row, col) of the tile that it belongs to, None for what belongs to the building.
+    """
+
+    name: str
+    kind: ObjectKind
+    spec: Spec
+    position_m: tuple[float, float, float]
+    yaw_rad: float = 0.0
+    square: Square | None = None
+
+
+@dataclass(frozen=True)
+class Stall:
+    """One parking stall.
+
+    Attributes
+    ----------
+    name
+        Deterministic id, ``Stall_r03_c07_2``.
+    square
+        (row, col) of the free square that it lies on.
+    edge
+        Edge of the square that its mouth lies on.
+    stall_type
+        The paper's type of the square.
+    access_square
+        The lane square beyond the mouth.
+    centre_m
+        (x, z) of its middle.
+    yaw_rad
+        Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z.
+    width_m, length_m
+        Its size between the lines' middles.
+    """
+
+    name: str
+    square: Square
+    edge: Edge
+    stall_type: StallType
+    access_square: Square
+    centre_m: tuple[float, float]
+    yaw_rad: float
+    width_m: float
+    length_m: float
+
+    def corners_m(self) -> tuple[tuple[float, float], ...]:
+        """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
+        half_width, half_length = self.width_m / 2, self.length_m / 2
+        local = (-half_width, half_length), (half_width, half_length), (half_width, -half_length)
+        return tuple(to_world(point, self.centre_m, self.yaw_rad) for point in (*local, (-half_width, -half_length)))
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Every object of a garage with its place.
+
+    Attributes
+    ----------
+    structure
+        The plan that it was laid out from.
+    placements
+        All objects: tiles in reading order, then the building's.
+    stalls
+        All stalls in reading order; each has a placement of the same name.
+    ceiling_height_m
+        Height of the ceiling's underside.
+    """
+
+    structure: Structure
+    placements: tuple[Placement, ...]
+    stalls: tuple[Stall, ...]
+    ceiling_height_m: float
+
+    def counts(self) -> dict[str, int]:
+        """Number of objects of each kind."""
+        counts = Counter(placement.kind for placement in self.placements)
+        return {str(kind): counts[kind] for kind in ObjectKind}
+
+    def of_kind(self, kind: ObjectKind) -> tuple[Placement, ...]:
+        """All objects of one kind."""
+        return tuple(placement for placement in self.placements if placement.kind is kind)
+
+
+def edge_yaw_rad(edge: Edge) -> float:
+    """Yaw that turns +Z towards an edge of a square."""
+    return {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edge.RIGHT: math.pi / 2}[edge]
+
+
+_EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
+
+
+def to_world(point: tuple[float, float], origin: tuple[float, float], yaw_rad: float) -> tuple[float, float]:
+    """Turn a local (x, z) by a yaw about +Y and move it to `origin`; quarter turns are exact."""
+    cos, sin = _EXACT_QUARTER.get(yaw_rad) or (math.cos(yaw_rad), math.sin(yaw_rad))
+    x, z = point
+    return origin[0] + x * cos + z * sin, origin[1] - x * sin + z * cos

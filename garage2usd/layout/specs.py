@@ -1,0 +1,198 @@
+"""Shapes by their measures: what a placement places, without its mesh. Equal specs are one prototype."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+__all__ = [
+    "CarSpec",
+    "CeilingSpec",
+    "ColumnSpec",
+    "DuctSpec",
+    "Marking",
+    "NoParkingSignSpec",
+    "ObstacleSpec",
+    "PanelSpec",
+    "Point",
+    "Polygon",
+    "PortalSpec",
+    "Spec",
+    "SpeedBumpSpec",
+    "Surface",
+    "TubeLightSpec",
+    "WallPostSpec",
+    "WallSpec",
+    "WheelStopSpec",
+    "rectangle",
+]
+
+Point = tuple[float, float]
+Polygon = tuple[Point, ...]
+"""Corners (x, z) in metres from the panel's centre, without holes."""
+
+
+class Surface(StrEnum):
+    """What a floor panel is coated with."""
+
+    LANE = "lane"
+    STALL = "stall"
+    PAINT_WHITE = "paint_white"
+    PAINT_YELLOW = "paint_yellow"
+
+
+@dataclass(frozen=True)
+class Marking:
+    """A painted polygon on a floor panel."""
+
+    polygon: Polygon
+    surface: Surface
+
+
+@dataclass(frozen=True)
+class PanelSpec:
+    """A flat piece of floor with its markings; origin in its middle.
+
+    Attributes
+    ----------
+    width_m, depth_m
+        Extent along X and Z.
+    surface
+        Coating where nothing is marked.
+    markings
+        Painted polygons that do not overlap.
+    openings
+        Polygons where other panels lie, free of this one.
+    """
+
+    width_m: float
+    depth_m: float
+    surface: Surface
+    markings: tuple[Marking, ...] = ()
+    openings: tuple[Polygon, ...] = ()
+
+
+@dataclass(frozen=True)
+class CeilingSpec:
+    """A ceiling slab; origin in the middle of its underside."""
+
+    width_m: float
+    depth_m: float
+    thickness_m: float
+
+
+@dataclass(frozen=True)
+class WallSpec:
+    """A straight wall; origin at the middle of its inner face's foot, which looks to +Z."""
+
+    length_m: float
+    height_m: float
+    thickness_m: float
+
+
+@dataclass(frozen=True)
+class WallPostSpec:
+    """The square piece that closes a convex corner of two walls; origin in the middle of its foot."""
+
+    side_m: float
+    height_m: float
+
+
+@dataclass(frozen=True)
+class PortalSpec:
+    """A wall with a vehicle door; origin and direction as `WallSpec`."""
+
+    length_m: float
+    height_m: float
+    thickness_m: float
+    door_width_m: float
+    door_height_m: float
+    is_entrance: bool
+
+
+@dataclass(frozen=True)
+class ObstacleSpec:
+    """A concrete core that fills its square; origin in the middle of its foot."""
+
+    width_m: float
+    depth_m: float
+    height_m: float
+
+
+@dataclass(frozen=True)
+class ColumnSpec:
+    """A square column; origin in the middle of its foot."""
+
+    size_m: float
+    height_m: float
+
+
+@dataclass(frozen=True)
+class TubeLightSpec:
+    """A tube light with its housing, long along X; origin in the middle of its top."""
+
+    length_m: float
+    width_m: float
+
+
+@dataclass(frozen=True)
+class DuctSpec:
+    """A rectangular duct on hangers, long along Z; origin in the middle of its top.
+
+    Attributes
+    ----------
+    hanger_m
+        Length of the hangers from its top to the ceiling.
+    """
+
+    length_m: float
+    width_m: float
+    height_m: float
+    hanger_m: float
+
+
+@dataclass(frozen=True)
+class SpeedBumpSpec:
+    """A rubber speed bump, long along X; origin in the middle of its foot."""
+
+    length_m: float
+
+
+@dataclass(frozen=True)
+class WheelStopSpec:
+    """A wheel stop, long along X; origin in the middle of its foot."""
+
+    length_m: float
+
+
+@dataclass(frozen=True)
+class NoParkingSignSpec:
+    """A free-standing no-parking sign that looks to +Z; origin in the middle of its foot."""
+
+
+@dataclass(frozen=True)
+class CarSpec:
+    """A parked car; origin in the middle of its footprint, nose to -Z."""
+
+    body: str
+    paint: str
+
+
+Spec = (
+    PanelSpec
+    | CeilingSpec
+    | WallSpec
+    | WallPostSpec
+    | PortalSpec
+    | ObstacleSpec
+    | ColumnSpec
+    | TubeLightSpec
+    | DuctSpec
+    | SpeedBumpSpec
+    | WheelStopSpec
+    | NoParkingSignSpec
+    | CarSpec
+)
+
+
+def rectangle(left: float, top: float, right: float, bottom: float) -> Polygon:
+    """The corners of an axis-aligned rectangle, x from left to right and z from top to bottom."""
+    return (left, top), (left, bottom), (right, bottom), (right, top)

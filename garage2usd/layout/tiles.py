@@ -1,0 +1,229 @@
+"""Squares in metres: where each one lies, what surrounds it, and its floor and ceiling."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.lanes import LaneGraph, Square
+from garage2usd.layout.markings import (
+    LINE_WIDTH_M,
+    arrow,
+    corner_lines,
+    dashes,
+    edge_line,
+    hatching,
+    two_way_arrows,
+)
+from garage2usd.layout.placement import ObjectKind, Placement
+from garage2usd.layout.specs import CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
+from garage2usd.stalls import Edge, StallRow
+
+__all__ = ["Tile", "TileGrid", "ceiling_panel", "floor_panel", "lane_edges", "stall_rectangle"]
+
+CEILING_THICKNESS_M = 0.25
+_CARRIAGEWAY_MARGIN_M = 0.05
+_OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
+_SIDES = {Edge.UP: (Edge.LEFT, Edge.RIGHT), Edge.LEFT: (Edge.UP, Edge.DOWN)}
+_SIDES |= {Edge.DOWN: _SIDES[Edge.UP], Edge.RIGHT: _SIDES[Edge.LEFT]}
+
+
+@dataclass(frozen=True)
+class Tile:
+    """One square inside the contour.
+
+    Attributes
+    ----------
+    square
+        (row, col).
+    cell
+        What it holds.
+    x_m, z_m
+        Its middle.
+    width_m, depth_m
+        Its extent along X and Z.
+    drivable
+        For each `Edge`, whether a car drives across it.
+    stall_mouths
+        For each `Edge`, whether stalls open across it (lanes only).
+    """
+
+    square: Square
+    cell: Cell
+    x_m: float
+    z_m: float
+    width_m: float
+    depth_m: float
+    drivable: tuple[bool, bool, bool, bool]
+    stall_mouths: tuple[bool, bool, bool, bool]
+
+    @property
+    def half_x_m(self) -> float:
+        """Half its extent along X."""
+        return self.width_m / 2
+
+    @property
+    def half_z_m(self) -> float:
+        """Half its extent along Z."""
+        return self.depth_m / 2
+
+    @property
+    def axis_is_x(self) -> bool | None:
+        """Whether a straight lane runs along X; None for bends and junctions."""
+        up, down, left, right = self.drivable
+        if (left or right) and not (up or down):
+            return True
+        if (up or down) and not (left or right):
+            return False
+        return None
+
+
+class TileGrid:
+    """All tiles of a structure, by square."""
+
+    def __init__(self, structure: Structure, graph: LaneGraph, bay: BayConfig) -> None:
+        """Place every square of `structure` and look at what surrounds it."""
+        self.structure = structure
+        self.setback_m = bay.column_size_m / 2 + _CARRIAGEWAY_MARGIN_M
+        """How far the carriageway stays from squares that are no lane: half a column and a margin."""
+        self.rows_by_square: dict[Square, list[StallRow]] = {}
+        for row in graph.stall_rows:
+            self.rows_by_square.setdefault((row.row, row.col), []).append(row)
+        mouths = {
+            (*_neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows
+        }
+        x, z = structure.column_edges_m, structure.row_edges_m
+        self.tiles = {
+            (row, col): Tile(
+                square=(row, col),
+                cell=Cell(structure.cells[row, col]),
+                x_m=float(x[col] + x[col + 1]) / 2,
+                z_m=float(z[row] + z[row + 1]) / 2,
+                width_m=float(structure.column_widths_mm[col]) / 1000,
+                depth_m=float(structure.row_depths_mm[row]) / 1000,
+                drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, _neighbour(square, edge))),
+                stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
+            )
+            for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
+        }
+
+    def __iter__(self) -> Iterator[Tile]:
+        """The tiles in reading order."""
+        return iter(self.tiles.values())
+
+    def neighbour(self, tile: Tile, *edges: Edge) -> Tile | None:
+        """The tile beyond one edge, or beyond a corner of two; None outside and on obstacles."""
+        square = tile.square
+        for edge in edges:
+            square = _neighbour(square, edge)
+        return self.tiles.get(square)
+
+    def clear_width_m(self, tile: Tile) -> float:
+        """Width of a straight lane's carriageway across its axis."""
+        across = (Edge.UP, Edge.DOWN) if tile.axis_is_x else (Edge.LEFT, Edge.RIGHT)
+        width = tile.depth_m if tile.axis_is_x else tile.width_m
+        return width - self.setback_m * sum(not tile.drivable[edge] for edge in across)
+
+
+def lane_edges(tile: Tile) -> list[Edge]:
+    """The edges of a tile that a car drives across."""
+    return [edge for edge in Edge if tile.drivable[edge]]
+
+
+def floor_panel(tile: Tile, grid: TileGrid, bay: BayConfig, *, has_bump: bool) -> Placement:
+    """The floor of one square with its markings, open where stalls lie."""
+    openings: list[Polygon] = []
+    markings: tuple[Marking, ...]
+    if tile.cell is Cell.LANE:
+        markings = _lane_markings(tile, grid, has_bump=has_bump)
+    elif tile.cell is Cell.FREE:
+        rows = grid.rows_by_square.get(tile.square, [])
+        openings = [stall_rectangle(tile, row, index, bay) for row in rows for index in range(row.count)]
+        markings = _row_end_lines(tile, rows, bay) if rows else hatching(tile.half_x_m, tile.half_z_m)
+    else:
+        markings = _portal_markings(tile)
+    spec = PanelSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
+    return Placement("Floor", ObjectKind.FLOOR, spec, (tile.x_m, 0.0, tile.z_m), square=tile.square)
+
+
+def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
+    """The ceiling slab over one square."""
+    spec = CeilingSpec(tile.width_m, tile.depth_m, CEILING_THICKNESS_M)
+    position = (tile.x_m, fittings.ceiling_height_m, tile.z_m)
+    return Placement("Ceiling", ObjectKind.CEILING, spec, position, square=tile.square)
+
+
+def stall_rectangle(tile: Tile, row: StallRow, index: int, bay: BayConfig) -> Polygon:
+    """The rectangle of one stall of a row in the tile's coordinates."""
+    start = -row.count * bay.stall_width_m / 2 + index * bay.stall_width_m
+    return _row_rectangle(tile, row.edge, start, start + bay.stall_width_m, bay.stall_length_m)
+
+
+def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, length: float) -> Polygon:
+    """A rectangle that reaches `length` into a tile from one edge, from `start` to `end` along it."""
+    x, z = tile.half_x_m, tile.half_z_m
+    corners = {
+        Edge.UP: (start, -z, end, -z + length),
+        Edge.DOWN: (start, z - length, end, z),
+        Edge.LEFT: (-x, start, -x + length, end),
+        Edge.RIGHT: (x - length, start, x, end),
+    }[edge]
+    return rectangle(*(round(value, 6) for value in corners))
+
+
+def _row_end_lines(tile: Tile, rows: list[StallRow], bay: BayConfig) -> tuple[Marking, ...]:
+    """The outer half of the lines at both ends of each row of stalls."""
+    lines: list[Marking] = []
+    for row in rows:
+        end = row.count * bay.stall_width_m / 2
+        for start in (-end - LINE_WIDTH_M / 2, end):
+            shape = _row_rectangle(tile, row.edge, start, start + LINE_WIDTH_M / 2, bay.stall_length_m)
+            lines.append(Marking(shape, Surface.PAINT_WHITE))
+    return tuple(lines)
+
+
+def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool) -> tuple[Marking, ...]:
+    half_x, half_z, setback = tile.half_x_m, tile.half_z_m, grid.setback_m
+    markings: list[Marking] = []
+    for edge in Edge:
+        if not tile.drivable[edge] and not tile.stall_mouths[edge]:
+            low, high = (_trim(tile, edge, side, setback) for side in _SIDES[edge])
+            markings.append(edge_line(edge, half_x, half_z, setback, (low, high)))
+    for vertical in (Edge.UP, Edge.DOWN):
+        for horizontal in (Edge.LEFT, Edge.RIGHT):
+            beyond = grid.neighbour(tile, vertical, horizontal)
+            closed = beyond is None or beyond.cell not in {Cell.LANE, Cell.ENTRANCE, Cell.EXIT}
+            if tile.drivable[vertical] and tile.drivable[horizontal] and closed:
+                markings.extend(corner_lines(vertical, horizontal, half_x, half_z, setback))
+    along_x = tile.axis_is_x
+    if along_x is not None and not has_bump:
+        markings.extend(dashes(half_x, half_z, along_x=along_x))
+        if sum(tile.square) % 2 == 0:
+            markings.extend(two_way_arrows(half_x, half_z, setback, along_x=along_x))
+    return tuple(markings)
+
+
+def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
+    """How much an edge line is cut at the end on `side`, so that lines meet in a corner without overlap."""
+    if tile.drivable[side]:
+        return 0.0
+    runs_behind = edge in {Edge.LEFT, Edge.RIGHT} and not tile.stall_mouths[side]
+    return setback + (LINE_WIDTH_M if runs_behind else 0.0)
+
+
+def _portal_markings(tile: Tile) -> tuple[Marking, ...]:
+    """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
+    inwards = lane_edges(tile)[0]
+    return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else _OPPOSITE[inwards]),)
+
+
+def _neighbour(square: Square, edge: Edge) -> Square:
+    dr, dc = NEIGHBOUR_STEPS[edge]
+    return square[0] + dr, square[1] + dc
+
+
+def _by_edge(row: int, col: int, test: Callable[[Square, Edge], bool]) -> tuple[bool, bool, bool, bool]:
+    up, down, left, right = (test((row, col), edge) for edge in Edge)
+    return up, down, left, right
