@@ -4,7 +4,6 @@ Axes: ``row`` grows downwards in text and along +Z in the stage, ``col`` grows t
 """
 
 import hashlib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
@@ -23,6 +22,7 @@ __all__ = [
     "cells_from_text",
     "cells_to_text",
     "edge_neighbour_count",
+    "sides_mm",
 ]
 
 CellArray = NDArray[np.int8]
@@ -95,6 +95,52 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
     count: NDArray[np.int8] = padded[:-2, 1:-1] + padded[2:, 1:-1] + padded[1:-1, :-2] + padded[1:-1, 2:]
     return count
 
+def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: int) -> NDArray[np.int64]:
+    """Whole millimetres of the sides of squares along one axis.
+
+    Parameters
+    ----------
+    sides_m
+        Metres: one number, one for each line of squares, or a matrix of `shape` constant across the other axis.
+    field
+        The setting that they came from, for the error.
+    shape
+        (rows, cols).
+    axis
+        0 for row depths (C), 1 for column widths (R).
+
+    Returns
+    -------
+    ndarray
+        int64, shape (shape[axis],).
+
+    Raises
+    ------
+    ConfigError
+        If the shape does not fit, a side is not 1 to 50 m, or tiles would not meet.
+    """
+    try:
+        given = np.asarray(sides_m, dtype=np.float64)
+    except ValueError:
+        raise ConfigError(field, sides_m, "rows of equal length") from None
+    if not np.isfinite(given).all():
+        raise ConfigError(field, given.tolist(), "finite metres")
+    if given.ndim == 2 and given.shape == shape:  # noqa: PLR2004
+        first = given.take([0], axis=1 - axis)
+        if not (given == first).all():
+            row, col = np.argwhere(given != first)[0]
+            line = ("along a row", "along a column")[axis]
+            expected = first[row, 0] if axis == 0 else first[0, col]
+            raise ConfigError(f"{field}[{row}, {col}]", float(given[row, col]), f"{expected}, constant {line}")
+        given = first.ravel()
+    elif given.ndim == 0:
+        given = np.full(shape[axis], float(given))
+    if given.shape != (shape[axis],):
+        raise ConfigError(field, f"shape {given.shape}", f"a number, shape ({shape[axis]},) or shape {tuple(shape)}")
+    if not ((given * _MM_PER_M >= _MIN_SIDE_MM) & (given * _MM_PER_M <= _MAX_SIDE_MM)).all():
+        raise ConfigError(field, given.tolist(), "sides of 1 to 50 m")
+    return np.rint(given * _MM_PER_M).astype(np.int64)
+
 
 @dataclass(frozen=True, eq=False)
 class Structure:
@@ -164,8 +210,8 @@ class Structure:
             raise ConfigError("S", sorted(set(given.ravel().tolist()) - set(Cell)), "values -1, 0, 1, 2, 3")
         return cls(
             given.astype(np.int8),
-            _sides_mm(R, field="R", shape=given.shape, axis=1),
-            _sides_mm(C, field="C", shape=given.shape, axis=0),
+            sides_mm(R, field="R", shape=given.shape, axis=1),
+            sides_mm(C, field="C", shape=given.shape, axis=0),
         )
 
     @property
@@ -242,24 +288,3 @@ def _numbers(line: str, field: str) -> list[int]:
     if unknown:
         raise ConfigError(field, unknown[0], "numbers -1, 0, 1, 2, 3")
     return [int(value) for value in values]
-
-
-def _sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: int) -> NDArray[np.int64]:
-    """Sides in whole millimetres along `axis`; the other axis must repeat them."""
-    given = np.asarray(sides_m, dtype=np.float64)
-    if not np.isfinite(given).all():
-        raise ConfigError(field, given.tolist(), "finite metres")
-    line: Sequence[str] = ("along a row", "along a column")
-    if given.ndim == 2 and given.shape == shape:  # noqa: PLR2004
-        first = given.take([0], axis=1 - axis)
-        if not (given == first).all():
-            row, col = np.argwhere(given != first)[0]
-            raise ConfigError(f"{field}[{row}, {col}]", float(given[row, col]), f"constant {line[axis]}")
-        given = first.ravel()
-    elif given.ndim == 0:
-        given = np.full(shape[axis], float(given))
-    if given.shape != (shape[axis],):
-        raise ConfigError(field, f"shape {given.shape}", f"a number, ({shape[axis]},) or {shape}")
-    if (np.abs(given) > _MAX_SIDE_MM).any():
-        raise ConfigError(field, given.tolist(), "sides of 1 to 50 m")
-    return np.rint(given * _MM_PER_M).astype(np.int64)

@@ -27,6 +27,7 @@ __all__ = [
     "load_config",
 ]
 
+_SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig)
 _MAX_FILE_BYTES = 16 * 1024 * 1024
 
 
@@ -125,12 +126,12 @@ def _read_text(path: Path, *, field: str) -> str:
 def _config_error(error: ValidationError) -> ConfigError:
     """Turn pydantic's first finding into one line of field, value, allowed."""
     finding = error.errors(include_url=False)[0]
-    # a union's branches (float, tuple) are named in the location; they are no keys of the user's
-    keys = [part for part in finding["loc"] if isinstance(part, int) or part.isidentifier()]
-    while keys and keys[-1] in {"float", "int", "str"}:
-        keys.pop()
+    # the branches of a union are named in the location too; they are no keys of the user's
+    known = set().union(*(model.model_fields for model in (GarageConfig, *_SECTIONS)))
+    extra = finding["type"] == "extra_forbidden"
+    keys = [part for part in finding["loc"] if extra or isinstance(part, int) or part in known]
     field = ".".join(str(key) for key in keys) or "configuration"
-    if finding["type"] == "extra_forbidden":
+    if extra:
         return ConfigError(field, finding["input"], f"one of the keys {_known_keys(finding['loc'][:-1])}")
     message = finding["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
     return ConfigError(field, finding["input"], message)

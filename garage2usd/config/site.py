@@ -10,7 +10,6 @@ from garage2usd.config.base import Settings
 
 __all__ = ["BayConfig", "SiteConfig"]
 
-SideM = Annotated[float, Field(ge=1, le=50)]
 SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
 
 MAX_SQUARES = 250_000
@@ -23,7 +22,14 @@ def _drawing(value: object) -> object:
     return value
 
 
+def _lists(value: object) -> object:
+    """Let arrays stand for lists of numbers."""
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
 Drawing = Annotated[str, BeforeValidator(_drawing)]
+SideM = Annotated[float, Field(ge=1, le=50)]
+SidesM = Annotated[SideM | tuple[SideM, ...] | tuple[tuple[SideM, ...], ...], BeforeValidator(_lists)]
 
 
 class SiteConfig(Settings):
@@ -79,10 +85,10 @@ class SiteConfig(Settings):
 class BayConfig(Settings):
     """Size of the squares and of the stalls on them."""
 
-    column_widths_m: SideM | tuple[SideM, ...] = 8.1
-    """Width of every column along X, or of each: the paper's R."""
-    row_depths_m: SideM | tuple[SideM, ...] = 8.1
-    """Depth of every row along Z, or of each: the paper's C."""
+    column_widths_m: SidesM = 8.1
+    """The paper's R: width along X of every column, of each, or of each square, constant along a column."""
+    row_depths_m: SidesM = 8.1
+    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row."""
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)

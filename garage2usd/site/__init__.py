@@ -4,8 +4,7 @@ import numpy as np
 
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Cell, CellArray, Structure, cells_from_text
-from garage2usd.randomness import Step, generator
+from garage2usd.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
 from garage2usd.site.contour import draw_contour
 from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
 from garage2usd.site.obstacles import draw_obstacles
@@ -48,8 +47,8 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
     _check_size(site, cells)
     return Structure(
         cells,
-        _sides_mm(bay.column_widths_m, cells.shape[1], "bay.column_widths_m"),
-        _sides_mm(bay.row_depths_m, cells.shape[0], "bay.row_depths_m"),
+        sides_mm(bay.column_widths_m, field="bay.column_widths_m", shape=cells.shape, axis=1),
+        sides_mm(bay.row_depths_m, field="bay.row_depths_m", shape=cells.shape, axis=0),
     )
 
 
@@ -79,10 +78,3 @@ def _check_size(site: SiteConfig, cells: CellArray) -> None:
     for axis, field in ((0, "height_cells"), (1, "width_cells")):
         if field in site.model_fields_set and getattr(site, field) != cells.shape[axis]:
             raise ConfigError(f"site.{field}", getattr(site, field), f"{cells.shape[axis]}, as the drawing has, or no key")
-
-
-def _sides_mm(sides_m: float | tuple[float, ...], count: int, field: str) -> np.typing.NDArray[np.int64]:
-    sides = np.full(count, sides_m) if isinstance(sides_m, float) else np.array(sides_m)
-    if len(sides) != count:
-        raise ConfigError(field, f"{len(sides)} sides", f"one number, or one for each of the {count} lines of squares")
-    return np.rint(sides * 1000).astype(np.int64)

@@ -1,0 +1,53 @@
+"""Generate underground parking garages and export them as OpenUSD stages.
+
+>>> import garage2usd
+>>> build = garage2usd.build(output="garage.usdz", seed=7)
+>>> stalls = build.garage.layout.stalls
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from garage2usd.config import GarageConfig, load_config
+    from garage2usd.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
+    from garage2usd.grid import Structure
+    from garage2usd.pipeline import Garage, build, generate
+
+__all__ = [
+    "ConfigError",
+    "Garage",
+    "Garage2UsdError",
+    "GarageConfig",
+    "GenerationError",
+    "Structure",
+    "UnreachableStallError",
+    "build",
+    "generate",
+    "load_config",
+]
+
+_HOME = {
+    "ConfigError": "errors",
+    "Garage": "pipeline",
+    "Garage2UsdError": "errors",
+    "GarageConfig": "config",
+    "GenerationError": "errors",
+    "Structure": "grid",
+    "UnreachableStallError": "errors",
+    "build": "pipeline",
+    "generate": "pipeline",
+    "load_config": "config",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name on first use, so that importing the package stays instant."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'garage2usd' has no attribute {name!r}")
+    return getattr(import_module(f"garage2usd.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return __all__

@@ -1,0 +1,104 @@
+"""Output that is whole or absent: made elsewhere, then moved into place."""
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from garage2usd.errors import OutputError
+
+__all__ = ["check_writable", "publish", "staging_folder"]
+
+_PREFIX = ".garage2usd-"
+
+
+def check_writable(folder: Path) -> None:
+    """Find out before the work whether files can be written into `folder` or the folder it will be made in.
+
+    Raises
+    ------
+    OutputError
+        If they cannot.
+    """
+    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
+    try:
+        with tempfile.TemporaryFile(dir=existing):
+            pass
+    except OSError as error:
+        raise OutputError(folder, f"cannot write here ({error.strerror})") from None
+
+
+@contextmanager
+def staging_folder() -> Iterator[Path]:
+    """A temporary folder to make files in; gone afterwards, whatever happened."""
+    with tempfile.TemporaryDirectory(prefix="garage2usd-") as name:
+        yield Path(name)
+
+
+def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
+    """Move finished files and folders into `folder`, the last one last, replacing what has their names.
+
+    All of them are first copied beside their places under hidden names; only when that went well are they renamed.
+
+    Returns
+    -------
+    tuple of Path
+        Their places.
+
+    Raises
+    ------
+    OutputError
+        If they could not be written; what stood there before still does.
+    """
+    made = _make_folder(folder)
+    hidden = [folder / f"{_PREFIX}{os.getpid()}-{item.name}" for item in items]
+    places = [folder / item.name for item in items]
+    try:
+        for item, copy in zip(items, hidden, strict=True):
+            if item.is_dir():
+                shutil.copytree(item, copy)
+            else:
+                shutil.copyfile(item, copy)
+        for copy, place in zip(hidden, places, strict=True):
+            _replace(copy, place)
+    except OSError as error:
+        for copy in hidden:
+            _remove(copy)
+        for parent in made:
+            with suppress(OSError):
+                parent.rmdir()
+        raise OutputError(error.filename or folder, error.strerror or str(error)) from None
+    except BaseException:
+        for copy in hidden:
+            _remove(copy)
+        raise
+    return tuple(places)
+
+
+def _make_folder(folder: Path) -> list[Path]:
+    """Make `folder` and its parents; returns those that were missing, innermost first."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(folder, error.strerror or str(error)) from None
+    return missing
+
+
+def _replace(copy: Path, place: Path) -> None:
+    if copy.is_dir() and place.exists():
+        old = place.with_name(f"{_PREFIX}{os.getpid()}-old-{place.name}")
+        place.rename(old)
+        copy.rename(place)
+        _remove(old)
+    else:
+        copy.replace(place)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)

@@ -1,0 +1,181 @@
+"""The road: configuration to site, plan, lane graph, layout, stage and files."""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from garage2usd.config import GarageConfig
+from garage2usd.errors import ConfigError
+from garage2usd.grid import Cell, Structure
+from garage2usd.lanes import LaneGraph, build_lane_graph
+from garage2usd.layout import Layout, lay_out
+from garage2usd.output import check_writable, publish, staging_folder
+from garage2usd.planning import Plan, given_plan, plan_lanes
+from garage2usd.progress import Progress, silent
+from garage2usd.report import write_report
+from garage2usd.site import make_site
+from garage2usd.stage import StageFormat, write_stage
+from garage2usd.version import VERSION
+from garage2usd.view.plan_picture import write_plan_picture
+
+__all__ = ["Build", "Garage", "build", "generate"]
+
+
+@dataclass(frozen=True, eq=False)
+class Garage:
+    """A garage with everything on the road to it.
+
+    Attributes
+    ----------
+    config
+        What it was made from.
+    site
+        Static objects only.
+    plan
+        The structure with its lanes, its score, and the archive of other plans.
+    graph
+        The lane graph; every stall is reached from an entrance and reaches an exit.
+    layout
+        Every object in metres.
+    """
+
+    config: GarageConfig
+    site: Structure
+    plan: Plan
+    graph: LaneGraph
+    layout: Layout
+
+
+@dataclass(frozen=True, eq=False)
+class Build:
+    """A garage written to files.
+
+    Attributes
+    ----------
+    garage
+        The garage.
+    stage, picture, report
+        The stage, the picture of its plan, and the JSON report.
+    asset_folder
+        Folder of the stage's assets; None where the stage holds them itself.
+    seconds
+        Seconds that each step took.
+    """
+
+    garage: Garage
+    stage: Path
+    picture: Path
+    report: Path
+    asset_folder: Path | None
+    seconds: dict[str, float]
+
+
+def generate(config: GarageConfig | None = None, *, seed: int | None = None, progress: Progress = silent) -> Garage:
+    """Make a garage.
+
+    Parameters
+    ----------
+    config
+        Its settings; the default garage if left out.
+    seed
+        Takes the place of the configuration's seed.
+    progress
+        Told how far long steps are.
+
+    Raises
+    ------
+    ConfigError
+        If a setting cannot be used.
+    GenerationError
+        If a random step found no valid result; names the step and the seed.
+    UnreachableStallError
+        If stalls of a given structure have no route from an entrance and to an exit.
+    """
+    return _generate(config, seed=seed, progress=progress)[0]
+
+
+def build(
+    config: GarageConfig | None = None,
+    output: str | Path = "garage.usdz",
+    *,
+    seed: int | None = None,
+    progress: Progress = silent,
+) -> Build:
+    """Make a garage and write its stage, the picture of its plan and its report.
+
+    Parameters
+    ----------
+    config, seed, progress
+        As for `generate`.
+    output
+        The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
+
+    Raises
+    ------
+    ConfigError
+        If a setting cannot be used or the extension is unknown.
+    GenerationError, UnreachableStallError
+        As `generate`.
+    OutputError
+        If the files cannot be written. They appear whole or not at all.
+    """
+    path = Path(output)
+    if path.suffix not in set(StageFormat) or not path.stem:
+        raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
+    check_writable(path.parent)
+    garage, seconds = _generate(config, seed=seed, progress=progress)
+    with staging_folder() as staging:
+        start = time.perf_counter()
+        folder = staging / "stage"
+        folder.mkdir()
+        *assets, stage = write_stage(
+            garage.layout, garage.graph, folder / path.name, metadata=_metadata(garage), progress=progress
+        )
+        picture = staging / f"{path.stem}_plan.png"
+        write_plan_picture(garage.layout, picture)
+        seconds["stage"] = time.perf_counter() - start
+        report = staging / f"{path.stem}_report.json"
+        write_report(
+            report,
+            config=garage.config,
+            plan=garage.plan,
+            graph=garage.graph,
+            layout=garage.layout,
+            seconds=seconds,
+        )
+        # the stage comes last: where it stands, all of it does
+        *asset_folder, picture, report, stage = publish([*assets, picture, report, stage], path.parent)
+    return Build(garage, stage, picture, report, asset_folder[0] if asset_folder else None, seconds)
+
+
+def _generate(
+    config: GarageConfig | None, *, seed: int | None, progress: Progress
+) -> tuple[Garage, dict[str, float]]:
+    config = config or GarageConfig()
+    if seed is not None:
+        config = config.with_seed(seed)
+    clock = [time.perf_counter()]
+    site = make_site(config.site, bay=config.bay, seed=config.seed)
+    clock.append(time.perf_counter())
+    if (site.cells == Cell.LANE).any():
+        plan = given_plan(site, bay=config.bay)
+    else:
+        plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
+    clock.append(time.perf_counter())
+    graph = build_lane_graph(plan.structure, config.bay)
+    if not graph.stall_rows:
+        raise ConfigError("site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall")
+    layout = lay_out(plan.structure, graph, config)
+    clock.append(time.perf_counter())
+    steps = zip(("site", "plan", "layout"), zip(clock, clock[1:], strict=False), strict=True)
+    return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _metadata(garage: Garage) -> dict[str, str | int]:
+    return {
+        "generator": "garage2usd",
+        "version": VERSION,
+        "seed": garage.config.seed,
+        "configDigest": garage.config.digest(),
+        "structureDigest": garage.plan.structure.digest(),
+    }

@@ -1,0 +1,68 @@
+"""The report of a build: what was made and what reproduces it, as JSON."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from garage2usd.config import GarageConfig
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout import Layout
+from garage2usd.planning import Plan
+from garage2usd.version import VERSION
+
+__all__ = ["write_report"]
+
+
+def write_report(
+    path: Path,
+    *,
+    config: GarageConfig,
+    plan: Plan,
+    graph: LaneGraph,
+    layout: Layout,
+    seconds: Mapping[str, float],
+) -> None:
+    """Write everything but ``seconds`` so that the same configuration, seed and version give the same text.
+
+    Notes
+    -----
+    ``S`` is a list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row,
+    stall centres are (x, z) in metres.
+    """
+    structure = plan.structure
+    score = plan.score
+    document = {
+        "version": VERSION,
+        "seed": config.seed,
+        "config_digest": config.digest(),
+        "structure_digest": structure.digest(),
+        "config": config.model_dump(mode="json"),
+        "S": str(structure).splitlines(),
+        "R": structure.R[0].tolist(),
+        "C": structure.C[:, 0].tolist(),
+        "score": {
+            "value": score.value,
+            "stalls": score.stalls,
+            "parking_time_squares": score.parking_time_squares,
+            "unused_squares": score.unused_squares,
+        },
+        "reachable_stalls": len(layout.stalls),
+        "lane_kinds": graph.kind_counts(),
+        "object_counts": layout.counts(),
+        "stalls": [
+            {
+                "name": stall.name,
+                "type": str(stall.stall_type),
+                "square": stall.square,
+                "access_square": stall.access_square,
+                "centre_m": stall.centre_m,
+                "yaw_rad": stall.yaw_rad,
+                "width_m": stall.width_m,
+                "length_m": stall.length_m,
+            }
+            for stall in layout.stalls
+        ],
+        "learning_curve": plan.learning_curve.tolist(),
+        "seconds": {step: round(value, 4) for step, value in seconds.items()},
+    }
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,86 @@
+"""The only authoring of USD: a layout becomes a stage with its assets and textures."""
+
+import shutil
+from collections.abc import Mapping
+from enum import StrEnum
+from pathlib import Path
+
+from garage2usd.assets import MATERIALS, texture_folder
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout import Layout
+from garage2usd.progress import Progress, silent
+from garage2usd.stage.garage_layer import write_garage_layer
+from garage2usd.stage.looks import TEXTURE_FOLDER
+from garage2usd.stage.prototype_layer import write_prototype
+from garage2usd.stage.prototypes import asset_of, name_prototypes
+from garage2usd.stage.usdz import write_usdz
+
+__all__ = ["StageFormat", "asset_folder_name", "write_stage"]
+
+
+class StageFormat(StrEnum):
+    """The file formats of a stage, by extension."""
+
+    USDA = ".usda"
+    USDC = ".usdc"
+    USDZ = ".usdz"
+
+
+def asset_folder_name(stage_path: Path) -> str:
+    """Name of the folder beside a ``.usda`` or ``.usdc`` that holds its assets."""
+    return f"{stage_path.stem}_assets"
+
+
+def write_stage(
+    layout: Layout,
+    graph: LaneGraph,
+    path: Path,
+    *,
+    metadata: Mapping[str, str | int],
+    progress: Progress = silent,
+) -> tuple[Path, ...]:
+    """Write a stage into a folder of its own.
+
+    Parameters
+    ----------
+    layout, graph
+        What to write.
+    path
+        The stage's file in an existing, empty folder; its extension decides the format.
+    metadata
+        Written into the root's customData.
+    progress
+        Told of each prototype.
+
+    Returns
+    -------
+    tuple of Path
+        What now stands in the folder: the asset folder, if the format has one, then the stage.
+    """
+    packed = path.suffix == StageFormat.USDZ
+    folder = path.parent / ("assets" if packed else asset_folder_name(path))
+    textures = folder / TEXTURE_FOLDER
+    textures.mkdir(parents=True)
+    prototypes = name_prototypes(layout.placements)
+    used: set[str] = set()
+    for done, (spec, name) in enumerate(prototypes.items()):
+        progress("assets", done, len(prototypes))
+        asset = asset_of(spec)
+        write_prototype(asset, folder / f"{name}.usdc")
+        used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
+    for texture in sorted(used):
+        shutil.copyfile(texture_folder() / texture, textures / texture)
+
+    # a browser reads a package only if its root layer is text
+    layer_path = path.with_suffix(".usda") if packed else path
+    progress("stage", 0, 1)
+    write_garage_layer(
+        layout, graph, prototypes=prototypes, asset_folder=folder.name, metadata=metadata, path=layer_path
+    )
+    if not packed:
+        return folder, path
+    inner = sorted(file for file in folder.rglob("*") if file.is_file())
+    write_usdz(path, [(file.relative_to(path.parent).as_posix(), file) for file in (layer_path, *inner)])
+    shutil.rmtree(folder)
+    layer_path.unlink()
+    return (path,)

@@ -1,0 +1,132 @@
+"""Which asset stands for which spec: one prototype for each distinct shape of a layout."""
+
+from collections import Counter
+from collections.abc import Iterable
+from functools import lru_cache, singledispatch
+
+from garage2usd import assets
+from garage2usd.assets import Asset
+from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.layout import Placement
+from garage2usd.layout import specs as s
+
+__all__ = ["asset_of", "name_prototypes"]
+
+
+def name_prototypes(placements: Iterable[Placement]) -> dict[s.Spec, str]:
+    """Name the distinct specs of a layout, numbered by kind in the order of their first place.
+
+    Returns
+    -------
+    dict
+        Spec to PascalCase asset name: ``Floor_03``, ``Column_01``, ``Car_02``.
+    """
+    names: dict[s.Spec, str] = {}
+    counts: Counter[str] = Counter()
+    for placement in placements:
+        if placement.spec not in names:
+            kind = "".join(word.capitalize() for word in placement.kind.value.split("_"))
+            counts[kind] += 1
+            names[placement.spec] = f"{kind}_{counts[kind]:02d}"
+    return names
+
+
+@lru_cache(maxsize=4096)
+def asset_of(spec: s.Spec) -> Asset:
+    """The meshes of one spec; made once a process."""
+    return _make(spec)
+
+
+@singledispatch
+def _make(spec: s.Spec) -> Asset:
+    raise TypeError(f"no asset for {type(spec).__name__}")  # pragma: no cover - every spec is registered below
+
+
+_FLOOR_MATERIAL = {
+    s.Surface.LANE: "floor_concrete",
+    s.Surface.STALL: "stall_epoxy",
+    s.Surface.PAINT_WHITE: "paint_white",
+    s.Surface.PAINT_YELLOW: "paint_yellow",
+}
+
+
+@_make.register
+def _(spec: s.PanelSpec) -> Asset:
+    is_stall = spec.surface is s.Surface.STALL
+    return assets.floor_panel(
+        name="Stall" if is_stall else "Floor",
+        width_m=spec.width_m,
+        depth_m=spec.depth_m,
+        base_material=_FLOOR_MATERIAL[spec.surface],
+        markings=[assets.Marking(m.polygon, _FLOOR_MATERIAL[m.surface]) for m in spec.markings],
+        openings=spec.openings,
+        label="parking_stall" if is_stall else "floor",
+    )
+
+
+@_make.register
+def _(spec: s.CeilingSpec) -> Asset:
+    return assets.ceiling_panel(spec.width_m, spec.depth_m, spec.thickness_m)
+
+
+@_make.register
+def _(spec: s.WallSpec) -> Asset:
+    return assets.wall_panel(spec.length_m, spec.height_m, spec.thickness_m)
+
+
+@_make.register
+def _(spec: s.WallPostSpec) -> Asset:
+    return assets.wall_post(spec.side_m, spec.height_m)
+
+
+@_make.register
+def _(spec: s.PortalSpec) -> Asset:
+    return assets.portal_wall(
+        spec.length_m,
+        spec.height_m,
+        spec.thickness_m,
+        door_width_m=spec.door_width_m,
+        door_height_m=spec.door_height_m,
+        is_entrance=spec.is_entrance,
+    )
+
+
+@_make.register
+def _(spec: s.ObstacleSpec) -> Asset:
+    return assets.obstacle_block(spec.width_m, spec.depth_m, spec.height_m)
+
+
+@_make.register
+def _(spec: s.ColumnSpec) -> Asset:
+    return assets.column(spec.size_m, spec.height_m)
+
+
+@_make.register
+def _(spec: s.TubeLightSpec) -> Asset:
+    return assets.tube_light(spec.length_m, spec.width_m)
+
+
+@_make.register
+def _(spec: s.DuctSpec) -> Asset:
+    return assets.duct(spec.length_m, spec.width_m, spec.height_m, hanger_m=spec.hanger_m)
+
+
+@_make.register
+def _(spec: s.SpeedBumpSpec) -> Asset:
+    return assets.speed_bump(spec.length_m)
+
+
+@_make.register
+def _(spec: s.WheelStopSpec) -> Asset:
+    return assets.wheel_stop(spec.length_m)
+
+
+@_make.register
+def _(_spec: s.NoParkingSignSpec) -> Asset:
+    return assets.no_parking_sign()
+
+
+@_make.register
+def _(spec: s.CarSpec) -> Asset:
+    body = next(body for body in CAR_BODIES if body.name == spec.body)
+    return assets.car(body, spec.paint)

@@ -1,0 +1,39 @@
+"""The USDZ package: a zip of stored files, each starting at a multiple of 64 bytes."""
+
+import zipfile
+from collections.abc import Iterable
+from pathlib import Path
+
+__all__ = ["write_usdz"]
+
+_ALIGNMENT_BYTES = 64
+_LOCAL_HEADER_BYTES = 30
+_EXTRA_HEADER_BYTES = 4
+_EXTRA_ID = 0x1986
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+
+def write_usdz(path: Path, files: Iterable[tuple[str, Path]]) -> None:
+    """Write a package whose first file is the root layer.
+
+    Parameters
+    ----------
+    path
+        The package.
+    files
+        (name in the package, file) pairs in order.
+
+    Notes
+    -----
+    Not by ``Sdf.ZipFileWriter``, which stamps the local time of each file into the package, so that the same stage gives
+    other bytes in another second or time zone. ``zipfile`` lets the stamp be fixed; the padding that the format asks
+    for goes into the extra field, as there.
+    """
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
+        for name, file in files:
+            entry = zipfile.ZipInfo(name, _EPOCH)
+            entry.create_system = 0
+            start = package.start_dir + _LOCAL_HEADER_BYTES + len(name.encode()) + _EXTRA_HEADER_BYTES
+            padding = -start % _ALIGNMENT_BYTES
+            entry.extra = _EXTRA_ID.to_bytes(2, "little") + padding.to_bytes(2, "little") + bytes(padding)
+            package.writestr(entry, file.read_bytes())
