@@ -82,7 +82,10 @@ def _describe(made: "Build") -> None:
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
-        ("score", f"{score.value:.2f} = {score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused"),
+        (
+            "score",
+            f"{score.value:.2f} = {score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused",
+        ),
         ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),

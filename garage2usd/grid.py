@@ -95,6 +95,7 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
     count: NDArray[np.int8] = padded[:-2, 1:-1] + padded[2:, 1:-1] + padded[1:-1, :-2] + padded[1:-1, 2:]
     return count
 
+
 def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: int) -> NDArray[np.int64]:
     """Whole millimetres of the sides of squares along one axis.
 

@@ -148,9 +148,7 @@ def build(
     return Build(garage, stage, picture, report, asset_folder[0] if asset_folder else None, seconds)
 
 
-def _generate(
-    config: GarageConfig | None, *, seed: int | None, progress: Progress
-) -> tuple[Garage, dict[str, float]]:
+def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progress) -> tuple[Garage, dict[str, float]]:
     config = config or GarageConfig()
     if seed is not None:
         config = config.with_seed(seed)
@@ -164,7 +162,9 @@ def _generate(
     clock.append(time.perf_counter())
     graph = build_lane_graph(plan.structure, config.bay)
     if not graph.stall_rows:
-        raise ConfigError("site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall")
+        raise ConfigError(
+            "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
+        )
     layout = lay_out(plan.structure, graph, config)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), zip(clock, clock[1:], strict=False), strict=True)

@@ -69,7 +69,9 @@ def ducts(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> lis
             placements.append(Placement("Duct", ObjectKind.DUCT, spec, position, _QUARTER_TURN, tile.square))
         elif riser[tile.square]:
             x = round(tile.x_m + _side_offset_m(tile.half_x_m, grid), 6)
-            placements.append(Placement("Duct", ObjectKind.DUCT, _duct(tile.depth_m), (x, top_m, tile.z_m), 0.0, tile.square))
+            placements.append(
+                Placement("Duct", ObjectKind.DUCT, _duct(tile.depth_m), (x, top_m, tile.z_m), 0.0, tile.square)
+            )
             placements += _branches(tile, x, top_m, trunk, grid)
     return placements
 
@@ -120,7 +122,9 @@ def speed_bumps(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, s
             continue
         spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3))
         yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
-        bumps[tile.square] = Placement("SpeedBump", ObjectKind.SPEED_BUMP, spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square)
+        bumps[tile.square] = Placement(
+            "SpeedBump", ObjectKind.SPEED_BUMP, spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square
+        )
     return list(bumps.values())
 
 

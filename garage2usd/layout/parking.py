@@ -52,9 +52,7 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
         Placement(
             stall.name,
             ObjectKind.STALL,
-            PanelSpec(
-                stall.width_m, stall.length_m, Surface.STALL, stall_lines(stall.width_m, stall.length_m)
-            ),
+            PanelSpec(stall.width_m, stall.length_m, Surface.STALL, stall_lines(stall.width_m, stall.length_m)),
             (stall.centre_m[0], 0.0, stall.centre_m[1]),
             stall.yaw_rad,
             stall.square,

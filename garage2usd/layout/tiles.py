@@ -91,9 +91,7 @@ class TileGrid:
         self.rows_by_square: dict[Square, list[StallRow]] = {}
         for row in graph.stall_rows:
             self.rows_by_square.setdefault((row.row, row.col), []).append(row)
-        mouths = {
-            (*_neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows
-        }
+        mouths = {(*_neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows}
         x, z = structure.column_edges_m, structure.row_edges_m
         self.tiles = {
             (row, col): Tile(
@@ -103,7 +101,9 @@ class TileGrid:
                 z_m=float(z[row] + z[row + 1]) / 2,
                 width_m=float(structure.column_widths_mm[col]) / 1000,
                 depth_m=float(structure.row_depths_mm[row]) / 1000,
-                drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, _neighbour(square, edge))),
+                drivable=_by_edge(
+                    row, col, lambda square, edge: graph.graph.has_edge(square, _neighbour(square, edge))
+                ),
                 stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
             )
             for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()

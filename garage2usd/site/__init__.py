@@ -77,4 +77,6 @@ def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
 def _check_size(site: SiteConfig, cells: CellArray) -> None:
     for axis, field in ((0, "height_cells"), (1, "width_cells")):
         if field in site.model_fields_set and getattr(site, field) != cells.shape[axis]:
-            raise ConfigError(f"site.{field}", getattr(site, field), f"{cells.shape[axis]}, as the drawing has, or no key")
+            raise ConfigError(
+                f"site.{field}", getattr(site, field), f"{cells.shape[axis]}, as the drawing has, or no key"
+            )

@@ -63,7 +63,9 @@ def place_obstacles(cells: CellArray, site: SiteConfig) -> CellArray:
             raise ConfigError("site.obstacle_cells", list(square), "free squares inside the contour, each once")
         result[square] = Cell.OBSTACLE
     if not free_squares_connected(result):
-        raise ConfigError("site.obstacle_cells", cells_to_text(result), "obstacles that leave the free squares connected")
+        raise ConfigError(
+            "site.obstacle_cells", cells_to_text(result), "obstacles that leave the free squares connected"
+        )
     return result
 
 
@@ -83,7 +85,9 @@ def check_structure(cells: CellArray) -> None:
     open_to = (cells == Cell.LANE) if has_lanes else (cells == Cell.FREE)
     portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
     if (portal & (edge_neighbour_count(open_to) == 0)).any():
-        raise ConfigError("site.structure", drawing, "every portal beside a lane" if has_lanes else "portals beside free squares")
+        raise ConfigError(
+            "site.structure", drawing, "every portal beside a lane" if has_lanes else "portals beside free squares"
+        )
     if not has_lanes and not free_squares_connected(cells):
         raise ConfigError("site.structure", drawing, "free squares in one connected piece, or lanes")
 

@@ -108,9 +108,7 @@ class _InstanceAuthor:
         _place(prim, (x - origin_m[0], y, z - origin_m[1]), placement.yaw_rad)
 
 
-def _author_tiles(
-    layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, author: _InstanceAuthor
-) -> None:
+def _author_tiles(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, author: _InstanceAuthor) -> None:
     """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
     _prim(layer, path, "Xform", kind=Kind.Tokens.group)
     on_tiles = [placement for placement in layout.placements if placement.square is not None]
@@ -157,11 +155,22 @@ def _author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lan
 
     width, depth = layout.structure.column_edges_m[-1], layout.structure.row_edges_m[-1]
     height = 1.15 * max(width * 20 / 36, depth * 20 / 20.25)
-    _camera(layer, path.AppendChild("Above"), (width / 2, height + layout.ceiling_height_m, depth / 2), (-90.0, 0.0), focal_mm=20)
+    _camera(
+        layer,
+        path.AppendChild("Above"),
+        (width / 2, height + layout.ceiling_height_m, depth / 2),
+        (-90.0, 0.0),
+        focal_mm=20,
+    )
 
 
 def _camera(
-    layer: Sdf.Layer, path: Sdf.Path, position: tuple[float, float, float], turn_deg: tuple[float, float], *, focal_mm: float
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    position: tuple[float, float, float],
+    turn_deg: tuple[float, float],
+    *,
+    focal_mm: float,
 ) -> None:
     camera = _prim(layer, path, "Camera")
     # focal length and aperture are tenths of a stage unit

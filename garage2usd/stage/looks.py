@@ -27,7 +27,11 @@ def define_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> Usd
         reader.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1, -1, -1, 0))
         output = reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
         surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).ConnectToSource(output)
-    for name, value in (("metallic", material.metallic), ("opacity", material.opacity), ("clearcoat", material.clearcoat)):
+    for name, value in (
+        ("metallic", material.metallic),
+        ("opacity", material.opacity),
+        ("clearcoat", material.clearcoat),
+    ):
         surface.CreateInput(name, Sdf.ValueTypeNames.Float).Set(value)
     if material.ior is not None:
         surface.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(material.ior)

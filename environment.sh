@@ -1,0 +1,51 @@
+#!/bin/sh
+# Makes .venv with what `make demo` or `make test` needs. Installs system packages only as root; otherwise names them.
+set -eu
+goal=${1:?usage: environment.sh demo|test}
+cd "$(dirname "$0")"
+
+packages=""
+need() { packages="$packages $1"; }
+
+python=""
+for candidate in python3.11 python3 python3.12 python3.13; do
+    if command -v "$candidate" >/dev/null && "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
+        python=$candidate
+        break
+    fi
+done
+if [ -z "$python" ]; then
+    echo "garage2usd needs Python 3.11 or newer (Debian 12, Ubuntu 24.04 or later have it as python3)" >&2
+    exit 1
+fi
+# Debian leaves pip out of venv unless the package for this very version is there
+if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
+    need "$("$python" -c 'import sys; print(f"python{sys.version_info[0]}.{sys.version_info[1]}-venv")')"
+fi
+if [ "$goal" = test ]; then
+    # git for the tests' clean clone; the shared libraries that Blender's Python module links against
+    command -v git >/dev/null || need git
+    for library in libGL.so.1:libgl1 libEGL.so.1:libegl1 libX11.so.6:libx11-6 libXrender.so.1:libxrender1 \
+        libXi.so.6:libxi6 libXxf86vm.so.1:libxxf86vm1 libXfixes.so.3:libxfixes3 libxkbcommon.so.0:libxkbcommon0 \
+        libSM.so.6:libsm6 libICE.so.6:libice6 libgomp.so.1:libgomp1; do
+        /sbin/ldconfig -p | grep -q "${library%%:*} " || need "${library##*:}"
+    done
+fi
+if [ -n "$packages" ]; then
+    if [ "$(id -u)" -ne 0 ]; then
+        echo "Please install these packages first:  sudo apt-get install$packages" >&2
+        exit 1
+    fi
+    apt-get update -qq
+    # shellcheck disable=SC2086 - a list of packages
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >/dev/null
+fi
+
+extra=""
+[ "$goal" = demo ] || extra="[test]"
+stamp=".venv/.$goal-$(cat pyproject.toml environment.sh | cksum | cut -d' ' -f1)"
+if [ ! -e "$stamp" ]; then
+    [ -x .venv/bin/python ] || "$python" -m venv .venv
+    .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
+    touch "$stamp"
+fi
