@@ -1,0 +1,61 @@
+"""Blender imports every sample in every format and agrees with the layout on counts and places."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sample_files import each_format, each_sample
+from scipy.spatial import KDTree
+
+from garage2usd.layout import ObjectKind
+
+pytestmark = [
+    pytest.mark.client,
+    pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only"),
+]
+
+PREFIXES = {ObjectKind.STALL: "Stall_", ObjectKind.CAR: "Car_", ObjectKind.COLUMN: "Column_", ObjectKind.LIGHT: "Tube_"}
+MILLIMETRE = 0.001
+
+
+@pytest.fixture(scope="module")
+def imported(tmp_path_factory):
+    def dump(stage):
+        output = tmp_path_factory.mktemp("blender") / "dump.json"
+        script = Path(__file__).with_name("blender_dump.py")
+        subprocess.run([sys.executable, str(script), str(stage), str(output)], check=True, capture_output=True, timeout=600)
+        return json.loads(output.read_text())
+
+    return dump
+
+
+def assert_same_places(found, expected):
+    assert len(found) == len(expected)
+    distance, partner = KDTree(found).query(expected)
+    assert distance.max() < MILLIMETRE
+    assert len(set(partner.tolist())) == len(expected)
+
+
+@each_sample
+@each_format
+def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
+    build = builds(sample, extension)
+    layout = build.garage.layout
+    scene = imported(build.stage)
+    for kind, prefix in PREFIXES.items():
+        found = [item["place"] for item in scene["objects"] if item["name"].startswith(prefix)]
+        assert_same_places(np.array(found), np.array([place.position_m for place in layout.of_kind(kind)]))
+
+    lights = [item for item in scene["drawn"] if item["type"] == "LIGHT"]
+    tubes = np.array([place.position_m for place in layout.of_kind(ObjectKind.LIGHT)])
+    assert_same_places(np.array([item["place"] for item in lights])[:, [0, 2]], tubes[:, [0, 2]])
+    for item in lights:
+        assert item["energy_w"] > 0
+        assert item["down"] == pytest.approx([0, 0, -1], abs=1e-5)
+        assert 0 < layout.ceiling_height_m - item["place"][1] < 0.2
+    assert all(min(image["size"]) > 0 for image in scene["images"] if image["name"].endswith(".png"))
+    assert any(image["name"].endswith(".png") for image in scene["images"])

@@ -1,0 +1,152 @@
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+from sample_files import REPOSITORY
+
+from garage2usd.cli import main
+from garage2usd.config import config_schema
+
+QUICK = "[plan]\nepisodes = 200\n"
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def config(tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+
+    def write(text):
+        path = folder / "garage.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize("extension", ["usda", "usdc", "usdz"])
+def test_build_says_what_it_made(tmp_path, config, extension):
+    out = tmp_path / "out" / f"g.{extension}"
+    result = run("build", config(QUICK), "--seed", 4, "--output", out)
+    assert result.exit_code == 0, result.output
+    report = json.loads((tmp_path / "out" / "g_report.json").read_text())
+    stalls = report["score"]["stalls"]
+    assert report["seed"] == 4
+    assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
+    assert f"{stalls} of {stalls} stalls, from an entrance and to an exit" in result.output
+    assert f"{report['score']['value']:.2f} = {stalls} stalls" in result.output
+    for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
+        assert name.is_file()
+        assert str(name) in result.output
+    names = {"g_plan.png", "g_report.json", out.name} | (set() if extension == "usdz" else {"g_assets"})
+    assert {path.name for path in out.parent.iterdir()} == names
+
+
+def test_the_plan_picture_shows_each_kind_and_stall(tmp_path, config):
+    run("build", config(QUICK), "--output", tmp_path / "g.usdz")
+    picture = Image.open(tmp_path / "g_plan.png").convert("RGB")
+    report = json.loads((tmp_path / "g_report.json").read_text())
+    scale = 20.0  # pixels a metre, for a garage this small
+    colours = {"=": (148, 156, 166), "E": (72, 160, 96), "X": (206, 84, 72)}
+    for row, line in enumerate(report["S"]):
+        for col, symbol in enumerate(line):
+            if symbol in colours:
+                pixel = picture.getpixel((24 + int((col + 0.5) * 8.1 * scale), 24 + int((row + 0.5) * 8.1 * scale)))
+                assert pixel == colours[symbol]
+    for stall in report["stalls"]:
+        x, z = stall["centre_m"]
+        assert picture.getpixel((24 + int(x * scale), 24 + int(z * scale))) in {(176, 204, 228), (58, 92, 140)}
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ("sed = 1\n", "sed: got 1; allowed: one of the keys seed, site"),
+        ("[site]\nwidth_cells = -4\n", "site.width_cells: got -4; allowed: greater than or equal to 3"),
+        ('[site]\nstructure = """\n...\nE==\n"""\n', "allowed: at least one exit 'X' (3)"),
+        ("[site]\nmin_portal_distance_cells = 90\n", "portals: 2 portals at least 90 squares apart found no place"),
+        (
+            '[site]\nstructure = """\nE=X\n...\n"""\n[bay]\ncolumn_widths_m = [[8.1, 8.1, 8.1], [8.1, 8.0, 8.1]]\n',
+            "bay.column_widths_m[1, 1]: got 8.0; allowed: 8.1, constant along a column",
+        ),
+        ("seed = \n", "CONFIG: got"),
+    ],
+)
+def test_bad_settings_end_in_one_line_and_no_file(tmp_path, config, settings, said):
+    result = run("build", config(settings), "--output", tmp_path / "out" / "g.usda")
+    assert result.exit_code == 1
+    (line,) = result.output.strip().splitlines()
+    assert said in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_stall_without_a_route_is_drawn(tmp_path, config):
+    drawing = '[site]\nstructure = """\nE=X...\n......\n...===\n"""\n'
+    result = run("build", config(drawing), "--output", tmp_path / "g.usda")
+    assert result.exit_code == 1
+    assert "(1, 3), (1, 4), (1, 5), (2, 2) have no route" in result.output
+    assert "\n.." in result.output
+    assert "?===" in result.output
+
+
+@pytest.mark.parametrize("arguments", [["--output", "g.obj"], ["--output", "g"], ["--seed", "-1"], ["--sed", "1"]])
+def test_bad_usage_ends_in_two(tmp_path, monkeypatch, arguments):
+    monkeypatch.chdir(tmp_path)
+    result = run("build", *arguments)
+    assert result.exit_code == 2
+    assert list(tmp_path.iterdir()) == []
+    if arguments[0] == "--output":
+        assert "ends in .usda, .usdc, .usdz" in result.output
+
+
+@pytest.mark.parametrize("output", ["/proc/garage/g.usda", "/dev/null/g.usda"])
+def test_an_unwritable_output_is_named_before_the_work(config, output):
+    result = run("build", config(QUICK), "--output", output)
+    assert result.exit_code == 1
+    assert str(Path(output).parent) in result.output
+    assert len(result.output.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("deadly", [signal.SIGTERM, signal.SIGKILL, signal.SIGINT])
+def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
+    path = config("[site]\nwidth_cells = 30\nheight_cells = 20\n[plan]\nepisodes = 1000000\n")
+    out = tmp_path / "out"
+    out.mkdir()
+    temporary = tmp_path / "tmp"
+    temporary.mkdir()
+    command = [sys.executable, "-m", "garage2usd", "build", str(path), "--output", str(out / "g.usda")]
+    process = subprocess.Popen(command, env={"TMPDIR": str(temporary), "PATH": "/usr/bin"}, stderr=subprocess.DEVNULL)
+    time.sleep(2.0)
+    assert process.poll() is None
+    process.send_signal(deadly)
+    assert process.wait(timeout=30) != 0
+    assert list(out.iterdir()) == []
+    if deadly != signal.SIGKILL:
+        assert list(temporary.iterdir()) == []
+
+
+def test_the_schema_command_prints_the_schema():
+    assert json.loads(run("schema").output) == config_schema()
+
+
+def test_the_textures_are_baked_again_byte_for_byte(tmp_path):
+    result = run("textures", tmp_path / "baked")
+    assert result.exit_code == 0, result.output
+    baked = {path.name: path.read_bytes() for path in (tmp_path / "baked").iterdir()}
+    kept = {path.name: path.read_bytes() for path in (REPOSITORY / "textures").iterdir() if path.suffix == ".png"}
+    assert baked == kept
+
+
+def test_version_and_help():
+    assert "garage2usd" in run("--version").output
+    for command in ("build", "schema", "textures"):
+        assert run(command, "--help").exit_code == 0

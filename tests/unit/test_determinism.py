@@ -1,0 +1,52 @@
+"""The same configuration, seed and version give the same bytes, whatever the hash seed, time and time zone."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from sample_files import REPOSITORY
+
+SCRIPT = """
+import sys
+from pathlib import Path
+import garage2usd
+config = garage2usd.load_config(sys.argv[1])
+for extension in ("usda", "usdc", "usdz"):
+    garage2usd.build(config, Path(sys.argv[2]) / f"g_{extension}.{extension}")
+"""
+
+
+@pytest.fixture(scope="module", params=["paper_7x9", "irregular"])
+def twice(request, tmp_path_factory):
+    folders = []
+    for hash_seed, zone in (("1", "UTC"), ("77", "Asia/Tokyo")):
+        folder = tmp_path_factory.mktemp(f"{request.param}_{hash_seed}")
+        sample = REPOSITORY / "samples" / f"{request.param}.toml"
+        environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "TZ": zone}
+        subprocess.run([sys.executable, "-c", SCRIPT, str(sample), str(folder)], check=True, env=environment, timeout=600)
+        folders.append(folder)
+    return folders
+
+
+def files(folder):
+    return {path.relative_to(folder).as_posix(): path for path in sorted(Path(folder).rglob("*")) if path.is_file()}
+
+
+def test_same_bytes(twice):
+    first, second = (files(folder) for folder in twice)
+    assert set(first) == set(second)
+    assert {Path(name).suffix for name in first} == {".usda", ".usdc", ".usdz", ".png", ".json"}
+    for name in first:
+        if not name.endswith(".json"):
+            assert first[name].read_bytes() == second[name].read_bytes(), name
+
+
+def test_same_report_apart_from_timings(twice):
+    for name in files(twice[0]):
+        if name.endswith(".json"):
+            reports = [json.loads((folder / name).read_text()) for folder in twice]
+            assert all(report.pop("seconds") for report in reports)
+            assert reports[0] == reports[1]

@@ -1,0 +1,197 @@
+import itertools
+
+import numpy as np
+import pytest
+import shapely
+from footprints import footprint
+from sample_files import each_sample
+
+from garage2usd.config import GarageConfig
+from garage2usd.grid import Cell, Structure, cells_from_text
+from garage2usd.lanes import build_lane_graph
+from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.layout import specs as s
+from garage2usd.pipeline import generate
+from garage2usd.stalls import square_capacity
+
+
+
+def laid_out(text, config=None, R=8.1, C=8.1):
+    config = config or GarageConfig()
+    structure = Structure.from_arrays(cells_from_text(text, field="S"), R, C)
+    return lay_out(structure, build_lane_graph(structure, config.bay), config)
+
+
+IRREGULAR = """
+##......##
+##.====.##
+E======...
+.=.##.=...
+.=.##.===X
+.======...
+..........
+"""
+
+
+@pytest.fixture(scope="module")
+def layout():
+    return laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 1.0, "max_yaw_deg": 5.0}))
+
+
+def union(placements):
+    return shapely.union_all([footprint(place) for place in placements])
+
+
+def assert_disjoint(placements):
+    shapes = [footprint(place) for place in placements]
+    tree = shapely.STRtree(shapes)
+    for first, second in tree.query(shapes, predicate="intersects").T:
+        if first < second:
+            overlap = shapes[first].intersection(shapes[second]).area
+            assert overlap < 1e-6, (placements[first], placements[second], overlap)
+
+
+def test_floors_and_stalls_tile_the_inside_without_overlap(layout):
+    ground = [*layout.of_kind(ObjectKind.FLOOR), *layout.of_kind(ObjectKind.STALL)]
+    assert_disjoint(ground)
+    area = sum(footprint(place).area for place in ground)
+    inside = (layout.structure.cells != Cell.OBSTACLE).sum()
+    assert area == pytest.approx(inside * 8.1**2, abs=1e-4)
+
+
+def test_markings_do_not_overlap_and_stay_on_their_panel(layout):
+    for spec in {p.spec for p in layout.placements if isinstance(p.spec, s.PanelSpec)}:
+        shapes = [shapely.Polygon(marking.polygon) for marking in spec.markings]
+        assert all(shape.is_valid and shape.area > 0 for shape in shapes)
+        panel = shapely.box(-spec.width_m / 2, -spec.depth_m / 2, spec.width_m / 2, spec.depth_m / 2)
+        panel = panel.difference(shapely.union_all([shapely.Polygon(opening) for opening in spec.openings]))
+        assert shapely.union_all(shapes).difference(panel).area < 1e-6
+        assert shapely.union_all(shapes).area == pytest.approx(sum(shape.area for shape in shapes), abs=1e-6)
+
+
+def test_walls_close_the_contour_once(layout):
+    shell = [place for place in layout.placements if place.kind in {ObjectKind.WALL, ObjectKind.PORTAL}]
+    assert_disjoint(shell)
+    x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
+    cells = layout.structure.cells
+    squares = [
+        shapely.box(x[col], z[row], x[col + 1], z[row + 1])
+        for row, col in np.argwhere(cells != Cell.OBSTACLE).tolist()
+    ]
+    core = footprint(layout.of_kind(ObjectKind.OBSTACLE)[0])
+    assert core.area == pytest.approx(8.1**2)
+    inside = shapely.union_all([*squares, *(footprint(place) for place in layout.of_kind(ObjectKind.OBSTACLE))])
+    walls = union(shell)
+    assert walls.intersection(inside).area < 1e-6
+    # the walls are exactly the band of their thickness around the inside
+    band = inside.buffer(0.3, join_style="mitre").difference(inside)
+    assert walls.symmetric_difference(band).area < 1e-6
+
+
+def test_every_portal_has_one_door(layout):
+    assert len(layout.of_kind(ObjectKind.PORTAL)) == (layout.structure.cells >= Cell.ENTRANCE).sum()
+    entrances = [place for place in layout.of_kind(ObjectKind.PORTAL) if place.spec.is_entrance]
+    assert len(entrances) == 1
+
+
+def test_columns_stand_clear_of_stalls_cars_walls_and_carriageways(layout):
+    columns = union(layout.of_kind(ObjectKind.COLUMN))
+    assert len(layout.of_kind(ObjectKind.COLUMN)) > 10
+    solid = (ObjectKind.STALL, ObjectKind.CAR, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    for place in layout.placements:
+        if place.kind in (*solid, ObjectKind.SPEED_BUMP):
+            assert footprint(place).intersection(columns).area < 1e-6, place
+    # half a column and a margin reach into a lane square; the carriageway lies inside that
+    x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
+    others = shapely.union_all(
+        [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in layout.structure.where(Cell.FREE)]
+    )
+    for row, col in layout.structure.where(Cell.LANE):
+        square = shapely.box(x[col], z[row], x[col + 1], z[row + 1])
+        carriageway = square.difference(others.buffer(0.35, join_style="mitre"))
+        assert carriageway.intersection(columns).area < 1e-6
+
+
+def test_stalls_match_the_score_and_cars_stand_inside_their_lines(layout):
+    assert len(layout.stalls) == square_capacity(layout.structure, GarageConfig().bay).sum()
+    names = [stall.name for stall in layout.stalls]
+    assert len(set(names)) == len(names)
+    panels = {place.name: footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    assert set(panels) == set(names)
+    for stall in layout.stalls:
+        assert shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.name]).area < 1e-6
+    cars = layout.of_kind(ObjectKind.CAR)
+    assert len(cars) == len(names)
+    for car in cars:
+        lines = panels[car.name.replace("Car", "Stall")]
+        assert lines.buffer(-0.06).contains(footprint(car)), car
+
+
+def test_the_mouth_of_a_stall_lies_on_its_lane(layout):
+    for stall in layout.stalls:
+        left, right, *_ = stall.corners_m()
+        x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
+        row, col = stall.access_square
+        lane = shapely.box(x[col], z[row], x[col + 1], z[row + 1])
+        assert lane.distance(shapely.Point(left)) < 1e-6
+        assert lane.distance(shapely.Point(right)) < 1e-6
+
+
+def test_ducts_hang_under_the_ceiling_above_the_clear_height_and_never_meet(layout):
+    ducts = layout.of_kind(ObjectKind.DUCT)
+    assert_disjoint(ducts)
+    for place in ducts:
+        top = place.position_m[1]
+        assert top + place.spec.hanger_m == pytest.approx(layout.ceiling_height_m)
+        assert top - place.spec.height_m >= GarageConfig().fittings.clear_height_m
+    assert_disjoint([*ducts, *layout.of_kind(ObjectKind.COLUMN)])
+    assert_disjoint(list(layout.of_kind(ObjectKind.LIGHT)))
+
+
+def test_speed_bumps_keep_apart():
+    config = GarageConfig(fittings={"speed_bump_rate": 1.0})
+    layout = laid_out("." * 12 + "\nE" + "=" * 10 + "X\n" + "." * 12, config)
+    columns = sorted(place.square[1] for place in layout.of_kind(ObjectKind.SPEED_BUMP))
+    assert columns == [1, 3, 5, 7, 9]
+
+
+def test_settings_decide_what_is_there():
+    bare = laid_out(
+        IRREGULAR,
+        GarageConfig(
+            fittings={
+                "ducts": False,
+                "wheel_stops": False,
+                "speed_bump_rate": 0,
+                "no_parking_sign_rate": 0,
+                "tubes_per_cell": 0,
+            },
+            parking={"occupancy": 0},
+        ),
+    ).counts()
+    empty = {"duct", "wheel_stop", "speed_bump", "no_parking_sign", "light", "car"}
+    assert {kind for kind, count in bare.items() if count == 0} == empty
+
+
+def test_cars_of_other_stalls_do_not_move_with_the_occupancy():
+    few = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.3})).of_kind(ObjectKind.CAR)
+    many = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.8})).of_kind(ObjectKind.CAR)
+    assert set(few) < set(many)
+
+
+@each_sample
+def test_samples_have_no_overlap(sample):
+    from garage2usd.config import load_config
+
+    layout = generate(load_config(sample)).layout
+    standing = (ObjectKind.COLUMN, ObjectKind.CAR, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    standing += (ObjectKind.SPEED_BUMP, ObjectKind.NO_PARKING_SIGN)
+    assert_disjoint([place for place in layout.placements if place.kind in standing])
+    assert_disjoint([place for place in layout.placements if place.kind in {ObjectKind.FLOOR, ObjectKind.STALL}])
+    assert_disjoint([*layout.of_kind(ObjectKind.DUCT), *layout.of_kind(ObjectKind.COLUMN)])
+
+
+def test_names_are_unique_among_siblings(layout):
+    for _, siblings in itertools.groupby(layout.placements, key=lambda place: (place.square, place.square or place.kind)):
+        names = [place.name for place in siblings]
+        assert len(set(names)) == len(names)
