@@ -1,17 +1,137 @@
 """Settings of the planner."""
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from pydantic import Field
 
 from garage2usd.config.base import Settings
 
-__all__ = ["PlanConfig"]
+__all__ = ["PlanConfig", "SarsaParameters"]
+
+
+class SarsaParameters(NamedTuple):
+    """Every parameter of Sarsa with its value; see the settings of the same names in `PlanConfig`."""
+
+    alpha: float
+    gamma: float
+    epsilon_start: float
+    epsilon_min: float
+    epsilon_decay: float
+    epsilon_refresh: float
+    patience_episodes: int
+    turn_back_penalty: float
+    interval_penalty: float
+    min_run_squares: int
+    wheeling_penalty: float
+    step_penalty: float
+    window_radius_squares: int
+    sees_distances: bool
+    masks_actions: bool
+    archives_prefixes: bool
+    max_steps_per_square: int
+
+
+_PRESETS = {
+    "paper": SarsaParameters(
+        alpha=0.1,
+        gamma=0.95,
+        epsilon_start=1.0,
+        epsilon_min=0.01,
+        epsilon_decay=0.999,
+        epsilon_refresh=0.3,
+        patience_episodes=100,
+        turn_back_penalty=2.0,
+        interval_penalty=1.0,
+        min_run_squares=3,
+        wheeling_penalty=1.0,
+        step_penalty=0.1,
+        window_radius_squares=2,
+        sees_distances=True,
+        masks_actions=False,
+        archives_prefixes=False,
+        max_steps_per_square=4,
+    ),
+    "tuned": SarsaParameters(
+        alpha=0.2,
+        gamma=0.9,
+        epsilon_start=1.0,
+        epsilon_min=0.1,
+        epsilon_decay=0.9985,
+        epsilon_refresh=0.3,
+        patience_episodes=100,
+        turn_back_penalty=0.5,
+        interval_penalty=0.2,
+        min_run_squares=3,
+        wheeling_penalty=0.5,
+        step_penalty=0.2,
+        window_radius_squares=1,
+        sees_distances=False,
+        masks_actions=True,
+        archives_prefixes=True,
+        max_steps_per_square=3,
+    ),
+}
 
 
 class PlanConfig(Settings):
-    """How lanes are planned. A setting left out takes the preset's value."""
+    """How lanes are planned. A parameter of Sarsa that is left out takes the preset's value."""
 
     preset: Literal["paper", "tuned"] = "tuned"
+    """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares, no bumps, best
+    prefix of every episode kept."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
+    """Episodes of learning."""
     archive_size: int = Field(200, ge=1, le=10_000)
+    """How many of the best plans are kept."""
+    climb: bool = True
+    """Polish the best plans by flips of single squares after learning."""
+    climb_top: int = Field(40, ge=1, le=10_000)
+    """How many of the best plans are polished."""
+
+    stall_weight: float = Field(1.0, ge=0, le=1000)
+    """k_1, weight of the stalls N_S in the score."""
+    parking_time_weight: float = Field(-5.0, ge=-1000, le=0)
+    """k_2, weight of the mean parking time T_S in the score."""
+    unused_weight: float = Field(-1.0, ge=-1000, le=0)
+    """k_3, weight of the unused squares U_S in the score."""
+
+    alpha: float | None = Field(None, gt=0, le=1)
+    """Learning rate."""
+    gamma: float | None = Field(None, ge=0, le=1)
+    """Discount."""
+    epsilon_start: float | None = Field(None, ge=0, le=1)
+    """Share of random actions at first."""
+    epsilon_min: float | None = Field(None, ge=0, le=1)
+    """Least share of random actions."""
+    epsilon_decay: float | None = Field(None, gt=0, le=1)
+    """Factor on epsilon after each episode."""
+    epsilon_refresh: float | None = Field(None, ge=0, le=1)
+    """Epsilon after `patience_episodes` without change."""
+    patience_episodes: int | None = Field(None, ge=1)
+    """Episodes that end in the same plan before epsilon is refreshed."""
+    turn_back_penalty: float | None = Field(None, ge=0, le=1000)
+    """Penalty for the opposite of the last action."""
+    interval_penalty: float | None = Field(None, ge=0, le=1000)
+    """Penalty for a turn after fewer than `min_run_squares` equal actions."""
+    min_run_squares: int | None = Field(None, ge=1, le=100)
+    """Equal actions in a row after which a turn is free."""
+    wheeling_penalty: float | None = Field(None, ge=0, le=1000)
+    """Penalty for each lane that a new lane square runs beside, other than the one it continues."""
+    step_penalty: float | None = Field(None, ge=0, le=1000)
+    """Penalty for every action."""
+    window_radius_squares: int | None = Field(None, ge=1, le=4)
+    """How far the agent sees: 2 is the paper's 5x5 squares."""
+    sees_distances: bool | None = None
+    """Whether the state holds D, the distance to the end of the lanes in each direction."""
+    masks_actions: bool | None = None
+    """Whether actions that would end in a failure cannot be chosen."""
+    archives_prefixes: bool | None = None
+    """Whether the best state on the way is kept, not only the last unfailed one."""
+    max_steps_per_square: int | None = Field(None, ge=1, le=100)
+    """Actions in an episode, for each free square of the site."""
+
+    def resolved(self) -> SarsaParameters:
+        """Every parameter with the user's value or the preset's."""
+        preset = _PRESETS[self.preset]
+        given = {name: getattr(self, name) for name in preset._fields}
+        return preset._replace(**{name: value for name, value in given.items() if value is not None})
