@@ -54,7 +54,6 @@ _FLOOR_MATERIAL = {
 def _(spec: s.PanelSpec) -> Asset:
     is_stall = spec.surface is s.Surface.STALL
     return assets.floor_panel(
-        name="Stall" if is_stall else "Floor",
         width_m=spec.width_m,
         depth_m=spec.depth_m,
         base_material=_FLOOR_MATERIAL[spec.surface],

@@ -1,0 +1,34 @@
+"""Everything that is placed in a garage, as plain meshes, materials and textures, free of any file format."""
+
+from garage2usd.assets.building import ceiling_panel, column, obstacle_block, portal_wall, wall_panel, wall_post
+from garage2usd.assets.cars import car
+from garage2usd.assets.fittings import duct, no_parking_sign, speed_bump, tube_light, wheel_stop
+from garage2usd.assets.floor import Marking, floor_panel
+from garage2usd.assets.materials import MATERIALS, Material
+from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
+from garage2usd.assets.textures import bake_textures, texture_folder
+
+__all__ = [
+    "MATERIALS",
+    "Asset",
+    "Collider",
+    "Marking",
+    "Material",
+    "Part",
+    "RectLight",
+    "bake_textures",
+    "car",
+    "ceiling_panel",
+    "column",
+    "duct",
+    "floor_panel",
+    "no_parking_sign",
+    "obstacle_block",
+    "portal_wall",
+    "speed_bump",
+    "texture_folder",
+    "tube_light",
+    "wall_panel",
+    "wall_post",
+    "wheel_stop",
+]

@@ -1,0 +1,141 @@
+"""The building's shell: walls, vehicle doors, cores, columns, ceiling slabs."""
+
+import numpy as np
+
+from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, make_part
+
+__all__ = ["ceiling_panel", "column", "obstacle_block", "portal_wall", "wall_panel", "wall_post"]
+
+_BAND_TOP_M = 1.1
+_STRIPE_M = 0.12
+_HAZARD_TOP_M = 1.2
+_BEVEL_M = 0.03
+_LAMELLA_M = 0.12
+
+
+def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
+    """A wall with a painted band; origin at the middle of its inner face's foot, inner face to +Z."""
+    half = length_m / 2
+    levels = (("Band", "wall_band", 0.0, _BAND_TOP_M), ("Stripe", "band_stripe", _BAND_TOP_M, _BAND_TOP_M + _STRIPE_M))
+    faces: list[Face] = []
+    parts = []
+    for name, material, low, high in levels:
+        face = box_faces((-half, low, -thickness_m), (half, high, 0), without="lrbtn")
+        parts.append(make_part(name, face, material, collider=Collider.BOX))
+    top = _BAND_TOP_M + _STRIPE_M
+    faces += box_faces((-half, top, -thickness_m), (half, height_m, 0), without="lrbtn")
+    faces += box_faces((-half, 0, -thickness_m), (half, height_m, 0), without="f")
+    parts.append(make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX))
+    return Asset("wall", tuple(parts))
+
+
+def wall_post(side_m: float, height_m: float) -> Asset:
+    """The square end of two walls that meet in a convex corner; origin in the middle of its foot."""
+    half = side_m / 2
+    faces = box_faces((-half, 0, -half), (half, height_m, half))
+    return Asset("wall", (make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX),))
+
+
+def portal_wall(
+    length_m: float, height_m: float, thickness_m: float, *, door_width_m: float, door_height_m: float, is_entrance: bool
+) -> Asset:
+    """A wall with a closed roller door set back in it, a steel frame and a lit sign; origin as `wall_panel`."""
+    half, jamb, back = length_m / 2, door_width_m / 2, -thickness_m
+    concrete = box_faces((-half, 0, back), (-jamb, height_m, 0))
+    concrete += box_faces((jamb, 0, back), (half, height_m, 0))
+    lintel = box_faces((-jamb, door_height_m, back), (jamb, height_m, 0), without="lr")
+    frame = box_faces((-jamb, 0, back), (-jamb + 0.08, door_height_m, 0.02))
+    frame += box_faces((jamb - 0.08, 0, back), (jamb, door_height_m, 0.02))
+    frame += box_faces((-jamb + 0.08, door_height_m - 0.08, back), (jamb - 0.08, door_height_m, 0.02))
+
+    door: list[Face] = []
+    count = max(1, int((door_height_m - 0.08) / _LAMELLA_M))
+    lamella = (door_height_m - 0.08) / count
+    for index in range(count):
+        low, high = index * lamella, (index + 1) * lamella
+        inset = -thickness_m / 2
+        door += box_faces((-jamb + 0.08, low + 0.01, inset - 0.03), (jamb - 0.08, high, inset))
+        door += box_faces((-jamb + 0.08, low, inset - 0.03), (jamb - 0.08, low + 0.01, inset - 0.012))
+
+    sign_low = door_height_m + 0.08
+    sign_high = min(sign_low + 0.28, height_m - 0.04)
+    sign = box_faces((-0.6, sign_low, 0), (0.6, sign_high, 0.06))
+    middle, reach = (sign_low + sign_high) / 2, (sign_high - sign_low) * 0.36
+    tip = -reach if is_entrance else reach
+    arrow = [
+        _upright([(-0.05, -tip), (0.05, -tip), (0.05, 0.0), (-0.05, 0.0)], middle),
+        _upright([(-0.16, 0.0), (0.16, 0.0), (0.0, tip)], middle),
+    ]
+    return Asset(
+        "vehicle_door",
+        (
+            make_part("LeftJamb", concrete[:6], "wall_concrete", collider=Collider.BOX),
+            make_part("RightJamb", concrete[6:], "wall_concrete", collider=Collider.BOX),
+            make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
+            make_part("Frame", frame, "hazard", collider=Collider.MESH),
+            make_part("Door", door, "door_steel", collider=Collider.BOX),
+            make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
+            make_part("Arrow", arrow, "sign_white"),
+        ),
+    )
+
+
+def _upright(outline: list[tuple[float, float]], middle_m: float) -> Face:
+    """An outline (x, y) on the front of a door's sign, turned counter-clockwise."""
+    face = np.array([(x, y + middle_m, 0.064) for x, y in outline])
+    normal = np.cross(face[1] - face[0], face[2] - face[0])
+    return face if normal[2] > 0 else face[::-1]
+
+
+def obstacle_block(width_m: float, depth_m: float, height_m: float) -> Asset:
+    """A concrete core with a hazard band around its foot and a steel door; origin in the middle of its foot."""
+    x, z = width_m / 2, depth_m / 2
+    band = box_faces((-x, 0, -z), (x, _STRIPE_M * 3, z), without="tb")
+    body = box_faces((-x, _STRIPE_M * 3, -z), (x, height_m, z), without="b")
+    door = box_faces((-0.5, 0.0, z), (0.5, 2.1, z + 0.03), without="n")
+    frame = box_faces((-0.58, 0.0, z), (-0.5, 2.18, z + 0.045), without="n")
+    frame += box_faces((0.5, 0.0, z), (0.58, 2.18, z + 0.045), without="n")
+    frame += box_faces((-0.5, 2.1, z), (0.5, 2.18, z + 0.045), without="nlr")
+    handle = box_faces((0.34, 1.0, z + 0.03), (0.44, 1.03, z + 0.08))
+    return Asset(
+        "obstacle",
+        (
+            make_part("Band", band, "hazard", collider=Collider.BOX),
+            make_part("Core", body, "wall_concrete", collider=Collider.BOX),
+            make_part("Door", door, "door_steel", collider=Collider.BOX),
+            make_part("Frame", frame, "steel_dark", collider=Collider.MESH),
+            make_part("Handle", handle, "steel_galvanised", collider=Collider.BOX),
+        ),
+    )
+
+
+def column(size_m: float, height_m: float) -> Asset:
+    """A column with bevelled edges and a hazard band; origin in the middle of its foot."""
+    foot = _bevelled_prism(size_m / 2, 0.0, _HAZARD_TOP_M, _BEVEL_M)
+    shaft = _bevelled_prism(size_m / 2, _HAZARD_TOP_M, height_m, _BEVEL_M)
+    return Asset(
+        "column",
+        (
+            make_part("Hazard", foot, "hazard", collider=Collider.CONVEX_HULL),
+            make_part("Shaft", shaft, "wall_concrete", collider=Collider.CONVEX_HULL),
+        ),
+    )
+
+
+def _bevelled_prism(half: float, low: float, high: float, bevel: float) -> list[Face]:
+    inner = half - bevel
+    ring = [(inner, half), (half, inner), (half, -inner), (inner, -half)]
+    ring += [(-inner, -half), (-half, -inner), (-half, inner), (-inner, half)]
+    faces = []
+    for (x0, z0), (x1, z1) in zip(ring, ring[1:] + ring[:1], strict=True):
+        faces.append(np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)]))
+    faces.append(np.array([(x, high, z) for x, z in ring]))
+    faces.append(np.array([(x, low, z) for x, z in reversed(ring)]))
+    return faces
+
+
+def ceiling_panel(width_m: float, depth_m: float, thickness_m: float) -> Asset:
+    """A ceiling slab; origin in the middle of its underside."""
+    x, z = width_m / 2, depth_m / 2
+    faces = box_faces((-x, 0, -z), (x, thickness_m, z))
+    return Asset("ceiling", (make_part("Slab", faces, "ceiling_concrete", collider=Collider.BOX),))

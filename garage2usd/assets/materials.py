@@ -1,0 +1,109 @@
+"""The materials of all parts, as values that any renderer's standard surface takes."""
+
+from dataclasses import dataclass
+
+from garage2usd.config.vehicles import PAINTS
+
+__all__ = ["MATERIALS", "Material"]
+
+Rgb = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Material:
+    """A surface.
+
+    Attributes
+    ----------
+    colour_rgb
+        Linear base colour where there is no texture.
+    colour_texture, roughness_texture, normal_texture
+        File names in the texture folder.
+    roughness, metallic, opacity, clearcoat
+        0 to 1.
+    ior
+        Index of refraction; None for the default.
+    emissive_rgb
+        Linear radiance.
+    repeat_m
+        Metres that one repeat of the textures covers.
+    """
+
+    colour_rgb: Rgb = (0.5, 0.5, 0.5)
+    colour_texture: str | None = None
+    roughness: float = 0.6
+    roughness_texture: str | None = None
+    normal_texture: str | None = None
+    metallic: float = 0.0
+    opacity: float = 1.0
+    clearcoat: float = 0.0
+    ior: float | None = None
+    emissive_rgb: Rgb = (0.0, 0.0, 0.0)
+    repeat_m: float = 1.0
+
+    def textures(self) -> tuple[str, ...]:
+        """The file names that it uses."""
+        names = (self.colour_texture, self.roughness_texture, self.normal_texture)
+        return tuple(name for name in names if name is not None)
+
+
+_PAINT_RGB: dict[str, Rgb] = {
+    "white": (0.72, 0.72, 0.70),
+    "silver": (0.42, 0.43, 0.44),
+    "black": (0.012, 0.012, 0.014),
+    "grey": (0.11, 0.12, 0.13),
+    "blue": (0.025, 0.07, 0.22),
+    "red": (0.30, 0.018, 0.016),
+}
+
+MATERIALS: dict[str, Material] = {
+    "floor_concrete": Material(
+        colour_texture="floor_colour.png",
+        roughness_texture="floor_roughness.png",
+        normal_texture="floor_normal.png",
+        repeat_m=8.1,
+    ),
+    "stall_epoxy": Material(
+        colour_texture="stall_colour.png",
+        roughness_texture="floor_roughness.png",
+        normal_texture="floor_normal.png",
+        repeat_m=6.7,
+    ),
+    "paint_white": Material(colour_texture="paint_white.png", roughness=0.55, repeat_m=2.7),
+    "paint_yellow": Material(colour_texture="paint_yellow.png", roughness=0.55, repeat_m=2.7),
+    "wall_concrete": Material(
+        colour_texture="wall_colour.png", roughness=0.85, normal_texture="wall_normal.png", repeat_m=5.4
+    ),
+    "wall_band": Material(colour_texture="band_colour.png", roughness=0.5, repeat_m=5.4),
+    "band_stripe": Material(colour_rgb=(0.62, 0.36, 0.02), roughness=0.5),
+    "ceiling_concrete": Material(
+        colour_texture="ceiling_colour.png", roughness=0.9, normal_texture="wall_normal.png", repeat_m=6.3
+    ),
+    "hazard": Material(colour_texture="hazard.png", roughness=0.5, repeat_m=0.6),
+    "steel_galvanised": Material(colour_texture="steel_colour.png", roughness=0.42, metallic=0.85, repeat_m=1.5),
+    "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6),
+    "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3),
+    "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4),
+    "tube_glow": Material(colour_rgb=(0.9, 0.9, 0.9), roughness=0.3, emissive_rgb=(14.0, 13.6, 12.9)),
+    "sign_green": Material(colour_rgb=(0.01, 0.28, 0.10), roughness=0.4, emissive_rgb=(0.02, 0.9, 0.3)),
+    "sign_red": Material(colour_rgb=(0.5, 0.02, 0.02), roughness=0.4, emissive_rgb=(0.9, 0.05, 0.03)),
+    "sign_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4),
+    "sign_blue": Material(colour_rgb=(0.01, 0.06, 0.32), roughness=0.4),
+    "sign_ring": Material(colour_rgb=(0.5, 0.015, 0.015), roughness=0.4),
+    "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8),
+    "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65),
+    "glass": Material(colour_rgb=(0.012, 0.015, 0.017), roughness=0.06, clearcoat=1.0, ior=1.52),
+    "tyre": Material(colour_rgb=(0.018, 0.018, 0.019), roughness=0.85),
+    "rim": Material(colour_rgb=(0.5, 0.51, 0.53), roughness=0.28, metallic=0.9),
+    "trim_black": Material(colour_rgb=(0.012, 0.012, 0.013), roughness=0.6),
+    "lamp_front": Material(colour_rgb=(0.62, 0.65, 0.68), roughness=0.08, metallic=0.4, clearcoat=1.0),
+    "lamp_rear": Material(colour_rgb=(0.33, 0.008, 0.01), roughness=0.12, clearcoat=1.0),
+    "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5),
+    **{
+        f"car_paint_{paint}": Material(
+            colour_rgb=_PAINT_RGB[paint], roughness=0.32, metallic=0.3 if paint == "silver" else 0.0, clearcoat=1.0
+        )
+        for paint in PAINTS
+    },
+}
+"""Every material by its key."""

@@ -1,0 +1,42 @@
+"""The catalogue of parked cars: measures that layout and meshes share."""
+
+from dataclasses import dataclass
+
+__all__ = ["CAR_BODIES", "PAINTS", "CarBody"]
+
+
+@dataclass(frozen=True)
+class CarBody:
+    """Outer measures of a car body in metres.
+
+    Attributes
+    ----------
+    name
+        Key of the body.
+    length_m, width_m, height_m
+        Length and height over all; width without mirrors.
+    overall_width_m
+        Width over the mirrors.
+    wheelbase_m, front_overhang_m
+        Between the axles, and from the nose to the front axle.
+    wheel_radius_m
+        Radius of the tyres.
+    """
+
+    name: str
+    length_m: float
+    width_m: float
+    height_m: float
+    overall_width_m: float
+    wheelbase_m: float
+    front_overhang_m: float
+    wheel_radius_m: float
+
+
+CAR_BODIES: tuple[CarBody, ...] = (
+    CarBody("hatchback", 4.05, 1.74, 1.47, 1.96, 2.55, 0.80, 0.31),
+    CarBody("saloon", 4.70, 1.82, 1.44, 2.04, 2.80, 0.86, 0.33),
+    CarBody("suv", 4.55, 1.86, 1.68, 2.08, 2.68, 0.88, 0.36),
+)
+
+PAINTS: tuple[str, ...] = ("white", "silver", "black", "grey", "blue", "red")
