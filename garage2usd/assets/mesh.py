@@ -16,6 +16,7 @@ Face = NDArray[np.float64]
 
 _WELD_DECIMALS = 5
 _MIN_CORNERS = 3
+_MIN_AREA_M2 = 1e-9
 
 
 class Collider(StrEnum):
@@ -105,7 +106,7 @@ def make_part(
     *,
     collider: Collider | None = None,
     crease_deg: float = 30.0,
-    project: Callable[[Face, NDArray[np.float64]], NDArray[np.float64]] | None = None,
+    project: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
 ) -> Part:
     """Weld faces into a part, with normals that are smooth where faces meet at less than `crease_deg`.
 
@@ -118,33 +119,25 @@ def make_part(
     crease_deg
         Largest angle between the normals of two faces that share a smooth edge.
     project
-        Texture coordinates in metres of a face's corners, given its normal; along the main axis if left out.
+        Texture coordinates in metres of corners, given the normal of each one's face; along the main axis if left out.
     """
     corners = np.round(np.concatenate(faces), _WELD_DECIMALS) + 0.0
-    counts = np.array([len(face) for face in faces])
     points, indices = np.unique(corners, axis=0, return_inverse=True)
-    kept, split = [], np.split(indices.ravel(), np.cumsum(counts)[:-1])
-    for loop in split:
-        clean = loop[loop != np.roll(loop, 1)]
-        if len(clean) >= _MIN_CORNERS and np.linalg.norm(_area_vector(points[clean])) > 1e-9:  # noqa: PLR2004
-            kept.append(clean)
-    counts = np.array([len(loop) for loop in kept], dtype=np.int32)
-    used, flat = np.unique(np.concatenate(kept), return_inverse=True)
-    points = points[used]
-    loops = np.split(flat.ravel(), np.cumsum(counts)[:-1])
+    flat, counts = _clean_loops(points, indices.ravel(), np.array([len(face) for face in faces]))
+    used, flat = np.unique(flat, return_inverse=True)
+    points, flat = points[used], flat.ravel()
 
-    area = np.array([_area_vector(points[loop]) for loop in loops])
+    area = _area_vectors(points[flat], counts)
     unit = area / np.linalg.norm(area, axis=1, keepdims=True)
-    normals = _corner_normals(loops, area, unit, crease_deg)
+    normals = _corner_normals(flat, counts, area, unit, crease_deg)
     along = project or _along_main_axis
-    repeat_m = MATERIALS[material].repeat_m
-    coordinates = [along(points[loop], normal) / repeat_m for loop, normal in zip(loops, unit, strict=True)]
-    st, st_indices = np.unique(np.round(np.concatenate(coordinates), _WELD_DECIMALS) + 0.0, axis=0, return_inverse=True)
+    coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / MATERIALS[material].repeat_m
+    st, st_indices = np.unique(np.round(coordinates, _WELD_DECIMALS) + 0.0, axis=0, return_inverse=True)
     return Part(
         name=name,
         points=points.astype(np.float32),
-        face_counts=counts,
-        face_indices=flat.ravel().astype(np.int32),
+        face_counts=counts.astype(np.int32),
+        face_indices=flat.astype(np.int32),
         normals=normals.astype(np.float32),
         st=st.astype(np.float32),
         st_indices=st_indices.ravel().astype(np.int32),
@@ -195,19 +188,44 @@ def moved(faces: Iterable[Face], offset: ArrayLike, *, mirror_x: bool = False) -
     return [face + step for face in faces]
 
 
-def _area_vector(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Newell's normal, as long as twice the area."""
-    relative = polygon - polygon[0]
-    vector: NDArray[np.float64] = np.cross(relative, np.roll(relative, -1, axis=0)).sum(axis=0)
-    return vector
+def _clean_loops(
+    points: NDArray[np.float64], flat: NDArray[np.int64], counts: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Drop corners that repeat the one before and faces without area; returns indices and counts."""
+    face_of = np.repeat(np.arange(len(counts)), counts)
+    keep = flat != flat[_previous(counts)]
+    flat, face_of = flat[keep], face_of[keep]
+    counts = np.bincount(face_of, minlength=len(counts))
+    solid = counts >= _MIN_CORNERS
+    solid[solid] = np.linalg.norm(_area_vectors(points[flat[solid[face_of]]], counts[solid]), axis=1) > _MIN_AREA_M2
+    return flat[solid[face_of]], counts[solid]
+
+
+def _previous(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """For each corner the index of the one before it in its face."""
+    before = np.arange(counts.sum()) - 1
+    starts = np.cumsum(counts) - counts
+    before[starts] += counts
+    return before
+
+
+def _area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Newell's normal of each face, as long as twice its area; float64, shape (F, 3)."""
+    starts = np.cumsum(counts) - counts
+    relative = corners - np.repeat(corners[starts], counts, axis=0)
+    vectors: NDArray[np.float64] = np.add.reduceat(np.cross(relative[_previous(counts)], relative), starts)
+    return vectors
 
 
 def _corner_normals(
-    loops: Sequence[NDArray[np.int64]], area: NDArray[np.float64], unit: NDArray[np.float64], crease_deg: float
+    flat: NDArray[np.int64],
+    counts: NDArray[np.int64],
+    area: NDArray[np.float64],
+    unit: NDArray[np.float64],
+    crease_deg: float,
 ) -> NDArray[np.float64]:
     """For each corner the mean of the faces around its point that meet its own at less than the crease."""
-    flat = np.concatenate(loops)
-    face_of = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
+    face_of = np.repeat(np.arange(len(counts)), counts)
     order = np.argsort(flat, kind="stable")
     bounds = np.flatnonzero(np.diff(flat[order])) + 1
     limit = np.cos(np.radians(crease_deg))
@@ -220,12 +238,11 @@ def _corner_normals(
     return np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), unit[face_of])
 
 
-def _along_main_axis(face: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Metres across the face, seen along the axis that its normal is nearest to; V up on upright faces."""
-    x, y, z = face.T
-    axis = int(np.argmax(np.abs(normal) - np.array([0.0, 1e-6, 2e-6])))
-    if axis == 0:
-        return np.stack([-z if normal[0] > 0 else z, y], axis=1)
-    if axis == 1:
-        return np.stack([x, -z if normal[1] > 0 else z], axis=1)
-    return np.stack([x if normal[2] > 0 else -x, y], axis=1)
+def _along_main_axis(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Metres across each face, seen along the axis that its normal is nearest to; V up on upright faces."""
+    x, y, z = corners.T
+    axis = np.argmax(np.abs(normals) - np.array([0.0, 1e-6, 2e-6]), axis=1)
+    positive = np.take_along_axis(normals, axis[:, None], axis=1)[:, 0] > 0
+    u = np.choose(axis, [np.where(positive, -z, z), x, np.where(positive, x, -x)])
+    v = np.choose(axis, [y, np.where(positive, -z, z), y])
+    return np.stack([u, v], axis=1)
