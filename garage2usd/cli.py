@@ -5,7 +5,7 @@ import signal
 import sys
 from pathlib import Path
 from types import FrameType, TracebackType
-from typing import IO, TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, TextIO
 
 import click
 
@@ -79,13 +79,11 @@ def _describe(made: "Build") -> None:
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
+    figures = f"{score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
-        (
-            "score",
-            f"{score.value:.2f} = {score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused",
-        ),
+        ("score", f"{score.value:.2f} = {figures}"),
         ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
@@ -123,7 +121,7 @@ def textures(folder: Path) -> None:
 class _Bars:
     """One progress bar for each step that reports, on a terminal only."""
 
-    def __init__(self, stream: IO[str]) -> None:
+    def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self._step = ""
         self._bar: ProgressBar[int] | None = None

@@ -140,7 +140,8 @@ def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: in
         raise ConfigError(field, f"shape {given.shape}", f"a number, shape ({shape[axis]},) or shape {tuple(shape)}")
     if not ((given * _MM_PER_M >= _MIN_SIDE_MM) & (given * _MM_PER_M <= _MAX_SIDE_MM)).all():
         raise ConfigError(field, given.tolist(), "sides of 1 to 50 m")
-    return np.rint(given * _MM_PER_M).astype(np.int64)
+    whole: NDArray[np.int64] = np.rint(given * _MM_PER_M).astype(np.int64)
+    return whole
 
 
 @dataclass(frozen=True, eq=False)

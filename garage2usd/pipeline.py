@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 from garage2usd.config import GarageConfig
@@ -167,7 +168,7 @@ def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progre
         )
     layout = lay_out(plan.structure, graph, config)
     clock.append(time.perf_counter())
-    steps = zip(("site", "plan", "layout"), zip(clock, clock[1:], strict=False), strict=True)
+    steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
 
 

@@ -1,6 +1,7 @@
 """Render a stage with Blender's Cycles: the pictures of the README.
 
-Usage: python docs/pictures/render.py STAGE inside|above PICTURE [--width 1280] [--samples 64] [--at X Y Z YAW_DEG PITCH_DEG]
+Usage: python docs/pictures/render.py STAGE inside|above PICTURE [--width 1280] [--samples 64]
+       [--at X Y Z YAW_DEG PITCH_DEG] [--focal-mm 20]
 
 Needs Blender's Python module (``pip install bpy==5.0.1``, Python 3.11).
 """

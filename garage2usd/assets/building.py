@@ -1,8 +1,10 @@
 """The building's shell: walls, vehicle doors, cores, columns, ceiling slabs."""
 
+from itertools import pairwise
+
 import numpy as np
 
-from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, frame_faces, make_part
 
 __all__ = ["ceiling_panel", "column", "obstacle_block", "portal_wall", "wall_panel", "wall_post"]
 
@@ -11,6 +13,8 @@ _STRIPE_M = 0.12
 _HAZARD_TOP_M = 1.2
 _BEVEL_M = 0.03
 _LAMELLA_M = 0.12
+_GROOVE_M = 0.012
+_FRAME_M = 0.08
 
 
 def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
@@ -37,26 +41,22 @@ def wall_post(side_m: float, height_m: float) -> Asset:
 
 
 def portal_wall(
-    length_m: float, height_m: float, thickness_m: float, *, door_width_m: float, door_height_m: float, is_entrance: bool
+    length_m: float,
+    height_m: float,
+    thickness_m: float,
+    *,
+    door_width_m: float,
+    door_height_m: float,
+    is_entrance: bool,
 ) -> Asset:
     """A wall with a closed roller door set back in it, a steel frame and a lit sign; origin as `wall_panel`."""
     half, jamb, back = length_m / 2, door_width_m / 2, -thickness_m
     concrete = box_faces((-half, 0, back), (-jamb, height_m, 0))
     concrete += box_faces((jamb, 0, back), (half, height_m, 0))
     lintel = box_faces((-jamb, door_height_m, back), (jamb, height_m, 0), without="lr")
-    frame = box_faces((-jamb, 0, back), (-jamb + 0.08, door_height_m, 0.02))
-    frame += box_faces((jamb - 0.08, 0, back), (jamb, door_height_m, 0.02))
-    frame += box_faces((-jamb + 0.08, door_height_m - 0.08, back), (jamb - 0.08, door_height_m, 0.02))
-
-    door: list[Face] = []
-    count = max(1, int((door_height_m - 0.08) / _LAMELLA_M))
-    lamella = (door_height_m - 0.08) / count
-    for index in range(count):
-        low, high = index * lamella, (index + 1) * lamella
-        inset = -thickness_m / 2
-        door += box_faces((-jamb + 0.08, low + 0.01, inset - 0.03), (jamb - 0.08, high, inset))
-        door += box_faces((-jamb + 0.08, low, inset - 0.03), (jamb - 0.08, low + 0.01, inset - 0.012))
-
+    opening, head = jamb - _FRAME_M, door_height_m - _FRAME_M
+    frame = frame_faces(opening, head, _FRAME_M, back, 0.02)
+    door = _lamellae(opening, head, -thickness_m / 2)
     sign_low = door_height_m + 0.08
     sign_high = min(sign_low + 0.28, height_m - 0.04)
     sign = box_faces((-0.6, sign_low, 0), (0.6, sign_high, 0.06))
@@ -80,6 +80,21 @@ def portal_wall(
     )
 
 
+def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:
+    """The front of a roller door: flat slats with a groove under each, one sheet from the floor to the head."""
+    count = max(1, int(height_m / _LAMELLA_M))
+    step = height_m / count
+    profile = [(0.0, front_m - _GROOVE_M)]
+    for index in range(count):
+        low = index * step
+        profile += [(low + _GROOVE_M, front_m - _GROOVE_M), (low + _GROOVE_M, front_m)]
+        profile += [(low + step, front_m), (low + step, front_m - _GROOVE_M)]
+    return [
+        np.array([(-half_m, y0, z0), (half_m, y0, z0), (half_m, y1, z1), (-half_m, y1, z1)])
+        for (y0, z0), (y1, z1) in pairwise(profile)
+    ]
+
+
 def _upright(outline: list[tuple[float, float]], middle_m: float) -> Face:
     """An outline (x, y) on the front of a door's sign, turned counter-clockwise."""
     face = np.array([(x, y + middle_m, 0.064) for x, y in outline])
@@ -93,9 +108,7 @@ def obstacle_block(width_m: float, depth_m: float, height_m: float) -> Asset:
     band = box_faces((-x, 0, -z), (x, _STRIPE_M * 3, z), without="tb")
     body = box_faces((-x, _STRIPE_M * 3, -z), (x, height_m, z), without="b")
     door = box_faces((-0.5, 0.0, z), (0.5, 2.1, z + 0.03), without="n")
-    frame = box_faces((-0.58, 0.0, z), (-0.5, 2.18, z + 0.045), without="n")
-    frame += box_faces((0.5, 0.0, z), (0.58, 2.18, z + 0.045), without="n")
-    frame += box_faces((-0.5, 2.1, z), (0.5, 2.18, z + 0.045), without="nlr")
+    frame = frame_faces(0.5, 2.1, 0.08, z + 0.001, z + 0.045)
     handle = box_faces((0.34, 1.0, z + 0.03), (0.44, 1.03, z + 0.08))
     return Asset(
         "obstacle",

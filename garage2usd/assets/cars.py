@@ -15,6 +15,12 @@ _GROUND_CLEARANCE_M = 0.17
 _ARCH_GAP_M = 0.045
 _TYRE_WIDTH_M = 0.21
 _PLATE_M = (0.46, 0.12)
+_HALF_PILLAR_M = 0.05
+_MIN_STATION_STEP_M = 0.008
+# shares of the length, and bands of faces between ring points, see `_Shell._ring`
+_HEAD_LAMPS, _HEAD_LAMP_BAND = (0.004, 0.075), (6, 7)
+_TAIL_LAMPS, _TAIL_LAMP_BAND = (0.955, 0.999), (5, 6, 7)
+_SILL, _WINDOW, _ROOF_EDGE = 1, 8, 10
 
 
 @dataclass(frozen=True)
@@ -42,21 +48,48 @@ class _Shape:
 
 _SHAPES = {
     "hatchback": _Shape(
-        shoulder=((0.0, 0.44), (0.02, 0.505), (0.12, 0.575), (0.27, 0.635), (0.6, 0.65), (0.9, 0.66), (0.985, 0.64), (1.0, 0.56)),
+        shoulder=(
+            (0.0, 0.44),
+            (0.02, 0.505),
+            (0.12, 0.575),
+            (0.27, 0.635),
+            (0.6, 0.65),
+            (0.9, 0.66),
+            (0.985, 0.64),
+            (1.0, 0.56),
+        ),
         roof=((0.26, 0.0), (0.44, 1.0), (0.82, 0.965), (0.965, 0.0)),
         tumblehome=0.24,
         nose=0.80,
         tail=0.87,
     ),
     "saloon": _Shape(
-        shoulder=((0.0, 0.43), (0.02, 0.50), (0.12, 0.575), (0.28, 0.635), (0.6, 0.655), (0.85, 0.69), (0.985, 0.675), (1.0, 0.57)),
+        shoulder=(
+            (0.0, 0.43),
+            (0.02, 0.50),
+            (0.12, 0.575),
+            (0.28, 0.635),
+            (0.6, 0.655),
+            (0.85, 0.69),
+            (0.985, 0.675),
+            (1.0, 0.57),
+        ),
         roof=((0.275, 0.0), (0.44, 1.0), (0.66, 0.985), (0.845, 0.0)),
         tumblehome=0.26,
         nose=0.80,
         tail=0.84,
     ),
     "suv": _Shape(
-        shoulder=((0.0, 0.44), (0.015, 0.52), (0.10, 0.60), (0.25, 0.635), (0.6, 0.65), (0.9, 0.66), (0.985, 0.64), (1.0, 0.54)),
+        shoulder=(
+            (0.0, 0.44),
+            (0.015, 0.52),
+            (0.10, 0.60),
+            (0.25, 0.635),
+            (0.6, 0.65),
+            (0.9, 0.66),
+            (0.985, 0.64),
+            (1.0, 0.54),
+        ),
         roof=((0.245, 0.0), (0.40, 1.0), (0.86, 0.975), (0.985, 0.0)),
         tumblehome=0.20,
         nose=0.84,
@@ -98,7 +131,9 @@ class _Shell:
     def __init__(self, body: CarBody, shape: _Shape) -> None:
         self.body = body
         length, height = body.length_m, body.height_m
-        self._shoulder = PchipInterpolator([s * length for s, _ in shape.shoulder], [h * height for _, h in shape.shoulder])
+        self._shoulder = PchipInterpolator(
+            [s * length for s, _ in shape.shoulder], [h * height for _, h in shape.shoulder]
+        )
         self.cowl, self.roof_front, self.roof_rear, self.deck = (share * length for share, _ in shape.roof)
         low, high = (self._shoulder(self.cowl), self._shoulder(self.deck))
         middle = (self.roof_front + self.roof_rear) / 2
@@ -128,7 +163,8 @@ class _Shell:
             fixed += [axle - reach - 0.012, axle + reach + 0.012]
         regular = np.linspace(0, length, 34)
         stations = np.unique(np.round(np.concatenate([fixed, regular]), 4))
-        return stations[np.concatenate(([True], np.diff(stations) > 0.008))]  # noqa: PLR2004
+        apart: NDArray[np.float64] = stations[np.concatenate(([True], np.diff(stations) > _MIN_STATION_STEP_M))]
+        return apart
 
     def _bottom(self, s: float) -> float:
         """Height of the sill: the floor pan, raised over the wheels."""
@@ -184,7 +220,7 @@ class _Shell:
             upper = np.array([(x, y, at) for x, y in ring])
             mirrored = upper[-2:0:-1] * (-1.0, 1.0, 1.0)
             cap = np.concatenate([upper, mirrored])
-            found["body"].append(cap if forward else cap[::-1])
+            found["body"].append(cap[::-1] if forward else cap)
         return found
 
     @staticmethod
@@ -195,25 +231,21 @@ class _Shell:
             faces.append((triangle * (-1.0, 1.0, 1.0))[::-1])
 
     def _region(self, i: int, j: int) -> str:
+        """What the face between stations i and i + 1 and ring points j and j + 1 is made of."""
         s = (self.stations[i] + self.stations[i + 1]) / 2
-        length = self.body.length_m
-        if j <= 1:
+        share = s / self.body.length_m
+        if j <= _SILL:
             return "under"
-        if s < 0.075 * length and j in {6, 7} and s > 0.004 * length:
+        if _HEAD_LAMPS[0] < share < _HEAD_LAMPS[1] and j in _HEAD_LAMP_BAND:
             return "lamp_front"
-        if s > 0.955 * length and j in {5, 6, 7} and s < 0.999 * length:
+        if _TAIL_LAMPS[0] < share < _TAIL_LAMPS[1] and j in _TAIL_LAMP_BAND:
             return "lamp_rear"
-        if not self.cowl < s < self.deck:
-            return "body"
-        pillar_b = self.roof_front + 0.42 * (self.roof_rear - self.roof_front)
         windscreen = self.cowl + 0.03 < s < self.roof_front + 0.02
         rear_window = self.roof_rear + 0.04 < s < self.deck - 0.05
-        if j >= 10 and (windscreen or rear_window):  # noqa: PLR2004
-            return "glass"
-        open_side = self.cowl + 0.42 < s < self.deck - 0.30 and abs(s - pillar_b) > 0.05  # noqa: PLR2004
-        if j == 8 and open_side:  # noqa: PLR2004
-            return "glass"
-        return "body"
+        pillar_b = self.roof_front + 0.42 * (self.roof_rear - self.roof_front)
+        side_window = self.cowl + 0.42 < s < self.deck - 0.30 and abs(s - pillar_b) > _HALF_PILLAR_M
+        glass = (j >= _ROOF_EDGE and (windscreen or rear_window)) or (j == _WINDOW and side_window)
+        return "glass" if glass else "body"
 
     def trim(self) -> list[Face]:
         """Grille, lower intake, and strips under both bumpers."""
@@ -257,8 +289,12 @@ def _wheels(body: CarBody) -> list[Part]:
         (half - 0.02, rim - 0.012),
     ]
     tyre = lathe_faces([(-half, 0.0), *tyre_profile, (half - 0.10, rim - 0.02), (half - 0.10, 0.0)], segments=36)
-    lip = lathe_faces([(half - 0.06, rim - 0.03), (half - 0.004, rim - 0.008), (half, rim), (half - 0.02, rim + 0.003)], segments=36)
-    hub = lathe_faces([(half - 0.1, 0.07), (half - 0.018, 0.062), (half - 0.006, 0.04), (half - 0.006, 0.0)], segments=20)
+    lip = lathe_faces(
+        [(half - 0.06, rim - 0.03), (half - 0.004, rim - 0.008), (half, rim), (half - 0.02, rim + 0.003)], segments=36
+    )
+    hub = lathe_faces(
+        [(half - 0.1, 0.07), (half - 0.018, 0.062), (half - 0.006, 0.04), (half - 0.006, 0.0)], segments=20
+    )
     spokes: list[Face] = []
     for angle in np.arange(10) * (2 * np.pi / 10):
         spoke = box_faces((half - 0.045, 0.04, -0.022), (half - 0.014, rim - 0.012, 0.022))

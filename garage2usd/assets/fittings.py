@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part, ring_faces
 
 __all__ = ["duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
 
@@ -21,16 +21,21 @@ def tube_light(length_m: float, width_m: float) -> Asset:
     """A batten with two bare tubes, long along X; origin in the middle of its top."""
     x, z = length_m / 2, width_m / 2
     housing = box_faces((-x, -_HOUSING_HEIGHT_M, -z), (x, 0, z))
+    ends: list[Face] = []
     for end in (-x, x - 0.03):
-        housing += box_faces((end, -_HOUSING_HEIGHT_M - 0.045, -z), (end + 0.03, -_HOUSING_HEIGHT_M, z))
+        ends += box_faces((end, -_HOUSING_HEIGHT_M - 0.045, -z), (end + 0.03, -_HOUSING_HEIGHT_M, z))
     tubes: list[Face] = []
     for side in (-z / 2, z / 2):
         ring = lathe_faces([(-x + 0.03, _TUBE_RADIUS_M), (x - 0.03, _TUBE_RADIUS_M)], segments=10)
-        tubes += [face + (0.0, -_HOUSING_HEIGHT_M - 0.024, side) for face in ring]
+        tubes += [face + np.array((0.0, -_HOUSING_HEIGHT_M - 0.024, side)) for face in ring]
     light = RectLight(length_m, width_m, -_LIGHT_DROP_M, TUBE_INTENSITY_NIT)
     return Asset(
         "light",
-        (make_part("Housing", housing, "housing_white"), make_part("Tubes", tubes, "tube_glow")),
+        (
+            make_part("Housing", housing, "housing_white"),
+            make_part("Ends", ends, "housing_white"),
+            make_part("Tubes", tubes, "tube_glow"),
+        ),
         light,
     )
 
@@ -45,10 +50,7 @@ def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float) -
     for index in range(count):
         middle = -z + (index + 0.5) * length_m / count
         f = _FLANGE_M
-        flanges += box_faces((-x - f, -height_m - f, middle - 0.02), (x + f, -height_m, middle + 0.02))
-        flanges += box_faces((-x - f, 0, middle - 0.02), (x + f, f, middle + 0.02))
-        flanges += box_faces((-x - f, -height_m, middle - 0.02), (-x, 0, middle + 0.02))
-        flanges += box_faces((x, -height_m, middle - 0.02), (x + f, 0, middle + 0.02))
+        flanges += ring_faces((-x, -height_m, middle - 0.02), (x, 0, middle + 0.02), f)
         if index % 2 == 0:
             for side in (-x - 0.05, x + 0.03):
                 rod = box_faces((side, -height_m - f - 0.03, middle + 0.05), (side + 0.02, hanger_m, middle + 0.07))
@@ -117,7 +119,9 @@ def no_parking_sign() -> Asset:
     centre = 1.7
     back = _disc(0.30, 0.0, 0.012, centre)
     blue = _disc(0.245, 0.012, 0.016, centre)
-    slash = np.array([(-0.2, -0.14, 0), (-0.14, -0.2, 0), (0.2, 0.14, 0), (0.14, 0.2, 0)]) + (0, centre, 0.0185)
+    slash = np.array([(-0.2, -0.14, 0), (-0.14, -0.2, 0), (0.2, 0.14, 0), (0.14, 0.2, 0)]) + np.array(
+        (0, centre, 0.0185)
+    )
     return Asset(
         "traffic_sign",
         (
@@ -140,4 +144,4 @@ def _upright_lathe(profile: list[tuple[float, float]], *, segments: int) -> list
 def _disc(radius: float, low: float, high: float, centre_y: float) -> list[Face]:
     """A closed disc that looks to +Z."""
     faces = lathe_faces([(low, 0.0), (low, radius), (high, radius), (high, 0.0)], segments=28)
-    return [face[:, [1, 2, 0]] + (0.0, centre_y, 0.0) for face in faces]
+    return [face[:, [1, 2, 0]] + np.array((0.0, centre_y, 0.0)) for face in faces]

@@ -4,12 +4,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import mapbox_earcut
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 
 __all__ = ["Marking", "floor_panel"]
 
@@ -55,7 +54,9 @@ def floor_panel(
         by_material[marking.material].append(shapely.Polygon(marking.polygon))
     areas = {material: shapely.union_all(shapes, grid_size=_GRID_M) for material, shapes in by_material.items()}
     base = shapely.box(-width_m / 2, -depth_m / 2, width_m / 2, depth_m / 2)
-    base = shapely.difference(base, shapely.union_all([shapely.Polygon(shape) for shape in openings]), grid_size=_GRID_M)
+    base = shapely.difference(
+        base, shapely.union_all([shapely.Polygon(shape) for shape in openings]), grid_size=_GRID_M
+    )
     areas = {material: shapely.intersection(area, base, grid_size=_GRID_M) for material, area in areas.items()}
     base = shapely.difference(base, shapely.union_all(list(areas.values())), grid_size=_GRID_M)
     parts = [
@@ -67,23 +68,16 @@ def floor_panel(
 
 
 def _flat_part(name: str, area: shapely.Geometry, material: str) -> Part:
-    polygons = [shape for shape in getattr(area, "geoms", [area]) if isinstance(shape, shapely.Polygon)]
-    faces = [face for polygon in polygons for face in _triangles(shapely.orient_polygons(polygon))]
+    # constrained Delaunay, because no edge of it passes through another vertex
+    triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(area))
+    corners = np.stack([shapely.get_coordinates(triangle)[:3] for triangle in triangles])
+    first, second, third = corners[:, 0], corners[:, 1], corners[:, 2]
+    ab, ac = second - first, third - first
+    # looking up, with +Z down the plan, is clockwise in (x, z)
+    turned = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] > 0
+    corners[turned] = corners[turned][:, ::-1]
+    faces = [np.stack([x, np.zeros(3), z], axis=1) for x, z in corners.transpose(0, 2, 1)]
     return make_part(name, faces, material, collider=Collider.MESH, project=_from_above)
-
-
-def _triangles(polygon: shapely.Polygon) -> list[Face]:
-    """Triangles that look up: with +Z down the plan, that is clockwise in (x, z)."""
-    rings = [np.asarray(ring.coords)[:-1] for ring in (polygon.exterior, *polygon.interiors)]
-    corners = np.concatenate(rings)
-    ends = np.cumsum([len(ring) for ring in rings]).astype(np.uint32)
-    indices = mapbox_earcut.triangulate_float64(corners, ends).reshape(-1, 3)
-    flat = np.stack([corners[:, 0], np.zeros(len(corners)), corners[:, 1]], axis=1)
-    triangles = []
-    for triangle in flat[indices]:
-        up = np.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])[1] > 0
-        triangles.append(triangle if up else triangle[::-1])
-    return triangles
 
 
 def _from_above(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -45,7 +45,8 @@ def _noise(rng: np.random.Generator, side: int, cells: int) -> Field:
     high = (low + 1) % cells
     top = lattice[low][:, low] * (1 - part) + lattice[low][:, high] * part
     bottom = lattice[high][:, low] * (1 - part) + lattice[high][:, high] * part
-    return top * (1 - part)[:, None] + bottom * part[:, None]
+    field: Field = top * (1 - part)[:, None] + bottom * part[:, None]
+    return field
 
 
 def _clouds(rng: np.random.Generator, side: int, cells: int, octaves: int) -> Field:
@@ -99,15 +100,20 @@ def _streaks(rng: np.random.Generator, side: int, count: int, width: float) -> F
     return field
 
 
+def _bytes(value: Field) -> NDArray[np.uint8]:
+    levels: NDArray[np.uint8] = np.clip(np.rint(value), 0, 255).astype(np.uint8)
+    return levels
+
+
 def _rgb(value: Field, tint: tuple[float, float, float]) -> NDArray[np.uint8]:
     """Display values 0 to 255 of one channel, tinted; few levels, so that the files stay small."""
     levels = np.rint(np.clip(value, 0.0, 255.0) / _LEVEL_STEP) * _LEVEL_STEP
-    return np.clip(np.rint(levels[:, :, None] * np.array(tint)), 0, 255).astype(np.uint8)
+    return _bytes(levels[:, :, None] * np.array(tint))
 
 
 def _mix(base: NDArray[np.uint8], over: tuple[int, int, int], share: Field) -> NDArray[np.uint8]:
     mixed = base * (1.0 - share[:, :, None]) + np.array(over) * share[:, :, None]
-    return np.clip(np.rint(mixed), 0, 255).astype(np.uint8)
+    return _bytes(mixed)
 
 
 def _normal_map(height: Field, strength: float) -> NDArray[np.uint8]:
@@ -116,7 +122,7 @@ def _normal_map(height: Field, strength: float) -> NDArray[np.uint8]:
     dy = (np.roll(height, -1, axis=0) - np.roll(height, 1, axis=0)) * strength
     length = np.sqrt(dx * dx + dy * dy + 1.0)
     normal = np.stack([dx / length, dy / length, 1.0 / length], axis=2)
-    return np.clip(np.rint((normal + 1.0) * 127.5), 0, 255).astype(np.uint8)
+    return _bytes((normal + 1.0) * 127.5)
 
 
 def _floor_colour(rng: np.random.Generator) -> NDArray[np.uint8]:
@@ -133,7 +139,7 @@ def _floor_colour(rng: np.random.Generator) -> NDArray[np.uint8]:
 def _floor_roughness(rng: np.random.Generator) -> NDArray[np.uint8]:
     side = 512
     value = 112.0 + 70.0 * (_clouds(rng, side, 5, 4) - 0.5) - 30.0 * _spots(rng, side, 20, (4.0, 20.0))
-    return (np.rint(np.clip(value, 40, 220) / 4) * 4).astype(np.uint8)
+    return _bytes(np.rint(np.clip(value, 40, 220) / 4) * 4)
 
 
 def _floor_normal(rng: np.random.Generator) -> NDArray[np.uint8]:

@@ -24,6 +24,8 @@ _DASH_PERIOD_M = 4.05
 _HATCH_WIDTH_M = 0.3
 _HATCH_PERIOD_M = 1.2
 _HATCH_MARGIN_M = 0.6
+_HATCH_GAP_M = 0.1
+_MIN_HATCHED_M = 1.0
 
 
 def stall_lines(width_m: float, length_m: float) -> tuple[Marking, ...]:
@@ -113,8 +115,10 @@ def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: boo
 def hatching(half_x: float, half_z: float) -> tuple[Marking, ...]:
     """The yellow frame and diagonal stripes of a square where nobody may park."""
     x, z = half_x - _HATCH_MARGIN_M, half_z - _HATCH_MARGIN_M
+    if min(x, z) < _MIN_HATCHED_M:
+        return ()
     area = shapely.box(-x, -z, x, z)
-    inside = area.buffer(-LINE_WIDTH_M, join_style="mitre")
+    inside = area.buffer(-LINE_WIDTH_M - _HATCH_GAP_M, join_style="mitre")
     reach = x + z
     stripes = []
     for index in range(int(2 * reach / _HATCH_PERIOD_M) + 1):

@@ -1,17 +1,15 @@
 """The compiled part of the planner: episodes of tabular Sarsa, the score, and the archive.
 
-Squares are numbered ``(row + 1) * stride + col + 1`` on a matrix padded by one blocked square. Imported on first use, so
-that nothing else pays for the compiler.
+Squares are numbered ``(row + 1) * stride + col + 1`` on a matrix padded by one blocked square. Imported on first use,
+so that nothing else pays for the compiler.
 """
-# ruff: noqa: PLR0915, PLR0912, C901, PLR0914 - one loop that a compiler flattens
 
 import numba as nb
 import numpy as np
-from numpy.typing import NDArray
 
 __all__ = ["climb", "learn", "value_of"]
 
-UP, DOWN, LEFT, RIGHT, STAY = range(5)
+STAY = 4
 _OPPOSITE = np.array([1, 0, 3, 2, -1], dtype=np.int64)
 _NO_VALUE = -1.0e9
 
@@ -45,7 +43,7 @@ def _capacity(q, kind, capacity, stride):
 
 @nb.njit(cache=True)
 def value_of(kind, capacity, stride, entrances, squares, weights, distance, queue):
-    """y' of a matrix whose lanes are connected and touch every portal; (value, N_S, T_S, U_S)."""
+    """Y' of a matrix whose lanes are connected and touch every portal; (value, N_S, T_S, U_S)."""
     for q in squares:
         distance[q] = -1
     head, tail = 0, 0
@@ -343,9 +341,7 @@ def learn(
                                 )
                                 if value > best_value:
                                     best_value, best_found = value, True
-                                    count = _archive(
-                                        kind, squares, value, values, layouts, hashes, zobrist, count
-                                    )
+                                    count = _archive(kind, squares, value, values, layouts, hashes, zobrist, count)
             if ended and action != STAY:
                 # R_T of a failed action is learnt from, but not counted: the last unfailed state is scored
                 if slot >= 0:

@@ -19,6 +19,7 @@ _BLOCKED, _FREE = -1, 0
 _TABLE_BITS = 20
 _BATCH_SQUARES = 20_000
 _CLIMB_PASSES = 60
+_CLIMB_SQUARES = 400_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +94,7 @@ class _Board:
         return padded.reshape(-1, self.stride)[1:-1, 1:-1]
 
 
-def plan_lanes(
-    site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent
-) -> Plan:
+def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
     """Plan the lanes of a site by tabular Sarsa.
 
     Parameters
@@ -134,9 +133,8 @@ def plan_lanes(
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     if plan.climb:
         archive = _climb(board, archive, plan, rng)
-    plans = [site.with_cells(board.cells(site, lanes)) for lanes in archive]
-    scored = [ArchivedPlan(structure, evaluate(structure, bay=bay, plan=plan)) for structure in plans]
-    return Plan(scored[0].structure, scored[0].score, tuple(scored), curve)
+    scored = tuple(ArchivedPlan(site.with_cells(board.cells(site, lanes)), _score(board, lanes)) for lanes in archive)
+    return Plan(scored[0].structure, scored[0].score, scored, curve)
 
 
 def _learn(
@@ -200,6 +198,20 @@ def _learn(
     return [layouts[index] for index in range(count)], curve
 
 
+def _score(board: _Board, lanes: NDArray[np.bool_]) -> Score:
+    """The compiled score of one layout; `evaluate` gives the same from the structure."""
+    from garage2usd.planning import kernel  # noqa: PLC0415
+
+    kind = board.kind.copy()
+    kind[board.squares[lanes]] = Cell.LANE
+    distance = np.empty(len(kind), dtype=np.int32)
+    queue = np.empty(len(kind), dtype=np.int64)
+    value, stalls, time, unused = kernel.value_of(
+        kind, board.capacity, board.stride, board.entrances, board.squares, board.weights, distance, queue
+    )
+    return Score(float(value), int(stalls), float(time), int(unused))
+
+
 def _climb(
     board: _Board, archive: list[NDArray[np.bool_]], plan: PlanConfig, rng: np.random.Generator
 ) -> list[NDArray[np.bool_]]:
@@ -207,7 +219,9 @@ def _climb(
     from garage2usd.planning import kernel  # noqa: PLC0415
 
     best: dict[bytes, tuple[float, NDArray[np.bool_]]] = {}
-    for lanes in archive[: plan.climb_top]:
+    # a pass costs the square of the number of squares
+    affordable = max(1, _CLIMB_SQUARES // len(board.squares) ** 2)
+    for lanes in archive[: min(plan.climb_top, affordable)]:
         kind = board.kind.copy()
         kind[board.squares[lanes]] = Cell.LANE
         seed = rng.integers(1, 2**63, dtype=np.uint64)

@@ -21,7 +21,8 @@ def given_contour(site: SiteConfig) -> Mask:
         raise ConfigError("site.contour", cells_to_text(cells), "only '#' outside and '.' inside")
     if not free_squares_connected(cells):
         raise ConfigError("site.contour", cells_to_text(cells), "one connected piece of '.' squares")
-    return cells == Cell.FREE
+    inside: Mask = cells == Cell.FREE
+    return inside
 
 
 def place_portals(cells: CellArray, site: SiteConfig) -> CellArray:

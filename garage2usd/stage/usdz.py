@@ -25,9 +25,9 @@ def write_usdz(path: Path, files: Iterable[tuple[str, Path]]) -> None:
 
     Notes
     -----
-    Not by ``Sdf.ZipFileWriter``, which stamps the local time of each file into the package, so that the same stage gives
-    other bytes in another second or time zone. ``zipfile`` lets the stamp be fixed; the padding that the format asks
-    for goes into the extra field, as there.
+    Not by ``Sdf.ZipFileWriter``, which stamps the local time of each file into the package, so that the same
+    stage gives other bytes in another second or time zone. ``zipfile`` lets the stamp be fixed; the padding that
+    the format asks for goes into the extra field, as there.
     """
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
         for name, file in files:

@@ -27,7 +27,9 @@ def imported(tmp_path_factory):
     def dump(stage):
         output = tmp_path_factory.mktemp("blender") / "dump.json"
         script = Path(__file__).with_name("blender_dump.py")
-        subprocess.run([sys.executable, str(script), str(stage), str(output)], check=True, capture_output=True, timeout=600)
+        subprocess.run(
+            [sys.executable, str(script), str(stage), str(output)], check=True, capture_output=True, timeout=600
+        )
         return json.loads(output.read_text())
 
     return dump

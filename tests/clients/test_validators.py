@@ -31,7 +31,11 @@ def test_nvidia_validation_finds_nothing(sample, extension, builds, tmp_path):
     command = shutil.which("nvidia_usd_validate", path=str(Path(sys.executable).parent))
     output = tmp_path / "findings.csv"
     run = subprocess.run(
-        [command, str(build.stage), "--csv-output", str(output)], capture_output=True, text=True, timeout=600, check=False
+        [command, str(build.stage), "--csv-output", str(output)],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
     )
     with output.open() as file:
         findings = list(csv.DictReader(file))

@@ -26,7 +26,9 @@ def twice(request, tmp_path_factory):
         folder = tmp_path_factory.mktemp(f"{request.param}_{hash_seed}")
         sample = REPOSITORY / "samples" / f"{request.param}.toml"
         environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "TZ": zone}
-        subprocess.run([sys.executable, "-c", SCRIPT, str(sample), str(folder)], check=True, env=environment, timeout=600)
+        subprocess.run(
+            [sys.executable, "-c", SCRIPT, str(sample), str(folder)], check=True, env=environment, timeout=600
+        )
         folders.append(folder)
     return folders
 

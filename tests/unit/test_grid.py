@@ -18,9 +18,7 @@ def test_numbers_read_like_symbols():
     assert (cells_from_text(numbers, field="S") == cells_from_text(PLAN, field="S")).all()
 
 
-@pytest.mark.parametrize(
-    ("text", "named"), [("..\n.", "[2, 1]"), ("..\n.?", "?"), ("0 1\n2 7", "7"), ("  \n", "S")]
-)
+@pytest.mark.parametrize(("text", "named"), [("..\n.", "[2, 1]"), ("..\n.?", "?"), ("0 1\n2 7", "7"), ("  \n", "S")])
 def test_bad_text_names_what_is_wrong(text, named):
     with pytest.raises(ConfigError) as caught:
         cells_from_text(text, field="S")

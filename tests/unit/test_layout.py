@@ -15,7 +15,6 @@ from garage2usd.pipeline import generate
 from garage2usd.stalls import square_capacity
 
 
-
 def laid_out(text, config=None, R=8.1, C=8.1):
     config = config or GarageConfig()
     structure = Structure.from_arrays(cells_from_text(text, field="S"), R, C)
@@ -75,8 +74,7 @@ def test_walls_close_the_contour_once(layout):
     x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
     cells = layout.structure.cells
     squares = [
-        shapely.box(x[col], z[row], x[col + 1], z[row + 1])
-        for row, col in np.argwhere(cells != Cell.OBSTACLE).tolist()
+        shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in np.argwhere(cells != Cell.OBSTACLE).tolist()
     ]
     core = footprint(layout.of_kind(ObjectKind.OBSTACLE)[0])
     assert core.area == pytest.approx(8.1**2)
@@ -192,6 +190,8 @@ def test_samples_have_no_overlap(sample):
 
 
 def test_names_are_unique_among_siblings(layout):
-    for _, siblings in itertools.groupby(layout.placements, key=lambda place: (place.square, place.square or place.kind)):
+    for _, siblings in itertools.groupby(
+        layout.placements, key=lambda place: (place.square, place.square or place.kind)
+    ):
         names = [place.name for place in siblings]
         assert len(set(names)) == len(names)
