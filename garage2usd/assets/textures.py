@@ -127,11 +127,11 @@ def _normal_map(height: Field, strength: float) -> NDArray[np.uint8]:
 
 def _floor_colour(rng: np.random.Generator) -> NDArray[np.uint8]:
     side = 1024
-    value = 104.0 + 34.0 * (_clouds(rng, side, 4, 5) - 0.5) + 20.0 * (_noise(rng, side, 3) - 0.5)
+    value = 108.0 + 30.0 * (_clouds(rng, side, 6, 5) - 0.5) + 6.0 * (_noise(rng, side, 3) - 0.5)
     value += 7.0 * (_grain(rng, side) - 0.5)
-    value -= 26.0 * _smooth_step(_clouds(rng, side, 6, 4), 0.58, 0.78)
-    value -= 34.0 * _streaks(rng, side, 9, 11.0) * _clouds(rng, side, 16, 3)
-    value -= 42.0 * _spots(rng, side, 26, (4.0, 26.0)) * _clouds(rng, side, 32, 3)
+    value -= 12.0 * _smooth_step(_clouds(rng, side, 12, 4), 0.56, 0.78)
+    value -= 15.0 * _streaks(rng, side, 9, 11.0) * _clouds(rng, side, 16, 3)
+    value -= 20.0 * _spots(rng, side, 40, (2.0, 12.0)) * _clouds(rng, side, 32, 3)
     value += 20.0 * _spots(rng, side, 60, (1.0, 2.5))
     return _rgb(value, (1.0, 0.995, 0.98))
 
@@ -144,7 +144,7 @@ def _floor_roughness(rng: np.random.Generator) -> NDArray[np.uint8]:
 
 def _floor_normal(rng: np.random.Generator) -> NDArray[np.uint8]:
     side = 512
-    return _normal_map(_clouds(rng, side, 24, 3) + 0.3 * _spots(rng, side, 120, (1.0, 2.5)), 0.9)
+    return _normal_map(_clouds(rng, side, 32, 3) + 0.3 * _spots(rng, side, 120, (1.0, 2.5)), 0.3)
 
 
 def _stall_colour(rng: np.random.Generator) -> NDArray[np.uint8]:
