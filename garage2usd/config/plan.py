@@ -1,12 +1,32 @@
 """Settings of the planner."""
 
+from enum import StrEnum
 from typing import Literal, NamedTuple
 
 from pydantic import Field
 
 from garage2usd.config.base import Settings
 
-__all__ = ["PlanConfig", "SarsaParameters"]
+__all__ = ["Choice", "DeadEnds", "PlanConfig", "SarsaParameters"]
+
+
+class DeadEnds(StrEnum):
+    """What is asked of aisles that end in nothing."""
+
+    ALLOW = "allow"
+    """Nothing."""
+    FORBID = "forbid"
+    """There is none."""
+    STANDARD = "standard"
+    """One over 26 m keeps a turning stall free."""
+
+
+class Choice(StrEnum):
+    """Which plan of the archive becomes the garage."""
+
+    BEST = "best"
+    DRAW = "draw"
+    """Any above the quality floor, by seed."""
 
 
 class SarsaParameters(NamedTuple):
@@ -24,10 +44,12 @@ class SarsaParameters(NamedTuple):
     min_run_squares: int
     wheeling_penalty: float
     step_penalty: float
+    failure_penalty: float
     window_radius_squares: int
     sees_distances: bool
     masks_actions: bool
     archives_prefixes: bool
+    revisit_rate: float
     max_steps_per_square: int
 
 
@@ -45,11 +67,13 @@ _PRESETS = {
         min_run_squares=3,
         wheeling_penalty=1.0,
         step_penalty=0.1,
+        failure_penalty=10.0,
         window_radius_squares=2,
         sees_distances=True,
         masks_actions=False,
         archives_prefixes=False,
-        max_steps_per_square=4,
+        revisit_rate=0.0,
+        max_steps_per_square=3,
     ),
     "tuned": SarsaParameters(
         alpha=0.2,
@@ -64,11 +88,13 @@ _PRESETS = {
         min_run_squares=3,
         wheeling_penalty=0.5,
         step_penalty=0.2,
+        failure_penalty=10.0,
         window_radius_squares=1,
         sees_distances=False,
         masks_actions=True,
         archives_prefixes=True,
-        max_steps_per_square=3,
+        revisit_rate=0.7,
+        max_steps_per_square=2,
     ),
 }
 
@@ -78,7 +104,7 @@ class PlanConfig(Settings):
 
     preset: Literal["paper", "tuned"] = "tuned"
     """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares, no bumps, best
-    prefix of every episode kept."""
+    prefix of every episode kept and gone on from."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
     """Episodes of learning."""
     archive_size: int = Field(200, ge=1, le=10_000)
@@ -87,6 +113,14 @@ class PlanConfig(Settings):
     """Polish the best plans by flips of single squares after learning."""
     climb_top: int = Field(40, ge=1, le=10_000)
     """How many of the best plans are polished."""
+    dead_ends: DeadEnds = DeadEnds.STANDARD
+    """'allow', 'forbid', or 'standard': a dead-end aisle over 26 m keeps a turning stall free, which the planner
+    counts as one stall lost."""
+
+    choice: Choice = Choice.BEST
+    """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""
+    quality_floor: float = Field(0.95, ge=0, le=1)
+    """Least share of the best plan's value that a drawn plan has."""
 
     stall_weight: float = Field(1.0, ge=0, le=1000)
     """k_1, weight of the stalls N_S in the score."""
@@ -118,15 +152,19 @@ class PlanConfig(Settings):
     wheeling_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for each lane that a new lane square runs beside, other than the one it continues."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty for every action."""
+    """Penalty for every action; staying away from the start costs it twice."""
+    failure_penalty: float | None = Field(None, ge=0, le=1000)
+    """Penalty R_T for the action that ends an episode in a failure."""
     window_radius_squares: int | None = Field(None, ge=1, le=4)
     """How far the agent sees: 2 is the paper's 5x5 squares."""
     sees_distances: bool | None = None
-    """Whether the state holds D, the distance to the end of the lanes in each direction."""
+    """Whether the state holds D, the distance to the next obstacle or border in each direction."""
     masks_actions: bool | None = None
     """Whether actions that would end in a failure cannot be chosen."""
     archives_prefixes: bool | None = None
     """Whether the best state on the way is kept, not only the last unfailed one."""
+    revisit_rate: float | None = Field(None, ge=0, le=1)
+    """Share of the episodes that go on from part of an archived one instead of from the empty site."""
     max_steps_per_square: int | None = Field(None, ge=1, le=100)
     """Actions in an episode, for each free square of the site."""
 

@@ -1,25 +1,15 @@
-"""A plan: lanes on a site, learnt by Sarsa or given by the user."""
+"""A plan: lanes on a site, with what is known of them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell, Structure
+from garage2usd.config import BayConfig
+from garage2usd.grid import Structure
 from garage2usd.planning.score import Score, evaluate
-from garage2usd.progress import Progress, silent
-from garage2usd.randomness import Step, generator
-from garage2usd.stalls import capacity_table
 
-__all__ = ["ArchivedPlan", "Plan", "given_plan", "plan_lanes"]
-
-_BLOCKED, _FREE = -1, 0
-_TABLE_BITS = 20
-_BATCH_SQUARES = 20_000
-_CLIMB_PASSES = 60
-_CLIMB_SQUARES = 400_000
+__all__ = ["ArchivedPlan", "Plan", "given_plan"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,204 +31,30 @@ class Plan:
     score
         Its figures.
     archive
-        The best distinct plans met while learning, best first; empty for a given structure.
+        The best distinct plans, best first; empty for a given structure.
     learning_curve
-        float64, shape (episodes,): G, the sum of the rewards of each episode without R_T.
+        float64, shape (episodes,): G, the sum of the rewards of each episode without R_T; read-only.
+    learnt_value
+        y' of the best plan that learning alone met; what `score` has above it came from polish.
+    steps
+        Actions taken while learning.
     """
 
     structure: Structure
     score: Score
-    archive: tuple[ArchivedPlan, ...]
-    learning_curve: NDArray[np.float64]
+    archive: tuple[ArchivedPlan, ...] = ()
+    learning_curve: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    learnt_value: float = 0.0
+    steps: int = 0
+
+    def __post_init__(self) -> None:
+        """Keep a read-only copy of the curve."""
+        curve = np.array(self.learning_curve, dtype=np.float64)
+        curve.setflags(write=False)
+        object.__setattr__(self, "learning_curve", curve)
 
 
 def given_plan(structure: Structure, *, bay: BayConfig) -> Plan:
     """Take a complete structure as it is: nothing is learnt."""
-    return Plan(structure, evaluate(structure, bay=bay), (), np.zeros(0))
-
-
-@dataclass(frozen=True, eq=False)
-class _Board:
-    """A site as the compiled planner wants it: flat arrays on a matrix padded by one blocked square."""
-
-    kind: NDArray[np.int8]
-    capacity: NDArray[np.int64]
-    stride: int
-    squares: NDArray[np.int64]
-    entrances: NDArray[np.int64]
-    portals: NDArray[np.int64]
-    weights: NDArray[np.float64]
-
-    @classmethod
-    def of(cls, site: Structure, *, bay: BayConfig, plan: PlanConfig) -> "_Board":
-        padded = np.pad(site.cells, 1, constant_values=Cell.OBSTACLE)
-        stride = padded.shape[1]
-        flat = padded.ravel()
-        table = capacity_table(site, bay)
-        layers = (table.along_x, table.along_x_double, table.along_z, table.along_z_double)
-        capacity = np.stack([np.pad(layer, 1).ravel() for layer in layers], axis=1)
-        return cls(
-            kind=np.where(flat == Cell.FREE, _FREE, _BLOCKED).astype(np.int8),
-            capacity=np.ascontiguousarray(capacity),
-            stride=stride,
-            squares=np.flatnonzero(flat == Cell.FREE),
-            entrances=np.flatnonzero(flat == Cell.ENTRANCE),
-            portals=np.flatnonzero((flat == Cell.ENTRANCE) | (flat == Cell.EXIT)),
-            weights=np.array([plan.stall_weight, plan.parking_time_weight, plan.unused_weight]),
-        )
-
-    def cells(self, site: Structure, lanes: NDArray[np.bool_]) -> NDArray[np.int8]:
-        """The structure matrix of `site` with lanes on some of `squares`."""
-        padded = np.pad(site.cells, 1, constant_values=Cell.OBSTACLE).ravel()
-        padded[self.squares[lanes]] = Cell.LANE
-        return padded.reshape(-1, self.stride)[1:-1, 1:-1]
-
-
-def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
-    """Plan the lanes of a site by tabular Sarsa.
-
-    Parameters
-    ----------
-    site
-        Static objects without lanes.
-    plan
-        Preset and parameters.
-    bay
-        Size of the stalls.
-    seed
-        Seed of the step.
-    progress
-        Told when learning starts and ends.
-
-    Returns
-    -------
-    Plan
-        The best plan met, always feasible: the lanes form one piece and touch every portal.
-
-    Raises
-    ------
-    GenerationError
-        If no lanes can join the portals.
-
-    Notes
-    -----
-    ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
-    down, left, right, stay. Deviation: the paper words epsilon opposite to its formula; the formula stands.
-    """
-    board = _Board.of(site, bay=bay, plan=plan)
-    rng = generator(seed, Step.PLAN)
-    archive, curve = _learn(board, plan, rng, progress)
-    if not archive:
-        reason = "no lanes join every portal; free squares between the portals are too few"
-        raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
-    if plan.climb:
-        archive = _climb(board, archive, plan, rng)
-    scored = tuple(ArchivedPlan(site.with_cells(board.cells(site, lanes)), _score(board, lanes)) for lanes in archive)
-    return Plan(scored[0].structure, scored[0].score, scored, curve)
-
-
-def _learn(
-    board: _Board, plan: PlanConfig, rng: np.random.Generator, progress: Progress
-) -> tuple[list[NDArray[np.bool_]], NDArray[np.float64]]:
-    """Run all episodes in batches, between which progress is told and signals are heard."""
-    from garage2usd.planning import kernel  # noqa: PLC0415 - only planning pays for the compiler
-
-    settings = plan.resolved()
-    zobrist = rng.integers(1, 2**63, size=len(board.squares), dtype=np.uint64)
-    random = rng.integers(1, 2**63, size=1, dtype=np.uint64)
-    schedule = np.array([settings.epsilon_start, 0.0])
-    keys = np.zeros(1 << _TABLE_BITS, dtype=np.uint64)
-    table = np.zeros((1 << _TABLE_BITS, 5), dtype=np.float32)
-    values = np.full(plan.archive_size, -np.inf)
-    layouts = np.zeros((plan.archive_size, len(board.squares)), dtype=np.bool_)
-    hashes = np.zeros(plan.archive_size + 1, dtype=np.uint64)
-    curve = np.zeros(plan.episodes)
-    batch = max(1, _BATCH_SQUARES // len(board.squares))
-    count = 0
-    for first in range(0, plan.episodes, batch):
-        progress("plan", first, plan.episodes)
-        last = min(first + batch, plan.episodes)
-        count, _ = kernel.learn(
-            board.kind,
-            board.capacity,
-            board.stride,
-            board.squares,
-            board.entrances,
-            board.portals,
-            board.weights,
-            zobrist,
-            first,
-            last,
-            random,
-            schedule,
-            keys,
-            table,
-            values,
-            layouts,
-            hashes,
-            curve,
-            count,
-            settings.alpha,
-            settings.gamma,
-            settings.epsilon_min,
-            settings.epsilon_decay,
-            settings.epsilon_refresh,
-            settings.patience_episodes,
-            settings.turn_back_penalty,
-            settings.interval_penalty,
-            settings.min_run_squares,
-            settings.wheeling_penalty,
-            settings.step_penalty,
-            settings.window_radius_squares,
-            settings.sees_distances,
-            settings.masks_actions,
-            settings.archives_prefixes,
-            settings.max_steps_per_square * len(board.squares),
-        )
-    return [layouts[index] for index in range(count)], curve
-
-
-def _score(board: _Board, lanes: NDArray[np.bool_]) -> Score:
-    """The compiled score of one layout; `evaluate` gives the same from the structure."""
-    from garage2usd.planning import kernel  # noqa: PLC0415
-
-    kind = board.kind.copy()
-    kind[board.squares[lanes]] = Cell.LANE
-    distance = np.empty(len(kind), dtype=np.int32)
-    queue = np.empty(len(kind), dtype=np.int64)
-    value, stalls, time, unused = kernel.value_of(
-        kind, board.capacity, board.stride, board.entrances, board.squares, board.weights, distance, queue
-    )
-    return Score(float(value), int(stalls), float(time), int(unused))
-
-
-def _climb(
-    board: _Board, archive: list[NDArray[np.bool_]], plan: PlanConfig, rng: np.random.Generator
-) -> list[NDArray[np.bool_]]:
-    """Polish the best of the archive; the result keeps the archive's size and order by value."""
-    from garage2usd.planning import kernel  # noqa: PLC0415
-
-    best: dict[bytes, tuple[float, NDArray[np.bool_]]] = {}
-    # a pass costs the square of the number of squares
-    affordable = max(1, _CLIMB_SQUARES // len(board.squares) ** 2)
-    for lanes in archive[: min(plan.climb_top, affordable)]:
-        kind = board.kind.copy()
-        kind[board.squares[lanes]] = Cell.LANE
-        seed = rng.integers(1, 2**63, dtype=np.uint64)
-        value = kernel.climb(
-            kind,
-            board.capacity,
-            board.stride,
-            board.squares,
-            board.entrances,
-            board.portals,
-            board.weights,
-            seed,
-            _CLIMB_PASSES,
-        )
-        polished = kind[board.squares] == Cell.LANE
-        best[polished.tobytes()] = (value, polished)
-    ranked = [lanes for _, lanes in sorted(best.values(), key=lambda entry: -entry[0])]
-    known = set(best)
-    rest = [lanes for lanes in archive if lanes.tobytes() not in known]
-    return (ranked + rest)[: plan.archive_size]
+    score = evaluate(structure, bay=bay)
+    return Plan(structure, score, learnt_value=score.value)

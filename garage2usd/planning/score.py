@@ -1,15 +1,17 @@
 """The score of a structure: y' = N_S - 5 T_S - U_S."""
 
+from collections import deque
 from dataclasses import dataclass
 
-import networkx as nx
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.stalls import square_capacity
 
-__all__ = ["Score", "evaluate"]
+__all__ = ["Score", "evaluate", "is_feasible"]
+
+Square = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,10 @@ class Score:
     parking_time_squares: float
     unused_squares: int
 
+    def parking_time_s(self, *, square_side_m: float, speed_m_s: float) -> float:
+        """T_S in seconds for squares of one side and a steady speed."""
+        return self.parking_time_squares * square_side_m / speed_m_s
+
 
 def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Score:
     """Score a complete structure, independently of the compiled planner.
@@ -51,15 +57,18 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
     ``y' = k_1 N_S + k_2 T_S + k_3 U_S``. N_S counts stalls, U_S free squares that hold none. T_S is the mean over the
     stalls of one and the squares driven from the nearest entrance to the nearest lane beside the stall's square.
     Lanes that no entrance reaches count the longest route there is; a structure without stalls has T_S = 0.
+
+    Deviation: the paper sums raw S over the neighbours, where obstacles and portals corrupt the count of lanes; lanes
+    are counted instead.
     """
     plan = plan or PlanConfig()
     capacity = square_capacity(structure, bay)
-    distances = _lane_distances(structure)
-    farthest = max(distances.values(), default=0)
+    hops = _lane_hops(structure)
+    farthest = max(hops.values(), default=0)
     total = 0
     for row, col in np.argwhere(capacity > 0).tolist():
         lanes = ((row + dr, col + dc) for dr, dc in NEIGHBOUR_STEPS)
-        nearest = min((distances[lane] for lane in lanes if lane in distances), default=farthest)
+        nearest = min((hops[lane] for lane in lanes if lane in hops), default=farthest)
         total += int(capacity[row, col]) * (1 + nearest)
     stalls = int(capacity.sum())
     time = total / stalls if stalls else 0.0
@@ -68,18 +77,33 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
     return Score(value, stalls, time, unused)
 
 
-def _lane_distances(structure: Structure) -> dict[tuple[int, int], int]:
+def is_feasible(structure: Structure) -> bool:
+    """Whether the lanes form one network that does not pass through portals, and every portal touches it."""
+    lanes = set(structure.where(Cell.LANE))
+    portals = structure.where(Cell.ENTRANCE) + structure.where(Cell.EXIT)
+    touched = all(any(lane in lanes for lane in _beside(portal)) for portal in portals)
+    return bool(lanes) and touched and len(_flood([min(lanes)], lanes)) == len(lanes)
+
+
+def _lane_hops(structure: Structure) -> dict[Square, int]:
     """Squares driven from the nearest entrance to each lane that it reaches over lanes."""
-    cells = structure.cells
-    rows, cols = structure.shape
-    grid = nx.grid_2d_graph(rows, cols)
-    lanes = grid.subgraph(square for square in grid if cells[square] == Cell.LANE).copy()
-    for entrance in structure.where(Cell.ENTRANCE):
-        for dr, dc in NEIGHBOUR_STEPS:
-            lane = (entrance[0] + dr, entrance[1] + dc)
-            if lane in lanes:
-                lanes.add_edge("entrances", lane)
-    if "entrances" not in lanes:
-        return {}
-    distances = nx.single_source_shortest_path_length(lanes, "entrances")
-    return {square: distance for square, distance in distances.items() if square != "entrances"}
+    lanes = set(structure.where(Cell.LANE))
+    entrances = structure.where(Cell.ENTRANCE)
+    return _flood([lane for entrance in entrances for lane in _beside(entrance) if lane in lanes], lanes)
+
+
+def _flood(starts: list[Square], lanes: set[Square]) -> dict[Square, int]:
+    """Breadth-first distances over lanes, 1 at the starts."""
+    hops = dict.fromkeys(starts, 1)
+    queue = deque(hops)
+    while queue:
+        square = queue.popleft()
+        for other in _beside(square):
+            if other in lanes and other not in hops:
+                hops[other] = hops[square] + 1
+                queue.append(other)
+    return hops
+
+
+def _beside(square: Square) -> list[Square]:
+    return [(square[0] + dr, square[1] + dc) for dr, dc in NEIGHBOUR_STEPS]

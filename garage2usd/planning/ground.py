@@ -1,0 +1,108 @@
+"""The ground that lanes are planned on: a site as flat arrays for compiled loops."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.config.plan import DeadEnds
+from garage2usd.grid import Cell, CellArray, Structure
+from garage2usd.stalls import capacity_table
+
+__all__ = ["LANE_LIMIT_MM", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
+
+LANE_LIMIT_MM = 26_000
+"""A dead-end aisle longer than this keeps a turning stall free."""
+
+Lanes = NDArray[np.bool_]
+"""bool, shape (squares,): which of `Ground.squares` are lanes."""
+
+
+class Ground(NamedTuple):
+    """A site as flat arrays on a matrix padded with squares outside; a square is an index into them.
+
+    Attributes
+    ----------
+    stride
+        Squares in a padded row: the step from a square to the one below.
+    cells
+        int8, shape (padded,): values of `Cell`, no lanes.
+    capacity
+        int32, shape (padded, 16): stalls on the square if it is free, by its edges that are open to lanes, as the sum
+        of 1 up, 2 down, 4 left, 8 right.
+    sides_mm
+        int64, shape (padded, 2): depth along Z and width along X.
+    squares
+        int64: the free squares in reading order.
+    entrances, portals
+        int64: squares with entrances, and with entrances then exits.
+    weights
+        float64, shape (3,): k_1, k_2, k_3 of the score.
+    dead_end_cost
+        What a dead-end aisle over `dead_end_limit_mm` costs beside the score.
+    dead_end_limit_mm
+        Length up to which a dead-end aisle is free.
+    """
+
+    stride: int
+    cells: NDArray[np.int8]
+    capacity: NDArray[np.int32]
+    sides_mm: NDArray[np.int64]
+    squares: NDArray[np.int64]
+    entrances: NDArray[np.int64]
+    portals: NDArray[np.int64]
+    weights: NDArray[np.float64]
+    dead_end_cost: float
+    dead_end_limit_mm: int
+
+
+_DEAD_END_COST = {DeadEnds.ALLOW: 0.0, DeadEnds.FORBID: 1000.0, DeadEnds.STANDARD: 1.0}
+_PADDING = 4
+
+
+def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
+    """Flatten a site; its lanes, if any, become free squares."""
+    static = np.where(site.cells == Cell.LANE, Cell.FREE, site.cells).astype(np.int8)
+    cells = np.pad(static, _PADDING, constant_values=Cell.OBSTACLE)
+    flat = cells.ravel()
+    depths = np.broadcast_to(site.row_depths_mm[:, None], site.shape)
+    widths = np.broadcast_to(site.column_widths_mm, site.shape)
+    entrances, exits = np.flatnonzero(flat == Cell.ENTRANCE), np.flatnonzero(flat == Cell.EXIT)
+    return Ground(
+        stride=cells.shape[1],
+        cells=flat,
+        capacity=_capacity_by_edges(site, bay),
+        sides_mm=np.stack([np.pad(side, _PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
+        squares=np.flatnonzero(flat == Cell.FREE),
+        entrances=entrances,
+        portals=np.concatenate((entrances, exits)),
+        weights=np.array([plan.stall_weight, plan.parking_time_weight, plan.unused_weight]),
+        dead_end_cost=_DEAD_END_COST[plan.dead_ends]
+        * (plan.stall_weight if plan.dead_ends is DeadEnds.STANDARD else 1),
+        dead_end_limit_mm=0 if plan.dead_ends is DeadEnds.FORBID else LANE_LIMIT_MM,
+    )
+
+
+def lanes_of(structure: Structure, ground: Ground) -> Lanes:
+    """Which squares of the ground are lanes in a structure on the same site."""
+    flat = np.pad(structure.cells, _PADDING, constant_values=Cell.OBSTACLE).ravel()
+    lanes: Lanes = flat[ground.squares] == Cell.LANE
+    return lanes
+
+
+def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
+    """The structure matrix with lanes on some of the ground's squares; int8, shape (rows, cols)."""
+    padded = ground.cells.copy()
+    padded[ground.squares[lanes]] = Cell.LANE
+    return padded.reshape(-1, ground.stride)[_PADDING:-_PADDING, _PADDING:-_PADDING].copy()
+
+
+def _capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+    table = capacity_table(site, bay)
+    layers = []
+    for edges in range(16):
+        along_x = (0, table.along_x, table.along_x, table.along_x_double)[edges & 3]
+        along_z = (0, table.along_z, table.along_z, table.along_z_double)[edges >> 2]
+        layers.append(np.pad(np.maximum(along_x, along_z) + np.zeros(site.shape, dtype=np.int64), _PADDING).ravel())
+    return np.ascontiguousarray(np.stack(layers, axis=1).astype(np.int32))

@@ -1,0 +1,204 @@
+"""The planner: Sarsa on a site, then repair and polish of the best that it met."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.config.plan import Choice, DeadEnds
+from garage2usd.errors import GenerationError
+from garage2usd.grid import Cell, Structure
+from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
+from garage2usd.planning.plan import ArchivedPlan, Plan
+from garage2usd.planning.score import Score
+from garage2usd.progress import Progress, silent
+from garage2usd.randomness import Step, generator
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from garage2usd.planning.board import Board
+
+__all__ = ["plan_lanes"]
+
+_BATCH_SQUARES = 20_000
+_TABLE_BITS = 14
+_CLIMB_PASSES = 40
+_ANNEALED = 6
+_ANNEAL_SQUARES = 36_000_000
+_HOTTEST, _COLDEST = 3.0, 0.5
+_CLIMB_SQUARES = 40_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class _Learnt:
+    """Layouts met while learning, each with its value, and the course of learning."""
+
+    ranked: tuple[tuple[float, Lanes], ...]
+    curve: NDArray[np.float64]
+    steps: int
+
+
+def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
+    """Plan the lanes of a site by tabular Sarsa.
+
+    Parameters
+    ----------
+    site
+        Static objects without lanes.
+    plan
+        Preset and parameters.
+    bay
+        Size of the stalls.
+    seed
+        Seed of the step.
+    progress
+        Told how many episodes are done.
+
+    Returns
+    -------
+    Plan
+        Always feasible: the lanes form one piece and touch every portal.
+
+    Raises
+    ------
+    GenerationError
+        If no lanes can join the portals.
+
+    Notes
+    -----
+    ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
+    down, left, right, stay. Deviation: the paper words epsilon opposite to its formula; the formula stands.
+    """
+    from garage2usd.planning.board import new_board  # noqa: PLC0415 - only planning pays for the compiler
+
+    ground = ground_of(site, bay=bay, plan=plan)
+    rng = generator(seed, Step.PLAN)
+    if not len(ground.squares) or not len(ground.entrances):
+        raise GenerationError("plan", "a site without entrance or free squares", seed=seed, attempts=0)
+    board = new_board(ground)
+    random = rng.integers(1, 2**63, size=1, dtype=np.uint64)
+    learnt = _learn(ground, board, plan, random, progress)
+    ranked = list(learnt.ranked) or _repaired(ground, board)
+    if not ranked:
+        reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
+        raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
+    learnt_value = _score(ground, board, ranked[0][1]).value
+    if plan.climb:
+        ranked = _polished(ground, board, ranked, plan, random)
+    if plan.dead_ends is DeadEnds.FORBID:
+        ranked = _without_dead_ends(ground, board, ranked)
+    archive = tuple(
+        ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes))
+        for _, lanes in ranked[: plan.archive_size]
+    )
+    chosen = archive[_draw(ranked[: len(archive)], plan, rng)]
+    return Plan(chosen.structure, chosen.score, archive, learnt.curve, learnt_value, learnt.steps)
+
+
+def _learn(ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress) -> _Learnt:
+    """Run all episodes in batches, between which progress is told and signals are heard."""
+    from garage2usd.planning.archive import new_archive  # noqa: PLC0415
+    from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
+
+    parameters = plan.resolved()
+    steps = parameters.max_steps_per_square * len(ground.squares)
+    archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=steps)
+    memory = new_memory(parameters, bits=max(_TABLE_BITS, (4 * steps).bit_length()))
+    curve = np.zeros(plan.episodes)
+    batch = max(1, _BATCH_SQUARES // len(ground.squares))
+    taken, episode = 0, 0
+    while episode < plan.episodes:
+        progress("plan", episode, plan.episodes)
+        goal = min(episode + batch, plan.episodes)
+        while episode < goal:
+            episode, more = learn(ground, board, parameters, memory, archive, random, curve, episode, goal)
+            taken += more
+            if episode < goal:
+                memory = grown(memory)
+    count = int(archive.in_use[0])
+    order = np.argsort(-archive.values[:count], kind="stable")
+    ranked = tuple((float(archive.values[index]), archive.lanes[index]) for index in order)
+    return _Learnt(ranked, curve, taken)
+
+
+def _repaired(ground: Ground, board: "Board") -> list[tuple[float, Lanes]]:
+    """Shortest ways between the portals, where learning met nothing feasible; empty if there are none."""
+    from garage2usd.planning.board import NO_VALUE, clear, measure  # noqa: PLC0415
+    from garage2usd.planning.polish import connect  # noqa: PLC0415
+
+    clear(ground, board)
+    if not connect(ground, board):
+        return []
+    lanes = board.cells[ground.squares] == Cell.LANE
+    return [(max(measure(ground, board), NO_VALUE), lanes)]
+
+
+def _polished(
+    ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], plan: PlanConfig, random: NDArray[np.uint64]
+) -> list[tuple[float, Lanes]]:
+    """The best climbed by flips, the best of those annealed, and the rest as they were; best first."""
+    from garage2usd.planning.polish import anneal, climb  # noqa: PLC0415
+
+    squares = len(ground.squares)
+    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
+
+    def improve(count: int, polish: "Callable[[], float]") -> None:
+        for _, lanes in _ranked(best.values())[:count]:
+            _put(ground, board, lanes)
+            value = polish()
+            improved = board.cells[ground.squares] == Cell.LANE
+            best.setdefault(improved.tobytes(), (value, improved))
+
+    affordable = max(1, _CLIMB_SQUARES // (20 * squares**2))
+    improve(min(plan.climb_top, affordable), lambda: climb(ground, board, random, _CLIMB_PASSES))
+    flips = _ANNEAL_SQUARES // (_ANNEALED * squares)
+    improve(_ANNEALED, lambda: anneal(ground, board, random, flips, _HOTTEST, _COLDEST))
+    return _ranked(best.values())
+
+
+def _without_dead_ends(ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]]) -> list[tuple[float, Lanes]]:
+    """The plans with each dead end led on or taken off; best first."""
+    from garage2usd.planning.board import measure  # noqa: PLC0415
+    from garage2usd.planning.polish import close_dead_ends  # noqa: PLC0415
+
+    closed = {}
+    for _, lanes in ranked:
+        _put(ground, board, lanes)
+        close_dead_ends(ground, board)
+        kept = board.cells[ground.squares] == Cell.LANE
+        closed[kept.tobytes()] = (measure(ground, board), kept)
+    return _ranked(closed.values())
+
+
+def _ranked(plans: "Iterable[tuple[float, Lanes]]") -> list[tuple[float, Lanes]]:
+    """Best first; equal values by their lanes, so that no order of meeting matters."""
+    return sorted(plans, key=lambda entry: (-entry[0], entry[1].tobytes()))
+
+
+def _put(ground: Ground, board: "Board", lanes: Lanes) -> None:
+    board.cells[:] = ground.cells
+    board.cells[ground.squares[lanes]] = Cell.LANE
+
+
+def _score(ground: Ground, board: "Board", lanes: Lanes) -> Score:
+    """The compiled score of one layout; `evaluate` gives the same from the structure."""
+    from garage2usd.planning.board import measure, value_now  # noqa: PLC0415
+
+    _put(ground, board, lanes)
+    measure(ground, board)
+    stalls, time, unused = board.tally[:3].tolist()
+    if stalls == 0:
+        return Score(float(ground.weights[2] * unused), 0, 0.0, unused)
+    return Score(float(value_now(ground, board)), stalls, time / stalls, unused)
+
+
+def _draw(ranked: list[tuple[float, Lanes]], plan: PlanConfig, rng: np.random.Generator) -> int:
+    """Which plan of the archive is taken: the best, or any above the quality floor."""
+    if plan.choice is Choice.BEST:
+        return 0
+    best = ranked[0][0]
+    floor = best - (1 - plan.quality_floor) * abs(best)
+    return int(rng.integers(sum(value >= floor for value, _ in ranked)))
