@@ -27,7 +27,7 @@ _BATCH_SQUARES = 20_000
 _TABLE_BITS = 14
 _CLIMB_PASSES = 40
 _ANNEALED = 6
-_ANNEAL_SQUARES = 36_000_000
+_ANNEAL_SQUARES, _FULL_EPISODES = 36_000_000, 5000
 _HOTTEST, _COLDEST = 3.0, 0.5
 _CLIMB_SQUARES = 40_000_000
 
@@ -154,7 +154,7 @@ def _polished(
 
     affordable = max(1, _CLIMB_SQUARES // (20 * squares**2))
     improve(min(plan.climb_top, affordable), lambda: climb(ground, board, random, _CLIMB_PASSES))
-    flips = _ANNEAL_SQUARES // (_ANNEALED * squares)
+    flips = int(_ANNEAL_SQUARES * min(1.0, plan.episodes / _FULL_EPISODES)) // (_ANNEALED * squares)
     improve(_ANNEALED, lambda: anneal(ground, board, random, flips, _HOTTEST, _COLDEST))
     return _ranked(best.values())
 
