@@ -7,7 +7,7 @@ from pydantic import Field
 
 from garage2usd.config.base import Settings
 
-__all__ = ["Choice", "DeadEnds", "PlanConfig", "SarsaParameters"]
+__all__ = ["Agent", "Choice", "DeadEnds", "PlanConfig", "SarsaParameters"]
 
 
 class DeadEnds(StrEnum):
@@ -19,6 +19,15 @@ class DeadEnds(StrEnum):
     """There is none."""
     STANDARD = "standard"
     """One over 26 m keeps a turning stall free."""
+
+
+class Agent(StrEnum):
+    """What the agent decides over."""
+
+    AUTO = "auto"
+    """Squares on small sites and with the preset 'paper', else aisles."""
+    SQUARES = "squares"
+    AISLES = "aisles"
 
 
 class Choice(StrEnum):
@@ -99,12 +108,17 @@ _PRESETS = {
 }
 
 
+_AISLES = _PRESETS["tuned"]._replace(alpha=0.03, gamma=0.95, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
+
+
 class PlanConfig(Settings):
     """How lanes are planned. A parameter of Sarsa that is left out takes the preset's value."""
 
     preset: Literal["paper", "tuned"] = "tuned"
     """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares, no bumps, best
     prefix of every episode kept and gone on from."""
+    agent: Agent = Agent.AUTO
+    """'squares', 'aisles', or 'auto': aisles on large sites, except with the preset 'paper'."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
     """Episodes of learning."""
     archive_size: int = Field(200, ge=1, le=10_000)
@@ -168,8 +182,8 @@ class PlanConfig(Settings):
     max_steps_per_square: int | None = Field(None, ge=1, le=100)
     """Actions in an episode, for each free square of the site."""
 
-    def resolved(self) -> SarsaParameters:
-        """Every parameter with the user's value or the preset's."""
-        preset = _PRESETS[self.preset]
+    def resolved(self, *, aisles: bool = False) -> SarsaParameters:
+        """Every parameter with the user's value or the preset's, or that of the agent over aisles."""
+        preset = _AISLES if aisles else _PRESETS[self.preset]
         given = {name: getattr(self, name) for name in preset._fields}
         return preset._replace(**{name: value for name, value in given.items() if value is not None})

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
-__all__ = ["Archive", "keep", "new_archive", "next_random", "square_key", "uniform"]
+__all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "square_key", "uniform"]
 
 
 class Archive(NamedTuple):
@@ -52,6 +52,12 @@ def new_archive(size: int, *, squares: int, steps: int) -> Archive:
     )
 
 
+def ranked_lanes(archive: Archive) -> tuple[tuple[float, NDArray[np.bool_]], ...]:
+    """(value, lanes) of all entries, best first."""
+    order = np.argsort(-archive.values[: archive.in_use[0]], kind="stable")
+    return tuple((float(archive.values[entry]), archive.lanes[entry]) for entry in order)
+
+
 @compiled
 def next_random(random: NDArray[np.uint64]) -> np.uint64:
     """Draw by splitmix64: the same numbers on every machine."""
@@ -66,6 +72,12 @@ def next_random(random: NDArray[np.uint64]) -> np.uint64:
 def uniform(random: NDArray[np.uint64]) -> float:
     """A number from 0 up to 1."""
     return float(next_random(random) >> np.uint64(11)) * (1.0 / 9007199254740992.0)
+
+
+@compiled
+def below(random: NDArray[np.uint64], count: int) -> int:
+    """A whole number from 0 up to `count`."""
+    return int(uniform(random) * count)
 
 
 @compiled

@@ -14,7 +14,7 @@ from garage2usd.planning.ground import Ground, cells_of, ground_of
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.score import Score, evaluate
 
-__all__ = ["Optimum", "find_optimum"]
+__all__ = ["Optimum", "find_optimum", "free_hops"]
 
 _MAX_COLS = 12
 _MAX_LAYOUTS = 20_000_000
@@ -136,7 +136,7 @@ def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _B
 
 def _worth(ground: Ground, shape: tuple[int, int], most: int) -> NDArray[np.float64]:
     """Relaxed contribution of each square by its open edges; shape (rows * cols, 16)."""
-    hops = _free_hops(ground)
+    hops = free_hops(ground)
     inside = cells_of(ground._replace(cells=np.arange(len(ground.cells))), np.zeros(len(ground.squares), np.bool_))
     squares = inside.ravel()
     near = np.full((len(squares), 16), _FAR)
@@ -152,7 +152,7 @@ def _worth(ground: Ground, shape: tuple[int, int], most: int) -> NDArray[np.floa
     return np.ascontiguousarray(worth)
 
 
-def _free_hops(ground: Ground) -> NDArray[np.int64]:
+def free_hops(ground: Ground) -> NDArray[np.int64]:
     """Hops from the nearest entrance if every free square were a lane; shape (padded,)."""
     hops = np.full(len(ground.cells), _FAR)
     queue: deque[int] = deque()

@@ -1,6 +1,5 @@
 """The planner: Sarsa on a site, then repair and polish of the best that it met."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ from garage2usd.config.plan import Choice, DeadEnds
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Cell, Structure
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
+from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.plan import ArchivedPlan, Plan
 from garage2usd.planning.score import Score
 from garage2usd.progress import Progress, silent
@@ -23,22 +23,13 @@ if TYPE_CHECKING:
 
 __all__ = ["plan_lanes"]
 
-_BATCH_SQUARES = 20_000
-_TABLE_BITS = 14
 _CLIMB_PASSES = 40
 _ANNEALED = 6
 _ANNEAL_SQUARES, _FULL_EPISODES = 36_000_000, 5000
 _HOTTEST, _COLDEST = 3.0, 0.5
 _CLIMB_SQUARES = 40_000_000
-
-
-@dataclass(frozen=True, eq=False)
-class _Learnt:
-    """Layouts met while learning, each with its value, and the course of learning."""
-
-    ranked: tuple[tuple[float, Lanes], ...]
-    curve: NDArray[np.float64]
-    steps: int
+_DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
+_DRIFT_HOTTEST, _DRIFT_COLDEST = 0.6, 0.1
 
 
 def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
@@ -70,7 +61,8 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     Notes
     -----
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
-    down, left, right, stay. Deviation: the paper words epsilon opposite to its formula; the formula stands.
+    down, left, right, stay; on large sites over what becomes of a whole aisle. Deviation: the paper words epsilon
+    opposite to its formula; the formula stands.
     """
     from garage2usd.planning.board import new_board  # noqa: PLC0415 - only planning pays for the compiler
 
@@ -80,14 +72,16 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         raise GenerationError("plan", "a site without entrance or free squares", seed=seed, attempts=0)
     board = new_board(ground)
     random = rng.integers(1, 2**63, size=1, dtype=np.uint64)
-    learnt = _learn(ground, board, plan, random, progress)
+    by_aisles = uses_aisles(ground, plan)
+    learn = learn_aisles if by_aisles else learn_squares
+    learnt = learn(ground, board, plan, random, progress)
     ranked = list(learnt.ranked) or _repaired(ground, board)
     if not ranked:
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     learnt_value = _score(ground, board, ranked[0][1]).value
     if plan.climb:
-        ranked = _polished(ground, board, ranked, plan, random)
+        ranked = (_drifted if by_aisles else _polished)(ground, board, ranked, plan, random)
     if plan.dead_ends is DeadEnds.FORBID:
         ranked = _without_dead_ends(ground, board, ranked)
     archive = tuple(
@@ -96,32 +90,6 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     )
     chosen = archive[_draw(ranked[: len(archive)], plan, rng)]
     return Plan(chosen.structure, chosen.score, archive, learnt.curve, learnt_value, learnt.steps)
-
-
-def _learn(ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress) -> _Learnt:
-    """Run all episodes in batches, between which progress is told and signals are heard."""
-    from garage2usd.planning.archive import new_archive  # noqa: PLC0415
-    from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
-
-    parameters = plan.resolved()
-    steps = parameters.max_steps_per_square * len(ground.squares)
-    archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=steps)
-    memory = new_memory(parameters, bits=max(_TABLE_BITS, (4 * steps).bit_length()))
-    curve = np.zeros(plan.episodes)
-    batch = max(1, _BATCH_SQUARES // len(ground.squares))
-    taken, episode = 0, 0
-    while episode < plan.episodes:
-        progress("plan", episode, plan.episodes)
-        goal = min(episode + batch, plan.episodes)
-        while episode < goal:
-            episode, more = learn(ground, board, parameters, memory, archive, random, curve, episode, goal)
-            taken += more
-            if episode < goal:
-                memory = grown(memory)
-    count = int(archive.in_use[0])
-    order = np.argsort(-archive.values[:count], kind="stable")
-    ranked = tuple((float(archive.values[index]), archive.lanes[index]) for index in order)
-    return _Learnt(ranked, curve, taken)
 
 
 def _repaired(ground: Ground, board: "Board") -> list[tuple[float, Lanes]]:
@@ -156,6 +124,23 @@ def _polished(
     improve(min(plan.climb_top, affordable), lambda: climb(ground, board, random, _CLIMB_PASSES))
     flips = int(_ANNEAL_SQUARES * min(1.0, plan.episodes / _FULL_EPISODES)) // (_ANNEALED * squares)
     improve(_ANNEALED, lambda: anneal(ground, board, random, flips, _HOTTEST, _COLDEST))
+    return _ranked(best.values())
+
+
+def _drifted(
+    ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], plan: PlanConfig, random: NDArray[np.uint64]
+) -> list[tuple[float, Lanes]]:
+    """The best annealed with flips judged by what is around them, and the rest as they were; best first."""
+    from garage2usd.planning.drift import drift  # noqa: PLC0415
+
+    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
+    flips = int(_DRIFT_FLIPS * min(1.0, plan.episodes / _FULL_EPISODES))
+    refresh = _REFRESH_ROUNDS * len(ground.squares)
+    for _, lanes in ranked[:_DRIFTED]:
+        _put(ground, board, lanes)
+        value = drift(ground, board, random, flips, _DRIFT_HOTTEST, _DRIFT_COLDEST, refresh)
+        improved = board.cells[ground.squares] == Cell.LANE
+        best.setdefault(improved.tobytes(), (value, improved))
     return _ranked(best.values())
 
 

@@ -1,0 +1,250 @@
+"""Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. Compiled."""
+# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - a decision is one loop over the squares of a run
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config.plan import SarsaParameters
+from garage2usd.planning.archive import Archive, below, keep, uniform
+from garage2usd.planning.board import NO_VALUE, Board, clear, measure
+from garage2usd.planning.compiled import compiled
+from garage2usd.planning.ground import Ground
+from garage2usd.planning.polish import connect
+
+__all__ = ["OPTIONS", "Runs", "learn_aisles", "new_values", "runs_of"]
+
+OPTIONS = 4
+"""Skip the run, an aisle along all of it, one that stops a square short of its ends, one along its even part."""
+
+_PROFILES, _SHARES, _AHEAD = 9, 2, 4
+_LONGEST_PART = 8
+_STATES = _PROFILES * _SHARES * _AHEAD
+_OPTIMISTIC = 40.0
+
+
+class Runs(NamedTuple):
+    """The straight runs of free squares of a site in both directions.
+
+    Attributes
+    ----------
+    first, length
+        int64, shape (runs,): the first square and how many there are.
+    ahead
+        int64, shape (runs,): the run of the next line that lies beside most of it, or -1.
+    turned
+        int64, shape (2,): where the runs along rows end and those along columns end.
+    starts
+        int64, shape (2, portals): for each direction the runs that lead straight away from a portal, or -1.
+    """
+
+    first: NDArray[np.int64]
+    length: NDArray[np.int64]
+    ahead: NDArray[np.int64]
+    turned: NDArray[np.int64]
+    starts: NDArray[np.int64]
+
+
+def runs_of(ground: Ground) -> Runs:
+    """Find all runs of two squares or more, in sweeping order."""
+    first: list[int] = []
+    length: list[int] = []
+    turned: list[int] = []
+    starts = np.full((2, len(ground.portals)), -1)
+    for direction, step in enumerate((1, ground.stride)):
+        heads = ground.squares[ground.cells[ground.squares - step] != 0]
+        if direction == 1:
+            heads = heads[np.lexsort((heads // ground.stride, heads % ground.stride))]
+        for head in heads.tolist():
+            end = head
+            while ground.cells[end] == 0:
+                end += step
+            count = (end - head) // step
+            if count > 1:
+                first.append(head)
+                length.append(count)
+        turned.append(len(first))
+    for index, portal in enumerate(ground.portals.tolist()):
+        for direction, (step, begin, end) in enumerate(((1, 0, turned[0]), (ground.stride, turned[0], turned[1]))):
+            for run in range(begin, end):
+                squares = range(first[run], first[run] + length[run] * step, step)
+                # a run across the aisles of the other direction
+                beside = {portal - ground.stride, portal + ground.stride, portal - 1, portal + 1}
+                if beside.intersection(squares):
+                    longest = starts[1 - direction, index]
+                    if longest < 0 or length[run] > length[longest]:
+                        starts[1 - direction, index] = run
+    ahead = np.full(len(first), -1)
+    for begin, end, step, line in ((0, turned[0], 1, ground.stride), (turned[0], turned[1], ground.stride, 1)):
+        owner = np.full(len(ground.cells), -1)
+        for run in range(begin, end):
+            owner[first[run] : first[run] + length[run] * step : step] = run
+        for run in range(begin, end):
+            past = owner[first[run] + line : first[run] + line + length[run] * step : step]
+            if (past >= 0).any():
+                ahead[run] = np.bincount(past[past >= 0]).argmax()
+    return Runs(np.array(first, np.int64), np.array(length, np.int64), ahead, np.array(turned, np.int64), starts)
+
+
+def new_values() -> NDArray[np.float64]:
+    """Values of the options by state when nothing is learnt yet: hopes that make the agent try each."""
+    return np.full((_STATES, OPTIONS), _OPTIMISTIC)
+
+
+@compiled
+def _profile(board: Board, square: int, across: int) -> int:
+    """What lies behind a square: 0 to 3 squares up to a wall, or 4 to 8 for 0 to 4 squares up to a lane."""
+    gap, q = 0, square - across
+    while board.cells[q] == 0 and gap < 4:
+        gap += 1
+        q -= across
+    if board.cells[q] == 1:
+        return 4 + gap
+    return min(gap, 3) if board.cells[q] != 0 else 8
+
+
+@compiled
+def _state(
+    board: Board, first: int, length: int, along: int, across: int, profiles: NDArray[np.int64]
+) -> tuple[int, int]:
+    """State of a run, the same on every site, and its most frequent profile."""
+    counts = np.zeros(_PROFILES, np.int64)
+    ahead = np.zeros(_AHEAD, np.int64)
+    for index in range(length):
+        q = first + index * along
+        profiles[index] = _profile(board, q, across)
+        counts[profiles[index]] += 1
+        far = 0
+        while far < _AHEAD - 1 and board.cells[q + (far + 1) * across] == 0:
+            far += 1
+        ahead[far] += 1
+    most = int(np.argmax(counts))
+    even = 1 if counts[most] > 0.8 * length else 0
+    return (most * _SHARES + even) * _AHEAD + int(np.argmax(ahead)), most
+
+
+@compiled
+def _lay_run(ground: Ground, board: Board, first: int, last: int, along: int, across: int) -> float:
+    """Make all free squares of a run lanes; what the stalls and unused squares beside it gain."""
+    cells, weights = board.cells, ground.weights
+    gain = 0.0
+    for sign in (-1.0, 1.0):
+        for q in range(first - along, last + 2 * along, along):
+            for p in (q - across, q, q + across):
+                if cells[p] == 0:
+                    edges = 0
+                    for way in range(4):
+                        if cells[p + (-ground.stride, ground.stride, -1, 1)[way]] == 1:
+                            edges |= 1 << way
+                    stalls = ground.capacity[p, edges]
+                    gain += sign * (weights[0] * stalls + (weights[2] if stalls == 0 else 0.0))
+        if sign < 0:
+            for q in range(first, last + along, along):
+                if cells[q] == 0:
+                    cells[q] = 1
+    return gain
+
+
+@compiled
+def learn_aisles(
+    ground: Ground,
+    board: Board,
+    runs: Runs,
+    parameters: SarsaParameters,
+    values: NDArray[np.float64],
+    archive: Archive,
+    random: NDArray[np.uint64],
+    curve: NDArray[np.float64],
+    course: NDArray[np.float64],
+    first: int,
+    last: int,
+) -> int:
+    """Run episodes `first` to `last`; returns how many decisions were taken.
+
+    Notes
+    -----
+    ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` as over squares, with options for
+    actions: what becomes of a run. Direction, and the portal from which an aisle leads across, take turns.
+    The reward is the increment of ``k_1 N_S + k_3 U_S``, per square of the run. What stays apart is joined by
+    repair.
+    """
+    gamma, epsilon, alpha = parameters.gamma, course[0], course[2]
+    states, options = np.zeros(len(runs.first), np.int64), np.zeros(len(runs.first), np.int64)
+    rewards = np.zeros(len(runs.first))
+    profiles = np.zeros(runs.length.max(), np.int64)
+    laid = np.zeros(len(ground.squares), np.int64)
+    tape = np.zeros(len(runs.first), np.int8)
+    taken = 0
+    for episode in range(first, last):
+        clear(ground, board)
+        # most episodes decide part of an archived one anew
+        entry, part_begin, part_end = -1, 0, len(runs.first)
+        if archive.in_use[0] > 0 and uniform(random) < parameters.revisit_rate:
+            entry, rival = below(random, archive.in_use[0]), below(random, archive.in_use[0])
+            if archive.values[rival] > archive.values[entry]:
+                entry = rival
+        # only what is decided anew is explored; whole episodes follow what is learnt on other sites
+        explored = epsilon if entry >= 0 or parameters.revisit_rate == 0 else 0.0
+        # direction and the aisle across it
+        choice = archive.starts[entry] if entry >= 0 else episode % (2 * len(ground.portals))
+        direction, portal = choice % 2, choice // 2
+        along, across = (1, ground.stride) if direction == 0 else (ground.stride, 1)
+        earned = 0.0
+        spine = runs.starts[direction, portal]
+        if spine >= 0:
+            earned += _lay_run(
+                ground, board, runs.first[spine], runs.first[spine] + (runs.length[spine] - 1) * across, across, along
+            )
+        begin = 0 if direction == 0 else runs.turned[0]
+        if entry >= 0:
+            part_begin = begin + below(random, runs.turned[direction] - begin)
+            part_end = part_begin + 1 + below(random, _LONGEST_PART)
+        for run in range(begin, runs.turned[direction]):
+            head, length = runs.first[run], runs.length[run]
+            state, most = _state(board, head, length, along, across, profiles)
+            option = below(random, OPTIONS)
+            if run < part_begin or run >= part_end:
+                option = archive.tapes[entry, run]
+            elif uniform(random) >= explored:
+                for other in range(OPTIONS):
+                    if values[state, other] > values[state, option]:
+                        option = other
+            low, high = 0, length - 1
+            if option == 2:
+                low, high = 1, length - 2
+            elif option == 3:
+                best, since = 0, 0
+                low, high = 0, -1
+                for index in range(length + 1):
+                    if index == length or profiles[index] != most:
+                        if index - since > best:
+                            best, low, high = index - since, since, index - 1
+                        since = index + 1
+            gain = 0.0
+            if option > 0 and low <= high:
+                gain = _lay_run(ground, board, head + low * along, head + high * along, along, across)
+            earned += gain
+            states[run], options[run], rewards[run] = state, option, gain / length
+            tape[run] = option
+            taken += 1
+        # what became of a run is felt by the run ahead of it, not by the next to be decided
+        for run in range(begin, runs.turned[direction]):
+            target, state, option = rewards[run], states[run], options[run]
+            ahead = runs.ahead[run]
+            if ahead >= 0:
+                target += gamma * values[states[ahead], options[ahead]]
+            values[state, option] += alpha * (target - values[state, option])
+        curve[episode] = earned
+        if connect(ground, board):
+            value = measure(ground, board)
+            if value > NO_VALUE:
+                count = 0
+                for q in ground.squares:
+                    if board.cells[q] == 1:
+                        laid[count] = q
+                        count += 1
+                keep(ground, archive, laid[:count], value, tape, choice)
+        epsilon, alpha = epsilon * course[1], alpha * course[3]
+    course[0], course[2] = epsilon, alpha
+    return taken

@@ -1,0 +1,145 @@
+"""Learning on a site: Sarsa over squares as in the paper, or over aisles where squares are too many."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.config.plan import Agent, DeadEnds
+from garage2usd.grid import Cell, Structure
+from garage2usd.planning.ground import Ground, Lanes, ground_of
+from garage2usd.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from garage2usd.planning.board import Board
+
+__all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]
+
+_AISLE_SQUARES = 120
+_BATCH_SQUARES = 20_000
+_TABLE_BITS = 14
+_AISLE_EPISODE_SQUARES = 6_000_000
+_NURSERY_SIDE, _NURSERY_OBSTACLES, _NURSERY_EPISODES = 26, 6, 3000
+
+
+@dataclass(frozen=True, eq=False)
+class Learnt:
+    """Layouts met while learning, each with its value, best first, and the course of learning.
+
+    Attributes
+    ----------
+    ranked
+        (value, lanes).
+    curve
+        float64, shape (episodes,): sum of the rewards of each episode.
+    steps
+        Actions taken.
+    """
+
+    ranked: tuple[tuple[float, Lanes], ...]
+    curve: NDArray[np.float64]
+    steps: int
+
+
+def uses_aisles(ground: Ground, plan: PlanConfig) -> bool:
+    """Whether the agent decides over aisles on this site."""
+    if plan.agent is Agent.AUTO:
+        return plan.preset == "tuned" and len(ground.squares) > _AISLE_SQUARES
+    return plan.agent is Agent.AISLES
+
+
+def learn_squares(
+    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
+) -> Learnt:
+    """Run all episodes over squares, in batches, between which progress is told and signals are heard."""
+    from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415 - only planning pays for it
+    from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
+
+    parameters = plan.resolved()
+    steps = parameters.max_steps_per_square * len(ground.squares)
+    archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=steps)
+    memory = new_memory(parameters, bits=max(_TABLE_BITS, (4 * steps).bit_length()))
+    curve = np.zeros(plan.episodes)
+    batch = max(1, _BATCH_SQUARES // len(ground.squares))
+    taken, episode = 0, 0
+    while episode < plan.episodes:
+        progress("plan", episode, plan.episodes)
+        goal = min(episode + batch, plan.episodes)
+        while episode < goal:
+            episode, more = learn(ground, board, parameters, memory, archive, random, curve, episode, goal)
+            taken += more
+            if episode < goal:
+                memory = grown(memory)
+    return Learnt(ranked_lanes(archive), curve, taken)
+
+
+def learn_aisles(
+    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
+) -> Learnt:
+    """Learn over aisles on a small site first, and carry the values over to this one.
+
+    Notes
+    -----
+    The state of an aisle is the same on every site, so what is learnt on a square of 26 x 26 squares with a few
+    obstacles holds here; episodes on the site itself then decide parts of the best plans anew. Their number is what
+    the settings say, or less where the site is so large that they would take more than a second.
+    """
+    from garage2usd.planning import aisles  # noqa: PLC0415
+    from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415
+    from garage2usd.planning.board import new_board  # noqa: PLC0415
+
+    parameters = plan.resolved(aisles=True)
+    values = aisles.new_values()
+    nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(random[0]))))
+    schedule = _schedule(_NURSERY_EPISODES, epsilon=(0.5, 0.02), alpha=(0.3, 0.02))
+    runs = aisles.runs_of(nursery)
+    archive = new_archive(1, squares=len(nursery.squares), steps=len(runs.first))
+    first_parameters = parameters._replace(revisit_rate=0.0)
+    taken = aisles.learn_aisles(
+        nursery, new_board(nursery), runs, first_parameters, values, archive, random,
+        np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES,
+    )  # fmt: skip
+    episodes = max(1, min(plan.episodes, _AISLE_EPISODE_SQUARES // len(ground.squares)))
+    curve = np.zeros(episodes)
+    runs = aisles.runs_of(ground)
+    if not len(runs.first):
+        return Learnt((), curve, taken)
+    archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=len(runs.first))
+    schedule = _schedule(
+        episodes, epsilon=(parameters.epsilon_start, parameters.epsilon_min), alpha=(parameters.alpha, parameters.alpha)
+    )
+    batch = max(1, _BATCH_SQUARES * 10 // len(ground.squares))
+    for first in range(0, episodes, batch):
+        progress("plan", first, episodes)
+        taken += aisles.learn_aisles(
+            ground, board, runs, parameters, values, archive, random, curve, schedule,
+            first, min(first + batch, episodes),
+        )  # fmt: skip
+    return Learnt(ranked_lanes(archive), curve, taken)
+
+
+def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:
+    """Epsilon and alpha at first, each followed by its factor after an episode."""
+    factors = [(last / first) ** (1 / episodes) for first, last in (epsilon, alpha)]
+    return np.array([epsilon[0], factors[0], alpha[0], factors[1]])
+
+
+def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
+    """A small site with the usual bays of this one."""
+    cells = np.zeros((_NURSERY_SIDE, _NURSERY_SIDE), dtype=np.int8)
+    inner = rng.integers(3, _NURSERY_SIDE - 3, size=(_NURSERY_OBSTACLES, 2))
+    cells[inner[:, 0], inner[:, 1]] = Cell.OBSTACLE
+    cells[-1, _NURSERY_SIDE // 3], cells[0, 2 * _NURSERY_SIDE // 3] = Cell.ENTRANCE, Cell.EXIT
+    sides = np.median(ground.sides_mm[ground.squares], axis=0) / 1000
+    small = ground_of(
+        Structure.from_arrays(cells, sides[1], sides[0]), bay=BayConfig(), plan=PlanConfig(dead_ends=DeadEnds.ALLOW)
+    )
+    # the usual stalls of this site, whatever its bays are
+    return small._replace(
+        capacity=np.broadcast_to(np.median(ground.capacity[ground.squares], axis=0), small.capacity.shape).astype(
+            np.int32
+        ),
+        weights=ground.weights,
+    )

@@ -1,0 +1,126 @@
+"""The paper's four design principles, and dead ends, as figures of a plan."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from garage2usd.config import BayConfig
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure, edge_neighbour_count
+from garage2usd.planning.ground import LANE_LIMIT_MM
+from garage2usd.stalls import square_capacity
+
+__all__ = ["DeadEnd", "Principles", "dead_ends", "principles"]
+
+_MM_PER_M = 1000
+Square = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class DeadEnd:
+    """An aisle that ends in nothing.
+
+    Attributes
+    ----------
+    tip
+        (row, col) of its last lane.
+    length_m
+        From its end to the next junction or portal.
+    needs_turning_stall
+        Whether it is longer than the standard's 26 m.
+    """
+
+    tip: Square
+    length_m: float
+    needs_turning_stall: bool
+
+
+@dataclass(frozen=True)
+class Principles:
+    """How far a plan follows the principles of parking lot design; shares are from 0 to 1.
+
+    Attributes
+    ----------
+    rectangular_share
+        Use rectangular areas where possible: share of the squares with stalls that stand in a row of two or more.
+    parallel_share
+        Make the long sides of the parking areas parallel: share of the lanes that run in the more frequent of the two
+        directions, of those that run in one.
+    perimeter_share
+        Stalls along the perimeter: share of the squares on the contour, portals apart, that hold stalls.
+    double_loaded_share
+        Lanes that serve two rows of stalls: share of the lanes with stalls on two opposite sides, of those with any.
+    loops
+        Independent circuits of the lane network.
+    dead_ends
+        Aisles that end in nothing.
+    """
+
+    rectangular_share: float
+    parallel_share: float
+    perimeter_share: float
+    double_loaded_share: float
+    loops: int
+    dead_ends: tuple[DeadEnd, ...]
+
+
+def principles(structure: Structure, *, bay: BayConfig) -> Principles:
+    """Measure a complete structure against the paper's four principles."""
+    lane = structure.cells == Cell.LANE
+    served = square_capacity(structure, bay) > 0
+    up, down, left, right = _beside(lane)
+    along_z, along_x = (up | down) & ~(left | right), (left | right) & ~(up | down)
+    stalls = _beside(served)
+    double = (stalls[0] & stalls[1]) | (stalls[2] & stalls[3])
+    loaded = lane & (edge_neighbour_count(served) > 0)
+    inside = structure.cells != Cell.OBSTACLE
+    rim = ((structure.cells == Cell.FREE) | lane) & (edge_neighbour_count(inside) < len(NEIGHBOUR_STEPS))
+    straight = (int((lane & along_x).sum()), int((lane & along_z).sum()))
+    edges = int((lane[:, 1:] & lane[:, :-1]).sum() + (lane[1:] & lane[:-1]).sum())
+    return Principles(
+        rectangular_share=_share(served & (edge_neighbour_count(served) > 0), served),
+        parallel_share=max(straight) / sum(straight) if sum(straight) else 0.0,
+        perimeter_share=_share(rim & served, rim),
+        double_loaded_share=_share(loaded & double, loaded),
+        loops=max(0, edges - int(lane.sum()) + 1) if lane.any() else 0,
+        dead_ends=dead_ends(structure),
+    )
+
+
+def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
+    """All dead ends of a structure in reading order, by walking from each tip to the next junction or portal."""
+    drivable = {(int(row), int(col)) for row, col in np.argwhere(structure.cells >= Cell.LANE)}
+    beside = {
+        square: [other for other in _around(square) if other in drivable] for square in structure.where(Cell.LANE)
+    }
+    found = []
+    for tip, neighbours in beside.items():
+        if len(neighbours) > 1:
+            continue
+        length_mm, previous, square = 0, tip, tip
+        while square in beside and (square == tip or len(beside[square]) == 2):  # noqa: PLR2004 - neither tip nor junction
+            onward = [other for other in beside[square] if other != previous]
+            ahead = onward[0] if onward else previous
+            side = (
+                structure.row_depths_mm[square[0]] if ahead[0] != square[0] else structure.column_widths_mm[square[1]]
+            )
+            length_mm += int(side)
+            if not onward:
+                break
+            previous, square = square, ahead
+        found.append(DeadEnd(tip, length_mm / _MM_PER_M, length_mm > LANE_LIMIT_MM))
+    return tuple(found)
+
+
+def _around(square: Square) -> list[Square]:
+    return [(square[0] + dr, square[1] + dc) for dr, dc in NEIGHBOUR_STEPS]
+
+
+def _beside(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
+    """Which squares have `mask` set above, below, to the left and to the right."""
+    padded = np.pad(mask, 1)
+    return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
+
+
+def _share(part: Mask, whole: Mask) -> float:
+    total = int(whole.sum())
+    return int(part.sum()) / total if total else 0.0
