@@ -133,8 +133,9 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     if plan.climb:
         archive = _climb(board, archive, plan, rng)
-    scored = tuple(ArchivedPlan(site.with_cells(board.cells(site, lanes)), _score(board, lanes)) for lanes in archive)
-    return Plan(scored[0].structure, scored[0].score, scored, curve)
+    scored = [ArchivedPlan(site.with_cells(board.cells(site, lanes)), _score(board, lanes)) for lanes in archive]
+    scored = sorted(scored, key=lambda entry: -entry.score.value)[: plan.archive_size]
+    return Plan(scored[0].structure, scored[0].score, tuple(scored), curve)
 
 
 def _learn(
@@ -215,17 +216,17 @@ def _score(board: _Board, lanes: NDArray[np.bool_]) -> Score:
 def _climb(
     board: _Board, archive: list[NDArray[np.bool_]], plan: PlanConfig, rng: np.random.Generator
 ) -> list[NDArray[np.bool_]]:
-    """Polish the best of the archive; the result keeps the archive's size and order by value."""
+    """Polish the best of the archive; returns the polished plans and those they came from."""
     from garage2usd.planning import kernel  # noqa: PLC0415
 
-    best: dict[bytes, tuple[float, NDArray[np.bool_]]] = {}
+    best: dict[bytes, NDArray[np.bool_]] = {}
     # a pass costs the square of the number of squares
     affordable = max(1, _CLIMB_SQUARES // len(board.squares) ** 2)
     for lanes in archive[: min(plan.climb_top, affordable)]:
         kind = board.kind.copy()
         kind[board.squares[lanes]] = Cell.LANE
         seed = rng.integers(1, 2**63, dtype=np.uint64)
-        value = kernel.climb(
+        kernel.climb(
             kind,
             board.capacity,
             board.stride,
@@ -237,8 +238,7 @@ def _climb(
             _CLIMB_PASSES,
         )
         polished = kind[board.squares] == Cell.LANE
-        best[polished.tobytes()] = (value, polished)
-    ranked = [lanes for _, lanes in sorted(best.values(), key=lambda entry: -entry[0])]
-    known = set(best)
-    rest = [lanes for lanes in archive if lanes.tobytes() not in known]
-    return (ranked + rest)[: plan.archive_size]
+        best[polished.tobytes()] = polished
+    for lanes in archive:
+        best.setdefault(lanes.tobytes(), lanes)
+    return list(best.values())
