@@ -51,6 +51,7 @@ def main() -> None:
 @main.command()
 @click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
 @click.option(
     "--output",
     "-o",
@@ -59,7 +60,7 @@ def main() -> None:
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
 )
-def build(config: Path | None, seed: int | None, output: Path) -> None:
+def build(config: Path | None, seed: int | None, tape: str | None, output: Path) -> None:
     """Build the garage that CONFIG (TOML) describes, or a good default one.
 
     \b
@@ -71,7 +72,7 @@ def build(config: Path | None, seed: int | None, output: Path) -> None:
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
     with _Bars(sys.stderr) as progress:
-        made = build_garage(load_config(config) if config else None, output, seed=seed, progress=progress)
+        made = build_garage(load_config(config) if config else None, output, seed=seed, tape=tape, progress=progress)
     _describe(made)
 
 

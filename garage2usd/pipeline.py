@@ -11,7 +11,7 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.output import check_writable, publish, staging_folder
-from garage2usd.planning import Plan, given_plan, plan_lanes
+from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
@@ -71,7 +71,13 @@ class Build:
     seconds: dict[str, float]
 
 
-def generate(config: GarageConfig | None = None, *, seed: int | None = None, progress: Progress = silent) -> Garage:
+def generate(
+    config: GarageConfig | None = None,
+    *,
+    seed: int | None = None,
+    tape: str | None = None,
+    progress: Progress = silent,
+) -> Garage:
     """Make a garage.
 
     Parameters
@@ -80,6 +86,8 @@ def generate(config: GarageConfig | None = None, *, seed: int | None = None, pro
         Its settings; the default garage if left out.
     seed
         Takes the place of the configuration's seed.
+    tape
+        The tape of a plan, as its report has it: its lanes are made again on the site instead of learnt.
     progress
         Told how far long steps are.
 
@@ -92,7 +100,7 @@ def generate(config: GarageConfig | None = None, *, seed: int | None = None, pro
     UnreachableStallError
         If stalls of a given structure have no route from an entrance and to an exit.
     """
-    return _generate(config, seed=seed, progress=progress)[0]
+    return _generate(config, seed=seed, tape=tape, progress=progress)[0]
 
 
 def build(
@@ -100,13 +108,14 @@ def build(
     output: str | Path = "garage.usdz",
     *,
     seed: int | None = None,
+    tape: str | None = None,
     progress: Progress = silent,
 ) -> Build:
     """Make a garage and write its stage, the picture of its plan and its report.
 
     Parameters
     ----------
-    config, seed, progress
+    config, seed, tape, progress
         As for `generate`.
     output
         The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
@@ -124,7 +133,7 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_writable(path.parent)
-    garage, seconds = _generate(config, seed=seed, progress=progress)
+    garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     with staging_folder() as staging:
         start = time.perf_counter()
         folder = staging / "stage"
@@ -149,7 +158,9 @@ def build(
     return Build(garage, stage, picture, report, asset_folder[0] if asset_folder else None, seconds)
 
 
-def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progress) -> tuple[Garage, dict[str, float]]:
+def _generate(
+    config: GarageConfig | None, *, seed: int | None, tape: str | None, progress: Progress
+) -> tuple[Garage, dict[str, float]]:
     config = config or GarageConfig()
     if seed is not None:
         config = config.with_seed(seed)
@@ -157,7 +168,11 @@ def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progre
     site = make_site(config.site, bay=config.bay, seed=config.seed)
     clock.append(time.perf_counter())
     if (site.cells == Cell.LANE).any():
+        if tape is not None:
+            raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
         plan = given_plan(site, bay=config.bay)
+    elif tape is not None:
+        plan = given_plan(play(site, tape), bay=config.bay)
     else:
         plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
     clock.append(time.perf_counter())

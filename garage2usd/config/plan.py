@@ -23,12 +23,14 @@ class SarsaParameters(NamedTuple):
     interval_penalty: float
     min_run_squares: int
     wheeling_penalty: float
+    served_reward: float
     step_penalty: float
     window_radius_squares: int
     sees_distances: bool
     masks_actions: bool
     archives_prefixes: bool
     max_steps_per_square: int
+    restarts: int
 
 
 _PRESETS = {
@@ -44,31 +46,35 @@ _PRESETS = {
         interval_penalty=1.0,
         min_run_squares=3,
         wheeling_penalty=1.0,
+        served_reward=0.0,
         step_penalty=0.1,
         window_radius_squares=2,
         sees_distances=True,
         masks_actions=False,
         archives_prefixes=False,
         max_steps_per_square=4,
+        restarts=1,
     ),
     "tuned": SarsaParameters(
-        alpha=0.2,
-        gamma=0.9,
+        alpha=0.5,
+        gamma=0.7,
         epsilon_start=1.0,
-        epsilon_min=0.1,
-        epsilon_decay=0.9985,
+        epsilon_min=0.05,
+        epsilon_decay=0.997,
         epsilon_refresh=0.3,
-        patience_episodes=100,
+        patience_episodes=20,
         turn_back_penalty=0.5,
-        interval_penalty=0.2,
-        min_run_squares=3,
-        wheeling_penalty=0.5,
-        step_penalty=0.2,
+        interval_penalty=0.5,
+        min_run_squares=4,
+        wheeling_penalty=2.0,
+        served_reward=0.0,
+        step_penalty=0.1,
         window_radius_squares=1,
         sees_distances=False,
         masks_actions=True,
         archives_prefixes=True,
-        max_steps_per_square=3,
+        max_steps_per_square=2,
+        restarts=1,
     ),
 }
 
@@ -77,8 +83,8 @@ class PlanConfig(Settings):
     """How lanes are planned. A parameter of Sarsa that is left out takes the preset's value."""
 
     preset: Literal["paper", "tuned"] = "tuned"
-    """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares, no bumps, best
-    prefix of every episode kept."""
+    """'paper': state D, 5x5 squares and the last action; bumps end an episode. 'tuned': 3x3 squares and the
+    last action, no bumps, best prefix of every episode kept."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
     """Episodes of learning."""
     archive_size: int = Field(200, ge=1, le=10_000)
@@ -117,6 +123,8 @@ class PlanConfig(Settings):
     """Equal actions in a row after which a turn is free."""
     wheeling_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for each lane that a new lane square runs beside, other than the one it continues."""
+    served_reward: float | None = Field(None, ge=0, le=1000)
+    """Reward for each square that comes to hold stalls, beside the reward for the stalls; the paper has none."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for every action."""
     window_radius_squares: int | None = Field(None, ge=1, le=4)
@@ -129,6 +137,9 @@ class PlanConfig(Settings):
     """Whether the best state on the way is kept, not only the last unfailed one."""
     max_steps_per_square: int | None = Field(None, ge=1, le=100)
     """Actions in an episode, for each free square of the site."""
+
+    restarts: int | None = Field(None, ge=1, le=1000)
+    """How often learning starts anew within its episodes; the archive is kept."""
 
     def resolved(self) -> SarsaParameters:
         """Every parameter with the user's value or the preset's."""

@@ -2,5 +2,17 @@
 
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan, plan_lanes
 from garage2usd.planning.score import Score, evaluate
+from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
-__all__ = ["ArchivedPlan", "Plan", "Score", "evaluate", "given_plan", "plan_lanes"]
+__all__ = [
+    "ArchivedPlan",
+    "Plan",
+    "Score",
+    "evaluate",
+    "given_plan",
+    "plan_lanes",
+    "play",
+    "rank_of",
+    "tape_at",
+    "tape_of",
+]

@@ -163,7 +163,7 @@ def _archive(kind, squares, value, values, layouts, hashes, zobrist, count):
 
 
 @nb.njit(cache=True)
-def _state_key(kind, q, previous, stride, radius, uses_distance, uses_previous):
+def _state_key(kind, q, previous, stride, radius, uses_distance):
     """Hash of what the agent sees: window, distances D, previous action."""
     key = np.uint64(0xCBF29CE484222325)
     prime = np.uint64(0x100000001B3)
@@ -179,8 +179,7 @@ def _state_key(kind, q, previous, stride, radius, uses_distance, uses_previous):
                 p += step
                 far += 1
             key = (key ^ np.uint64(far + 16)) * prime
-    if uses_previous:
-        key = (key ^ np.uint64(previous + 8)) * prime
+    key = (key ^ np.uint64(previous + 8)) * prime
     key ^= key >> np.uint64(29)
     return key | np.uint64(1)
 
@@ -231,6 +230,7 @@ def learn(
     interval,
     min_run,
     wheeling,
+    served_reward,
     step_penalty,
     radius,
     uses_distance,
@@ -274,7 +274,7 @@ def learn(
             total_steps += 1
             # choose
             touched = _untouched(kind, portals, stride) < 0
-            slot = _slot(keys, _state_key(kind, position, previous, stride, radius, uses_distance, not masks_actions))
+            slot = _slot(keys, _state_key(kind, position, previous, stride, radius, uses_distance))
             any_allowed = 0
             for action in range(4):
                 p = position + moves[action]
@@ -320,17 +320,19 @@ def learn(
                     run = run + 1 if previous == action else 1
                     position = p
                     if kind[p] == 0:
-                        before = _capacity(p, kind, capacity, stride)
-                        beside = 0
-                        for step in moves[:4]:
-                            before += _capacity(p + step, kind, capacity, stride)
-                            beside += kind[p + step] == 1
+                        gained, served, beside = 0, 0, 0
+                        for step in moves:
+                            here = _capacity(p + step, kind, capacity, stride)
+                            gained -= here
+                            served -= here > 0
+                            beside += step != 0 and kind[p + step] == 1
                         kind[p] = 1
-                        after = 0
-                        for step in moves[:4]:
-                            after += _capacity(p + step, kind, capacity, stride)
-                        stalls += after - before
-                        reward += after - before
+                        for step in moves:
+                            here = _capacity(p + step, kind, capacity, stride)
+                            gained += here
+                            served += here > 0
+                        stalls += gained
+                        reward += gained + served_reward * served
                         if beside > 1:
                             reward -= wheeling * (beside - 1)
                         if archives_prefixes and stalls >= best_stalls - 2:

@@ -1,6 +1,7 @@
 """A plan: lanes on a site, learnt by Sarsa or given by the user."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from garage2usd.stalls import capacity_table
 __all__ = ["ArchivedPlan", "Plan", "given_plan", "plan_lanes"]
 
 _BLOCKED, _FREE = -1, 0
-_TABLE_BITS = 20
+_TABLE_BITS, _SMALL_TABLE_BITS = 20, 16
 _BATCH_SQUARES = 20_000
 _CLIMB_PASSES = 60
 _CLIMB_SQUARES = 400_000
@@ -147,18 +148,21 @@ def _learn(
     settings = plan.resolved()
     zobrist = rng.integers(1, 2**63, size=len(board.squares), dtype=np.uint64)
     random = rng.integers(1, 2**63, size=1, dtype=np.uint64)
-    schedule = np.array([settings.epsilon_start, 0.0])
-    keys = np.zeros(1 << _TABLE_BITS, dtype=np.uint64)
-    table = np.zeros((1 << _TABLE_BITS, 5), dtype=np.float32)
+    slots = 1 << (_SMALL_TABLE_BITS if settings.window_radius_squares == 1 else _TABLE_BITS)
     values = np.full(plan.archive_size, -np.inf)
     layouts = np.zeros((plan.archive_size, len(board.squares)), dtype=np.bool_)
     hashes = np.zeros(plan.archive_size + 1, dtype=np.uint64)
     curve = np.zeros(plan.episodes)
     batch = max(1, _BATCH_SQUARES // len(board.squares))
     count = 0
-    for first in range(0, plan.episodes, batch):
+    starts = {plan.episodes * index // settings.restarts for index in range(settings.restarts)}
+    bounds = sorted({*range(0, plan.episodes, batch), *starts, plan.episodes})
+    for first, last in pairwise(bounds):
         progress("plan", first, plan.episodes)
-        last = min(first + batch, plan.episodes)
+        if first in starts:
+            schedule = np.array([settings.epsilon_start, 0.0])
+            keys = np.zeros(slots, dtype=np.uint64)
+            table = np.zeros((slots, 5), dtype=np.float32)
         count, _ = kernel.learn(
             board.kind,
             board.capacity,
@@ -189,6 +193,7 @@ def _learn(
             settings.interval_penalty,
             settings.min_run_squares,
             settings.wheeling_penalty,
+            settings.served_reward,
             settings.step_penalty,
             settings.window_radius_squares,
             settings.sees_distances,

@@ -89,6 +89,19 @@ def test_bad_settings_end_in_one_line_and_no_file(tmp_path, config, settings, sa
     assert not (tmp_path / "out").exists()
 
 
+def test_a_tape_rebuilds_the_very_structure(tmp_path, config):
+    run("build", config(QUICK), "--seed", 8, "--output", tmp_path / "a.usdz")
+    first = json.loads((tmp_path / "a_report.json").read_text())
+    learnt_otherwise = config("[plan]\nepisodes = 1\nclimb = false\n")
+    run("build", learnt_otherwise, "--seed", 8, "--tape", first["tape"], "--output", tmp_path / "b.usdz")
+    second = json.loads((tmp_path / "b_report.json").read_text())
+    assert second["structure_digest"] == first["structure_digest"]
+    assert second["rank"] == first["rank"]
+    assert second["score"] == first["score"]
+    assert run("build", config(QUICK), "--tape", "S", "--output", tmp_path / "c.usdz").exit_code == 1
+    assert not (tmp_path / "c.usdz").exists()
+
+
 def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     drawing = '[site]\nstructure = """\nE=X...\n......\n...===\n"""\n'
     result = run("build", config(drawing), "--output", tmp_path / "g.usda")
@@ -124,7 +137,13 @@ def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
     temporary = tmp_path / "tmp"
     temporary.mkdir()
     command = [sys.executable, "-m", "garage2usd", "build", str(path), "--output", str(out / "g.usda")]
-    process = subprocess.Popen(command, env={"TMPDIR": str(temporary), "PATH": "/usr/bin"}, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command,
+        env={"TMPDIR": str(temporary), "PATH": "/usr/bin"},
+        stderr=subprocess.DEVNULL,
+        # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 - the test has one thread
+    )
     time.sleep(2.0)
     assert process.poll() is None
     process.send_signal(deadly)
