@@ -52,6 +52,8 @@ def main() -> None:
 @click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
 @click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
+@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well.")
+@click.option("--best-plans", type=click.IntRange(0, 200), default=0, help="Draw so many of the best plans as well.")
 @click.option(
     "--output",
     "-o",
@@ -60,7 +62,9 @@ def main() -> None:
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
 )
-def build(config: Path | None, seed: int | None, tape: str | None, output: Path) -> None:
+def build(
+    *, config: Path | None, seed: int | None, tape: str | None, learning_curve: bool, best_plans: int, output: Path
+) -> None:
     """Build the garage that CONFIG (TOML) describes, or a good default one.
 
     \b
@@ -72,7 +76,15 @@ def build(config: Path | None, seed: int | None, tape: str | None, output: Path)
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
     with _Bars(sys.stderr) as progress:
-        made = build_garage(load_config(config) if config else None, output, seed=seed, tape=tape, progress=progress)
+        made = build_garage(
+            load_config(config) if config else None,
+            output,
+            seed=seed,
+            tape=tape,
+            learning_curve=learning_curve,
+            best_plans=best_plans,
+            progress=progress,
+        )
     _describe(made)
 
 
@@ -89,7 +101,7 @@ def _describe(made: "Build") -> None:
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
-        ("plan", str(made.picture)),
+        *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]

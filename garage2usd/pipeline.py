@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
+from PIL import Image
+
 from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
@@ -17,7 +19,8 @@ from garage2usd.report import write_report
 from garage2usd.site import make_site
 from garage2usd.stage import StageFormat, write_stage
 from garage2usd.version import VERSION
-from garage2usd.view.plan_picture import write_plan_picture
+from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
+from garage2usd.view.plan_picture import draw_plan
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
@@ -55,8 +58,10 @@ class Build:
     ----------
     garage
         The garage.
-    stage, picture, report
-        The stage, the picture of its plan, and the JSON report.
+    stage, report
+        The stage and the JSON report.
+    pictures
+        The picture of the plan, then the learning curve and the best plans where they were asked for.
     asset_folder
         Folder of the stage's assets; None where the stage holds them itself.
     seconds
@@ -65,8 +70,8 @@ class Build:
 
     garage: Garage
     stage: Path
-    picture: Path
     report: Path
+    pictures: tuple[Path, ...]
     asset_folder: Path | None
     seconds: dict[str, float]
 
@@ -109,6 +114,8 @@ def build(
     *,
     seed: int | None = None,
     tape: str | None = None,
+    learning_curve: bool = False,
+    best_plans: int = 0,
     progress: Progress = silent,
 ) -> Build:
     """Make a garage and write its stage, the picture of its plan and its report.
@@ -120,10 +127,15 @@ def build(
     output
         The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
 
+    learning_curve
+        Whether to draw the return of each episode as well.
+    best_plans
+        How many of the best plans to draw side by side as well.
+
     Raises
     ------
     ConfigError
-        If a setting cannot be used or the extension is unknown.
+        If a setting cannot be used, the extension is unknown, or pictures of learning are asked for without learning.
     GenerationError, UnreachableStallError
         As `generate`.
     OutputError
@@ -141,8 +153,10 @@ def build(
         *assets, stage = write_stage(
             garage.layout, garage.graph, folder / path.name, metadata=_metadata(garage), progress=progress
         )
-        picture = staging / f"{path.stem}_plan.png"
-        write_plan_picture(garage.layout, picture)
+        pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
+        drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
+        for picture, image in zip(drawn, pictures.values(), strict=True):
+            image.save(picture, format="PNG")
         seconds["stage"] = time.perf_counter() - start
         report = staging / f"{path.stem}_report.json"
         write_report(
@@ -154,8 +168,10 @@ def build(
             seconds=seconds,
         )
         # the stage comes last: where it stands, all of it does
-        *asset_folder, picture, report, stage = publish([*assets, picture, report, stage], path.parent)
-    return Build(garage, stage, picture, report, asset_folder[0] if asset_folder else None, seconds)
+        places = publish([*assets, *drawn, report, stage], path.parent)
+    *_, report, stage = places
+    shown = places[len(assets) : len(assets) + len(drawn)]
+    return Build(garage, stage, report, shown, places[0] if assets else None, seconds)
 
 
 def _generate(
@@ -185,6 +201,22 @@ def _generate(
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
+    """The pictures of a build by their name."""
+    plan = garage.plan
+    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
+        if asked and not plan.archive:
+            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
+    pictures = {"plan": draw_plan(garage.layout)}
+    if learning_curve:
+        pictures["learning"] = draw_learning_curve(plan.learning_curve)
+    if best_plans:
+        pictures["best"] = draw_structures(
+            [(entry.structure, entry.score.value) for entry in plan.archive[:best_plans]]
+        )
+    return pictures
 
 
 def _metadata(garage: Garage) -> dict[str, str | int]:

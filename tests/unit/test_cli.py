@@ -89,6 +89,28 @@ def test_bad_settings_end_in_one_line_and_no_file(tmp_path, config, settings, sa
     assert not (tmp_path / "out").exists()
 
 
+def test_learning_is_drawn_on_request(tmp_path, config):
+    out = tmp_path / "out" / "g.usdz"
+    result = run("build", config(QUICK), "--learning-curve", "--best-plans", 6, "--output", out)
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in out.parent.glob("*.png")} == {"g_plan.png", "g_learning.png", "g_best.png"}
+    curve, best = (Image.open(out.parent / f"g_{name}.png").convert("RGB") for name in ("learning", "best"))
+    assert curve.size == (960, 540)
+    assert {colour for _, colour in curve.getcolors(1 << 20)} >= {(176, 52, 40), (170, 190, 214)}
+    report = json.loads((tmp_path / "out" / "g_report.json").read_text())
+    for row, line in enumerate(report["S"]):
+        for col, symbol in enumerate(line):
+            colour = best.getpixel((20 + col * 16 + 8, 20 + 24 + row * 16 + 8))
+            expected = {".": (176, 204, 228), "=": (148, 156, 166), "E": (72, 160, 96), "X": (206, 84, 72)}[symbol]
+            assert colour == expected
+    refused = run(
+        "build", REPOSITORY / "samples" / "hand_drawn.toml", "--learning-curve", "--output", tmp_path / "h.usdz"
+    )
+    assert refused.exit_code == 1
+    assert "learning_curve" in refused.output
+    assert not (tmp_path / "h.usdz").exists()
+
+
 def test_a_tape_rebuilds_the_very_structure(tmp_path, config):
     run("build", config(QUICK), "--seed", 8, "--output", tmp_path / "a.usdz")
     first = json.loads((tmp_path / "a_report.json").read_text())
