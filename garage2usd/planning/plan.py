@@ -45,12 +45,15 @@ class Plan:
         The best distinct plans met while learning, best first; empty for a given structure.
     learning_curve
         float64, shape (episodes,): G, the sum of the rewards of each episode without R_T.
+    steps
+        How many actions were taken while learning.
     """
 
     structure: Structure
     score: Score
     archive: tuple[ArchivedPlan, ...]
     learning_curve: NDArray[np.float64]
+    steps: int = 0
 
 
 def given_plan(structure: Structure, *, bay: BayConfig) -> Plan:
@@ -128,7 +131,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     """
     board = _Board.of(site, bay=bay, plan=plan)
     rng = generator(seed, Step.PLAN)
-    archive, curve = _learn(board, plan, rng, progress)
+    archive, curve, steps = _learn(board, plan, rng, progress)
     if not archive:
         reason = "no lanes join every portal; free squares between the portals are too few"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
@@ -136,14 +139,14 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         archive = _climb(board, archive, plan, rng)
     scored = [ArchivedPlan(site.with_cells(board.cells(site, lanes)), _score(board, lanes)) for lanes in archive]
     scored = sorted(scored, key=lambda entry: -entry.score.value)[: plan.archive_size]
-    return Plan(scored[0].structure, scored[0].score, tuple(scored), curve)
+    return Plan(scored[0].structure, scored[0].score, tuple(scored), curve, steps)
 
 
 def _learn(
     board: _Board, plan: PlanConfig, rng: np.random.Generator, progress: Progress
-) -> tuple[list[NDArray[np.bool_]], NDArray[np.float64]]:
+) -> tuple[list[NDArray[np.bool_]], NDArray[np.float64], int]:
     """Run all episodes in batches, between which progress is told and signals are heard."""
-    from garage2usd.planning import kernel  # noqa: PLC0415 - only planning pays for the compiler
+    from garage2usd.planning.sarsa import learn  # noqa: PLC0415 - only planning pays for the compiler
 
     settings = plan.resolved()
     zobrist = rng.integers(1, 2**63, size=len(board.squares), dtype=np.uint64)
@@ -154,7 +157,7 @@ def _learn(
     hashes = np.zeros(plan.archive_size + 1, dtype=np.uint64)
     curve = np.zeros(plan.episodes)
     batch = max(1, _BATCH_SQUARES // len(board.squares))
-    count = 0
+    count, steps = 0, 0
     starts = {plan.episodes * index // settings.restarts for index in range(settings.restarts)}
     bounds = sorted({*range(0, plan.episodes, batch), *starts, plan.episodes})
     for first, last in pairwise(bounds):
@@ -163,7 +166,7 @@ def _learn(
             schedule = np.array([settings.epsilon_start, 0.0])
             keys = np.zeros(slots, dtype=np.uint64)
             table = np.zeros((slots, 5), dtype=np.float32)
-        count, _ = kernel.learn(
+        count, taken = learn(
             board.kind,
             board.capacity,
             board.stride,
@@ -201,18 +204,19 @@ def _learn(
             settings.archives_prefixes,
             settings.max_steps_per_square * len(board.squares),
         )
-    return [layouts[index] for index in range(count)], curve
+        steps += taken
+    return [layouts[index] for index in range(count)], curve, steps
 
 
 def _score(board: _Board, lanes: NDArray[np.bool_]) -> Score:
     """The compiled score of one layout; `evaluate` gives the same from the structure."""
-    from garage2usd.planning import kernel  # noqa: PLC0415
+    from garage2usd.planning.kernel import value_of  # noqa: PLC0415
 
     kind = board.kind.copy()
     kind[board.squares[lanes]] = Cell.LANE
     distance = np.empty(len(kind), dtype=np.int32)
     queue = np.empty(len(kind), dtype=np.int64)
-    value, stalls, time, unused = kernel.value_of(
+    value, stalls, time, unused = value_of(
         kind, board.capacity, board.stride, board.entrances, board.squares, board.weights, distance, queue
     )
     return Score(float(value), int(stalls), float(time), int(unused))
@@ -222,7 +226,7 @@ def _climb(
     board: _Board, archive: list[NDArray[np.bool_]], plan: PlanConfig, rng: np.random.Generator
 ) -> list[NDArray[np.bool_]]:
     """Polish the best of the archive; returns the polished plans and those they came from."""
-    from garage2usd.planning import kernel  # noqa: PLC0415
+    from garage2usd.planning.climbing import climb  # noqa: PLC0415
 
     best: dict[bytes, NDArray[np.bool_]] = {}
     # a pass costs the square of the number of squares
@@ -231,7 +235,7 @@ def _climb(
         kind = board.kind.copy()
         kind[board.squares[lanes]] = Cell.LANE
         seed = rng.integers(1, 2**63, dtype=np.uint64)
-        kernel.climb(
+        climb(
             kind,
             board.capacity,
             board.stride,
