@@ -92,11 +92,11 @@ def _describe(made: "Build") -> None:
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
-    figures = f"{score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused"
+    figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
-        ("score", f"{score.value:.2f} = {figures}"),
+        ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),

@@ -186,9 +186,9 @@ def _generate(
     if (site.cells == Cell.LANE).any():
         if tape is not None:
             raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
-        plan = given_plan(site, bay=config.bay)
+        plan = given_plan(site, bay=config.bay, plan=config.plan)
     elif tape is not None:
-        plan = given_plan(play(site, tape), bay=config.bay)
+        plan = given_plan(play(site, tape), bay=config.bay, plan=config.plan)
     else:
         plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
     clock.append(time.perf_counter())

@@ -127,7 +127,7 @@ class PlanConfig(Settings):
     """Reward for each square that comes to hold stalls, beside the reward for the stalls; the paper has none."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for every action."""
-    window_radius_squares: int | None = Field(None, ge=1, le=4)
+    window_radius_squares: int | None = Field(None, ge=1, le=2)
     """How far the agent sees: 2 is the paper's 5x5 squares."""
     sees_distances: bool | None = None
     """Whether the state holds D, the distance to the end of the lanes in each direction."""

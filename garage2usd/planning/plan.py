@@ -20,7 +20,7 @@ _BLOCKED, _FREE = -1, 0
 _TABLE_BITS, _SMALL_TABLE_BITS = 20, 16
 _BATCH_SQUARES = 20_000
 _CLIMB_PASSES = 60
-_CLIMB_SQUARES = 400_000
+_CLIMB_SQUARES = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,9 +56,9 @@ class Plan:
     steps: int = 0
 
 
-def given_plan(structure: Structure, *, bay: BayConfig) -> Plan:
-    """Take a complete structure as it is: nothing is learnt."""
-    return Plan(structure, evaluate(structure, bay=bay), (), np.zeros(0))
+def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig) -> Plan:
+    """Take a complete structure as it is: nothing is learnt, `plan` gives the weights of its score."""
+    return Plan(structure, evaluate(structure, bay=bay, plan=plan), (), np.zeros(0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +90,11 @@ class _Board:
             portals=np.flatnonzero((flat == Cell.ENTRANCE) | (flat == Cell.EXIT)),
             weights=np.array([plan.stall_weight, plan.parking_time_weight, plan.unused_weight]),
         )
+
+    def portals_open(self) -> bool:
+        """Whether there is a free square beside every portal."""
+        beside = self.portals[:, None] + np.array([-self.stride, self.stride, -1, 1])
+        return len(self.entrances) > 0 and bool((self.kind[beside] == _FREE).any(axis=1).all())
 
     def cells(self, site: Structure, lanes: NDArray[np.bool_]) -> NDArray[np.int8]:
         """The structure matrix of `site` with lanes on some of `squares`."""
@@ -130,6 +135,8 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     down, left, right, stay. Deviation: the paper words epsilon opposite to its formula; the formula stands.
     """
     board = _Board.of(site, bay=bay, plan=plan)
+    if not board.portals_open():
+        raise GenerationError("plan", "a portal has no free square beside it", seed=seed, attempts=0)
     rng = generator(seed, Step.PLAN)
     archive, curve, steps = _learn(board, plan, rng, progress)
     if not archive:
@@ -230,7 +237,7 @@ def _climb(
 
     best: dict[bytes, NDArray[np.bool_]] = {}
     # a pass costs the square of the number of squares
-    affordable = max(1, _CLIMB_SQUARES // len(board.squares) ** 2)
+    affordable = _CLIMB_SQUARES // len(board.squares) ** 2
     for lanes in archive[: min(plan.climb_top, affordable)]:
         kind = board.kind.copy()
         kind[board.squares[lanes]] = Cell.LANE

@@ -43,7 +43,7 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     assert report["seed"] == 4
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
     assert f"{stalls} of {stalls} stalls, from an entrance and to an exit" in result.output
-    assert f"{report['score']['value']:.2f} = {stalls} stalls" in result.output
+    assert f"{report['score']['value']:.2f} (N_S {stalls}, " in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output

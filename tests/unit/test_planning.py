@@ -181,6 +181,11 @@ def test_a_site_that_no_lane_can_join_is_an_error():
     assert (caught.value.step, caught.value.seed) == ("plan", 9)
 
 
+def test_a_portal_without_a_free_square_beside_it_is_an_error():
+    with pytest.raises(GenerationError):
+        plan_lanes(structure("E#.X\n#...\n...."), plan=PlanConfig(episodes=20), bay=BAY, seed=9)
+
+
 def test_narrow_sites_with_many_portals_are_joined():
     narrow = structure("E......X\n........\nX......E")
     plan = plan_lanes(narrow, plan=PlanConfig(preset="paper", episodes=3), bay=BAY, seed=1)
@@ -188,7 +193,7 @@ def test_narrow_sites_with_many_portals_are_joined():
 
 
 def test_a_given_structure_is_taken_as_it_is():
-    plan = given_plan(structure(COMB), bay=BAY)
+    plan = given_plan(structure(COMB), bay=BAY, plan=PlanConfig())
     assert plan.structure == structure(COMB)
     assert plan.archive == ()
     assert plan.score.stalls == 111
