@@ -162,7 +162,8 @@ def learn(
                 p = position + moves[action]
                 allowed[action] = not masks_actions or kind[p] == 0 or kind[p] == 1
                 any_allowed += allowed[action]
-            allowed[STAY] = not masks_actions or (position == start and touched)
+            # an agent that is walled in can only stay
+            allowed[STAY] = not masks_actions or any_allowed == 0 or (position == start and touched)
             if uniform(random) < epsilon or slot < 0:
                 action = int(uniform(random) * 5)
                 while not allowed[action]:

@@ -175,9 +175,9 @@ def test_climbing_never_loses():
 
 
 def test_a_site_that_no_lane_can_join_is_an_error():
-    split = structure("E.#.X\n..#..")
-    with pytest.raises(GenerationError) as caught:
-        plan_lanes(split, plan=PlanConfig(episodes=20), bay=BAY, seed=9)
+    for split in ("E.#.X\n..#..", "E.#.X\n####."):
+        with pytest.raises(GenerationError) as caught:
+            plan_lanes(structure(split), plan=PlanConfig(episodes=20), bay=BAY, seed=9)
     assert (caught.value.step, caught.value.seed) == ("plan", 9)
 
 
