@@ -117,7 +117,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     seed
         Seed of the step.
     progress
-        Told when learning starts and ends.
+        Told of the episodes done.
 
     Returns
     -------

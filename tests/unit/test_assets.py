@@ -10,6 +10,7 @@ from garage2usd.assets import MATERIALS, Collider, Marking, texture_folder
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
+from garage2usd.stage.garage_layer import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
 PANEL = {
@@ -196,7 +197,8 @@ def test_colliders_are_on_what_can_be_touched():
 
 def test_every_spec_of_a_garage_has_an_asset():
     layout = generate(seed=3).layout
-    for spec in {place.spec for place in layout.placements}:
-        assert asset_of(spec).parts
-        assert asset_of(spec) is asset_of(spec)
+    for place in layout.placements:
+        assert asset_of(place.spec).parts
+        assert asset_of(place.spec) is asset_of(place.spec)
+        assert asset_of(place.spec).label == OBJECT_LABELS[place.kind]
     assert any(isinstance(place.spec, s.CarSpec) for place in layout.placements)
