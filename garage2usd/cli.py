@@ -89,6 +89,8 @@ def build(
 
 
 def _describe(made: "Build") -> None:
+    from garage2usd.planning import area_per_stall_m2  # noqa: PLC0415 - keeps --help instant
+
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
@@ -96,6 +98,7 @@ def _describe(made: "Build") -> None:
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
+        ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),

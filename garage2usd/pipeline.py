@@ -1,7 +1,7 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.output import check_writable, publish, staging_folder
-from garage2usd.planning import Plan, given_plan, plan_lanes, play
+from garage2usd.planning import Plan, dimension, evaluate, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
@@ -191,6 +191,8 @@ def _generate(
         plan = given_plan(play(site, tape), bay=config.bay, plan=config.plan)
     else:
         plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
+    if config.bay.dimensioned:
+        plan = _dimensioned(plan, config)
     clock.append(time.perf_counter())
     graph = build_lane_graph(plan.structure, config.bay)
     if not graph.stall_rows:
@@ -201,6 +203,18 @@ def _generate(
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
+    """The plan with R and C chosen, each where the user gave none; its archive keeps the sizes it was learnt with."""
+    given = config.bay.model_fields_set
+    structure = dimension(
+        plan.structure,
+        bay=config.bay,
+        rows="row_depths_m" not in given,
+        columns="column_widths_m" not in given,
+    )
+    return replace(plan, structure=structure, score=evaluate(structure, bay=config.bay, plan=config.plan))
 
 
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:

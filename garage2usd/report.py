@@ -9,7 +9,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.planning import Plan, rank_of, tape_of
+from garage2usd.planning import Plan, area_per_stall_m2, rank_of, tape_of
 from garage2usd.version import VERSION
 
 __all__ = ["write_report"]
@@ -52,6 +52,7 @@ def write_report(
             "parking_time_squares": score.parking_time_squares,
             "unused_squares": score.unused_squares,
         },
+        "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
         "reachable_stalls": len(layout.stalls),
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),

@@ -1,5 +1,6 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
+from garage2usd.planning.dimensioning import area_per_stall_m2, dimension
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan, plan_lanes
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
@@ -8,6 +9,8 @@ __all__ = [
     "ArchivedPlan",
     "Plan",
     "Score",
+    "area_per_stall_m2",
+    "dimension",
     "evaluate",
     "given_plan",
     "plan_lanes",
