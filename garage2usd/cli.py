@@ -51,6 +51,9 @@ def main() -> None:
 @main.command()
 @click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
+@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well.")
+@click.option("--best-plans", type=click.IntRange(0, 200), default=0, help="Draw so many of the best plans as well.")
 @click.option(
     "--output",
     "-o",
@@ -59,7 +62,9 @@ def main() -> None:
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
 )
-def build(config: Path | None, seed: int | None, output: Path) -> None:
+def build(
+    *, config: Path | None, seed: int | None, tape: str | None, learning_curve: bool, best_plans: int, output: Path
+) -> None:
     """Build the garage that CONFIG (TOML) describes, or a good default one.
 
     \b
@@ -71,24 +76,35 @@ def build(config: Path | None, seed: int | None, output: Path) -> None:
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
     with _Bars(sys.stderr) as progress:
-        made = build_garage(load_config(config) if config else None, output, seed=seed, progress=progress)
+        made = build_garage(
+            load_config(config) if config else None,
+            output,
+            seed=seed,
+            tape=tape,
+            learning_curve=learning_curve,
+            best_plans=best_plans,
+            progress=progress,
+        )
     _describe(made)
 
 
 def _describe(made: "Build") -> None:
+    from garage2usd.planning import area_per_stall_m2  # noqa: PLC0415 - keeps --help instant
+
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
-    figures = f"{score.stalls} stalls - 5 x {score.parking_time_squares:.2f} squares - {score.unused_squares} unused"
+    figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
-        ("score", f"{score.value:.2f} = {figures}"),
+        ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
+        ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
-        ("plan", str(made.picture)),
+        *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]

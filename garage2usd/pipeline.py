@@ -1,9 +1,11 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+
+from PIL import Image
 
 from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
@@ -11,13 +13,14 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.output import check_writable, publish, staging_folder
-from garage2usd.planning import Plan, given_plan, plan_lanes
+from garage2usd.planning import Plan, dimension, evaluate, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
 from garage2usd.stage import StageFormat, write_stage
 from garage2usd.version import VERSION
-from garage2usd.view.plan_picture import write_plan_picture
+from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
+from garage2usd.view.plan_picture import draw_plan
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
@@ -55,8 +58,10 @@ class Build:
     ----------
     garage
         The garage.
-    stage, picture, report
-        The stage, the picture of its plan, and the JSON report.
+    stage, report
+        The stage and the JSON report.
+    pictures
+        The picture of the plan, then the learning curve and the best plans where they were asked for.
     asset_folder
         Folder of the stage's assets; None where the stage holds them itself.
     seconds
@@ -65,13 +70,19 @@ class Build:
 
     garage: Garage
     stage: Path
-    picture: Path
     report: Path
+    pictures: tuple[Path, ...]
     asset_folder: Path | None
     seconds: dict[str, float]
 
 
-def generate(config: GarageConfig | None = None, *, seed: int | None = None, progress: Progress = silent) -> Garage:
+def generate(
+    config: GarageConfig | None = None,
+    *,
+    seed: int | None = None,
+    tape: str | None = None,
+    progress: Progress = silent,
+) -> Garage:
     """Make a garage.
 
     Parameters
@@ -80,6 +91,8 @@ def generate(config: GarageConfig | None = None, *, seed: int | None = None, pro
         Its settings; the default garage if left out.
     seed
         Takes the place of the configuration's seed.
+    tape
+        The tape of a plan, as its report has it: its lanes are made again on the site instead of learnt.
     progress
         Told how far long steps are.
 
@@ -92,7 +105,7 @@ def generate(config: GarageConfig | None = None, *, seed: int | None = None, pro
     UnreachableStallError
         If stalls of a given structure have no route from an entrance and to an exit.
     """
-    return _generate(config, seed=seed, progress=progress)[0]
+    return _generate(config, seed=seed, tape=tape, progress=progress)[0]
 
 
 def build(
@@ -100,21 +113,29 @@ def build(
     output: str | Path = "garage.usdz",
     *,
     seed: int | None = None,
+    tape: str | None = None,
+    learning_curve: bool = False,
+    best_plans: int = 0,
     progress: Progress = silent,
 ) -> Build:
     """Make a garage and write its stage, the picture of its plan and its report.
 
     Parameters
     ----------
-    config, seed, progress
+    config, seed, tape, progress
         As for `generate`.
     output
         The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
 
+    learning_curve
+        Whether to draw the return of each episode as well.
+    best_plans
+        How many of the best plans to draw side by side as well.
+
     Raises
     ------
     ConfigError
-        If a setting cannot be used or the extension is unknown.
+        If a setting cannot be used, the extension is unknown, or pictures of learning are asked for without learning.
     GenerationError, UnreachableStallError
         As `generate`.
     OutputError
@@ -124,7 +145,7 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_writable(path.parent)
-    garage, seconds = _generate(config, seed=seed, progress=progress)
+    garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     with staging_folder() as staging:
         start = time.perf_counter()
         folder = staging / "stage"
@@ -132,8 +153,10 @@ def build(
         *assets, stage = write_stage(
             garage.layout, garage.graph, folder / path.name, metadata=_metadata(garage), progress=progress
         )
-        picture = staging / f"{path.stem}_plan.png"
-        write_plan_picture(garage.layout, picture)
+        pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
+        drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
+        for picture, image in zip(drawn, pictures.values(), strict=True):
+            image.save(picture, format="PNG")
         seconds["stage"] = time.perf_counter() - start
         report = staging / f"{path.stem}_report.json"
         write_report(
@@ -145,11 +168,15 @@ def build(
             seconds=seconds,
         )
         # the stage comes last: where it stands, all of it does
-        *asset_folder, picture, report, stage = publish([*assets, picture, report, stage], path.parent)
-    return Build(garage, stage, picture, report, asset_folder[0] if asset_folder else None, seconds)
+        places = publish([*assets, *drawn, report, stage], path.parent)
+    *_, report, stage = places
+    shown = places[len(assets) : len(assets) + len(drawn)]
+    return Build(garage, stage, report, shown, places[0] if assets else None, seconds)
 
 
-def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progress) -> tuple[Garage, dict[str, float]]:
+def _generate(
+    config: GarageConfig | None, *, seed: int | None, tape: str | None, progress: Progress
+) -> tuple[Garage, dict[str, float]]:
     config = config or GarageConfig()
     if seed is not None:
         config = config.with_seed(seed)
@@ -157,9 +184,15 @@ def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progre
     site = make_site(config.site, bay=config.bay, seed=config.seed)
     clock.append(time.perf_counter())
     if (site.cells == Cell.LANE).any():
-        plan = given_plan(site, bay=config.bay)
+        if tape is not None:
+            raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
+        plan = given_plan(site, bay=config.bay, plan=config.plan)
+    elif tape is not None:
+        plan = given_plan(play(site, tape), bay=config.bay, plan=config.plan)
     else:
         plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
+    if config.bay.dimensioned:
+        plan = _dimensioned(plan, config)
     clock.append(time.perf_counter())
     graph = build_lane_graph(plan.structure, config.bay)
     if not graph.stall_rows:
@@ -170,6 +203,34 @@ def _generate(config: GarageConfig | None, *, seed: int | None, progress: Progre
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
+    """The plan with R and C chosen, each where the user gave none; its archive keeps the sizes it was learnt with."""
+    given = config.bay.model_fields_set
+    structure = dimension(
+        plan.structure,
+        bay=config.bay,
+        rows="row_depths_m" not in given,
+        columns="column_widths_m" not in given,
+    )
+    return replace(plan, structure=structure, score=evaluate(structure, bay=config.bay, plan=config.plan))
+
+
+def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
+    """The pictures of a build by their name."""
+    plan = garage.plan
+    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
+        if asked and not plan.archive:
+            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
+    pictures = {"plan": draw_plan(garage.layout)}
+    if learning_curve:
+        pictures["learning"] = draw_learning_curve(plan.learning_curve)
+    if best_plans:
+        pictures["best"] = draw_structures(
+            [(entry.structure, entry.score.value) for entry in plan.archive[:best_plans]]
+        )
+    return pictures
 
 
 def _metadata(garage: Garage) -> dict[str, str | int]:

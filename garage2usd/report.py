@@ -5,9 +5,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from garage2usd.config import GarageConfig
+from garage2usd.errors import ConfigError
+from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.planning import Plan
+from garage2usd.planning import Plan, area_per_stall_m2, rank_of, tape_of
 from garage2usd.version import VERSION
 
 __all__ = ["write_report"]
@@ -26,17 +28,21 @@ def write_report(
 
     Notes
     -----
-    ``S`` is a list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row,
-    stall centres are (x, z) in metres.
+    ``tape`` and ``rank`` are null where no single agent makes the lanes (see `garage2usd.planning.tape`); the rank is a
+    decimal number of any length. ``S`` is a list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are
+    metres by column and by row, stall centres are (x, z) in metres.
     """
     structure = plan.structure
     score = plan.score
+    tape = _tape(structure)
     document = {
         "version": VERSION,
         "seed": config.seed,
         "config_digest": config.digest(),
         "structure_digest": structure.digest(),
         "config": config.model_dump(mode="json"),
+        "tape": tape,
+        "rank": None if tape is None else str(rank_of(tape)),
         "S": str(structure).splitlines(),
         "R": structure.R[0].tolist(),
         "C": structure.C[:, 0].tolist(),
@@ -46,6 +52,7 @@ def write_report(
             "parking_time_squares": score.parking_time_squares,
             "unused_squares": score.unused_squares,
         },
+        "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
         "reachable_stalls": len(layout.stalls),
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),
@@ -66,3 +73,10 @@ def write_report(
         "seconds": {step: round(value, 4) for step, value in seconds.items()},
     }
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+def _tape(structure: Structure) -> str | None:
+    try:
+        return tape_of(structure)
+    except ConfigError:  # lanes drawn by hand in several pieces
+        return None

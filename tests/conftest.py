@@ -8,7 +8,7 @@ import garage2usd
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(item, call):  # noqa: ARG001 - pytest's own signature
+def pytest_runtest_makereport(item, call):
     report = yield
     if os.environ.get("CI") and report.skipped and not hasattr(report, "wasxfail"):
         report.outcome = "failed"

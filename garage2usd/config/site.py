@@ -13,6 +13,7 @@ __all__ = ["BayConfig", "SiteConfig"]
 SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
 
 MAX_SQUARES = 250_000
+CARRIAGEWAY_MARGIN_M = 0.05
 
 
 def _drawing(value: object) -> object:
@@ -95,3 +96,13 @@ class BayConfig(Settings):
     """Length of one stall from its mouth to its wheel stop's wall."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
+    dimensioned: bool = False
+    """Whether R and C are chosen for the finished plan, each where it is not given: aisles of `aisle_width_m`, stalls
+    that just fit, least floor a stall."""
+    aisle_width_m: float = Field(6.0, ge=5, le=12)
+    """Clear width of the aisles between columns where R and C are chosen."""
+
+    @property
+    def carriageway_setback_m(self) -> float:
+        """How far the carriageway stays from squares that are no lane: half a column and a margin."""
+        return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M

@@ -24,7 +24,6 @@ from garage2usd.stalls import Edge, StallRow
 __all__ = ["Tile", "TileGrid", "ceiling_panel", "floor_panel", "lane_edges", "stall_rectangle"]
 
 CEILING_THICKNESS_M = 0.25
-_CARRIAGEWAY_MARGIN_M = 0.05
 _OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
 _SIDES = {Edge.UP: (Edge.LEFT, Edge.RIGHT), Edge.LEFT: (Edge.UP, Edge.DOWN)}
 _SIDES |= {Edge.DOWN: _SIDES[Edge.UP], Edge.RIGHT: _SIDES[Edge.LEFT]}
@@ -86,8 +85,7 @@ class TileGrid:
     def __init__(self, structure: Structure, graph: LaneGraph, bay: BayConfig) -> None:
         """Place every square of `structure` and look at what surrounds it."""
         self.structure = structure
-        self.setback_m = bay.column_size_m / 2 + _CARRIAGEWAY_MARGIN_M
-        """How far the carriageway stays from squares that are no lane: half a column and a margin."""
+        self.setback_m = bay.carriageway_setback_m
         self.rows_by_square: dict[Square, list[StallRow]] = {}
         for row in graph.stall_rows:
             self.rows_by_square.setdefault((row.row, row.col), []).append(row)

@@ -1,18 +1,26 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
+from garage2usd.planning.dimensioning import area_per_stall_m2, dimension
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
 from garage2usd.planning.score import Score, evaluate, is_feasible
+from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
 __all__ = [
     "ArchivedPlan",
     "Plan",
     "Principles",
     "Score",
+    "area_per_stall_m2",
+    "dimension",
     "evaluate",
     "given_plan",
     "is_feasible",
     "plan_lanes",
+    "play",
     "principles",
+    "rank_of",
+    "tape_at",
+    "tape_of",
 ]

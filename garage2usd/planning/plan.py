@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.config import BayConfig
+from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.grid import Structure
 from garage2usd.planning.score import Score, evaluate
 
@@ -54,7 +54,7 @@ class Plan:
         object.__setattr__(self, "learning_curve", curve)
 
 
-def given_plan(structure: Structure, *, bay: BayConfig) -> Plan:
-    """Take a complete structure as it is: nothing is learnt."""
-    score = evaluate(structure, bay=bay)
+def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Plan:
+    """Take a complete structure as it is: nothing is learnt, `plan` gives the weights of its score."""
+    score = evaluate(structure, bay=bay, plan=plan)
     return Plan(structure, score, learnt_value=score.value)

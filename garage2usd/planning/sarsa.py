@@ -190,7 +190,7 @@ def learn(
                 run = run + 1 if action == previous else 1
                 previous = action
         best_value, best_lanes, best_step = NO_VALUE, 0, 0
-        earned, reward = 0.0, 0.0
+        earned, reward = float(board.tally[0]), 0.0
         row, action, old_row, old_action = -1, STAY, -1, STAY
         done = False
         while step < max_steps and not done:

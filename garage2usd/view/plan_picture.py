@@ -1,7 +1,6 @@
 """The plan from above as a PNG: every square by its kind, every stall, column and parked car, and a legend."""
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
@@ -9,7 +8,7 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.layout import Layout, ObjectKind, Placement
 from garage2usd.layout.specs import ColumnSpec
 
-__all__ = ["draw_plan", "write_plan_picture"]
+__all__ = ["draw_plan"]
 
 _MAX_SIDE_PX = 2400
 _MAX_PX_PER_M = 20.0
@@ -27,11 +26,6 @@ _CELL_COLOUR = {
 _STALL_COLOUR = (176, 204, 228)
 _OCCUPIED_COLOUR = (58, 92, 140)
 _Pixel = Callable[[float, float], tuple[float, float]]
-
-
-def write_plan_picture(layout: Layout, path: Path) -> None:
-    """Write `draw_plan` as a PNG."""
-    draw_plan(layout).save(path, format="PNG", optimize=False)
 
 
 def draw_plan(layout: Layout) -> Image.Image:

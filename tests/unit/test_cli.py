@@ -43,7 +43,7 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     assert report["seed"] == 4
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
     assert f"{stalls} of {stalls} stalls, from an entrance and to an exit" in result.output
-    assert f"{report['score']['value']:.2f} = {stalls} stalls" in result.output
+    assert f"{report['score']['value']:.2f} (N_S {stalls}, " in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output
@@ -89,6 +89,41 @@ def test_bad_settings_end_in_one_line_and_no_file(tmp_path, config, settings, sa
     assert not (tmp_path / "out").exists()
 
 
+def test_learning_is_drawn_on_request(tmp_path, config):
+    out = tmp_path / "out" / "g.usdz"
+    result = run("build", config(QUICK), "--learning-curve", "--best-plans", 6, "--output", out)
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in out.parent.glob("*.png")} == {"g_plan.png", "g_learning.png", "g_best.png"}
+    curve, best = (Image.open(out.parent / f"g_{name}.png").convert("RGB") for name in ("learning", "best"))
+    assert curve.size == (960, 540)
+    assert {colour for _, colour in curve.getcolors(1 << 20)} >= {(176, 52, 40), (170, 190, 214)}
+    report = json.loads((tmp_path / "out" / "g_report.json").read_text())
+    for row, line in enumerate(report["S"]):
+        for col, symbol in enumerate(line):
+            colour = best.getpixel((20 + col * 16 + 8, 20 + 24 + row * 16 + 8))
+            expected = {".": (176, 204, 228), "=": (148, 156, 166), "E": (72, 160, 96), "X": (206, 84, 72)}[symbol]
+            assert colour == expected
+    refused = run(
+        "build", REPOSITORY / "samples" / "hand_drawn.toml", "--learning-curve", "--output", tmp_path / "h.usdz"
+    )
+    assert refused.exit_code == 1
+    assert "learning_curve" in refused.output
+    assert not (tmp_path / "h.usdz").exists()
+
+
+def test_a_tape_rebuilds_the_very_structure(tmp_path, config):
+    run("build", config(QUICK), "--seed", 8, "--output", tmp_path / "a.usdz")
+    first = json.loads((tmp_path / "a_report.json").read_text())
+    learnt_otherwise = config("[plan]\nepisodes = 1\nclimb = false\n")
+    run("build", learnt_otherwise, "--seed", 8, "--tape", first["tape"], "--output", tmp_path / "b.usdz")
+    second = json.loads((tmp_path / "b_report.json").read_text())
+    assert second["structure_digest"] == first["structure_digest"]
+    assert second["rank"] == first["rank"]
+    assert second["score"] == first["score"]
+    assert run("build", config(QUICK), "--tape", "S", "--output", tmp_path / "c.usdz").exit_code == 1
+    assert not (tmp_path / "c.usdz").exists()
+
+
 def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     drawing = '[site]\nstructure = """\nE=X...\n......\n...===\n"""\n'
     result = run("build", config(drawing), "--output", tmp_path / "g.usda")
@@ -124,7 +159,13 @@ def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
     temporary = tmp_path / "tmp"
     temporary.mkdir()
     command = [sys.executable, "-m", "garage2usd", "build", str(path), "--output", str(out / "g.usda")]
-    process = subprocess.Popen(command, env={"TMPDIR": str(temporary), "PATH": "/usr/bin"}, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command,
+        env={"TMPDIR": str(temporary), "PATH": "/usr/bin"},
+        stderr=subprocess.DEVNULL,
+        # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 - the test has one thread
+    )
     time.sleep(2.0)
     assert process.poll() is None
     process.send_signal(deadly)

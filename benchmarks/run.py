@@ -1,0 +1,134 @@
+"""Measure building and planning, and write the table ``benchmarks/results.md``.
+
+Usage: python benchmarks/run.py
+
+Every figure is measured in this run; where two are compared, they are measured in turns and given as a ratio too.
+"""
+
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import garage2usd
+from garage2usd.config import BayConfig, GarageConfig, PlanConfig
+from garage2usd.planning import plan_lanes
+from garage2usd.site import make_site
+
+HERE = Path(__file__).parent
+GATES = {"G1": ((6, 2), (6, 6)), "G2": ((6, 4), (0, 4)), "G3": ((3, 0), (3, 8))}
+SEEDS = 10
+ROUNDS = 5
+PYTHON_EPISODES = 40
+
+
+def main() -> None:
+    """Run everything and write the table."""
+    sections = [_heading(), _building(), _planning(), _compiled()]
+    (HERE / "results.md").write_text("\n\n".join(sections) + "\n")
+
+
+def _heading() -> str:
+    machine = f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
+    return f"# Benchmarks\n\nWritten by `python benchmarks/run.py` for garage2usd on {machine}."
+
+
+def _building() -> str:
+    """Seconds of a warm build of each sample, and of a fresh process."""
+    rows = ["## Building", "", "| sample | stalls | site | plan | layout | stage | total, median of 5 warm builds |"]
+    rows.append("|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for sample in sorted((HERE.parent / "samples").glob("*.toml")):
+            config = garage2usd.load_config(sample)
+            output = Path(folder) / "garage.usdz"
+            garage2usd.build(config, output)
+            builds = [garage2usd.build(config, output) for _ in range(ROUNDS)]
+            steps = {step: statistics.median(b.seconds[step] for b in builds) for step in builds[0].seconds}
+            total = statistics.median(sum(b.seconds.values()) for b in builds)
+            figures = " | ".join(f"{value:.3f} s" for value in steps.values())
+            rows.append(f"| {sample.stem} | {len(builds[0].garage.layout.stalls)} | {figures} | {total:.2f} s |")
+    imports = [_seconds_of("import garage2usd") - _seconds_of("pass") for _ in range(ROUNDS)]
+    rows += [
+        "",
+        f"`import garage2usd` on top of starting Python: {statistics.median(imports):.3f} s, median of {ROUNDS}.",
+    ]
+    return "\n".join(rows)
+
+
+def _planning() -> str:
+    """Give y' over seeds for each gate and preset, beside a policy that never learns."""
+    rows = [
+        "## Planning 7x9, 5000 episodes",
+        "",
+        f"y' mean / min over {SEEDS} seeds, distinct best plans, mean seconds.",
+        "",
+    ]
+    rows.append("| gate | no learning, masked | `paper` | `tuned` | `tuned` + climb | no learning + climb |")
+    rows.append("|---|---|---|---|---|---|")
+    random = {"epsilon_start": 1.0, "epsilon_min": 1.0, "epsilon_decay": 1.0, "epsilon_refresh": 1.0}
+    plans = [
+        PlanConfig(climb=False, **random),
+        PlanConfig(preset="paper", climb=False),
+        PlanConfig(climb=False),
+        PlanConfig(),
+        PlanConfig(**random),
+    ]
+    for gate, (entrance, exit_) in GATES.items():
+        cells = []
+        for plan in plans:
+            config = GarageConfig(site={"entrance_cells": [entrance], "exit_cells": [exit_]}, plan=plan)
+            site = make_site(config.site, bay=BayConfig(), seed=0)
+            start = time.perf_counter()
+            made = [plan_lanes(site, plan=plan, bay=BayConfig(), seed=seed) for seed in range(SEEDS)]
+            seconds = (time.perf_counter() - start) / SEEDS
+            values = [p.score.value for p in made]
+            distinct = len({p.structure.digest() for p in made})
+            cells.append(f"{statistics.mean(values):.2f} / {min(values):.2f}, {distinct} distinct, {seconds:.2f} s")
+        rows.append(f"| {gate} | {' | '.join(cells)} |")
+    return "\n".join(rows)
+
+
+def _compiled() -> str:
+    """Steps per second of the compiled planner over the same code run by Python itself."""
+    pairs = [(_steps_per_second(compiled=True), _steps_per_second(compiled=False)) for _ in range(3)]
+    ratio = statistics.median(fast / slow for fast, slow in pairs)
+    fast, slow = (statistics.median(rates) for rates in zip(*pairs, strict=True))
+    rows = ["## Compiled against pure Python", "", "| code | actions/s on 7x9, `paper` | ratio |", "|---|---|---|"]
+    rows += [f"| numba | {fast:,.0f} | {ratio:.0f} |", f"| the same, `NUMBA_DISABLE_JIT=1` | {slow:,.0f} | 1 |"]
+    return "\n".join(rows)
+
+
+def _steps_per_second(*, compiled: bool) -> float:
+    episodes = 5000 if compiled else PYTHON_EPISODES
+    code = f"""
+import json, time
+from garage2usd.config import BayConfig, PlanConfig, SiteConfig
+from garage2usd.planning import plan_lanes
+from garage2usd.site import make_site
+site = make_site(SiteConfig(entrance_cells=((6, 2),), exit_cells=((6, 6),)), bay=BayConfig(), seed=0)
+def run(episodes):
+    plan = PlanConfig(preset="paper", climb=False, archive_size=10, episodes=episodes)
+    return plan_lanes(site, plan=plan, bay=BayConfig(), seed=1).steps
+run(5)
+start = time.perf_counter()
+steps = run({episodes})
+print(json.dumps(steps / (time.perf_counter() - start)))
+"""
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "0" if compiled else "1"}
+    run = subprocess.run([sys.executable, "-W", "ignore", "-c", code], env=environment, check=True, capture_output=True)  # noqa: S603
+    return float(json.loads(run.stdout))
+
+
+def _seconds_of(code: str) -> float:
+    start = time.perf_counter()
+    subprocess.run([sys.executable, "-c", code], check=True)  # noqa: S603
+    return time.perf_counter() - start
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""200 random seeds over sizes 7x9 to 20x30: every garage builds, and every stall is reached."""
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from garage2usd.config import GarageConfig
+from garage2usd.grid import Cell
+from garage2usd.pipeline import generate
+
+
+def settings(seed):
+    rng = np.random.default_rng(seed)
+
+    def draw(low, high):
+        return int(rng.integers(low, high + 1))
+
+    portals = draw(1, 2)
+    return {
+        "seed": seed,
+        "site": {
+            "height_cells": draw(7, 20),
+            "width_cells": draw(9, 30),
+            "rectangles": draw(0, 7),
+            "entrances": portals,
+            "exits": draw(1, 2),
+            "obstacles": draw(0, 2),
+        },
+        "bay": {"column_widths_m": float(rng.uniform(5.5, 8.5)), "row_depths_m": float(rng.uniform(5.5, 8.5))},
+        "plan": {"preset": "paper" if seed % 4 == 0 else "tuned", "episodes": 300},
+        "parking": {"occupancy": float(rng.uniform(0, 1)), "max_yaw_deg": 5.0},
+    }
+
+
+def reached(cells, kind):
+    """Lane squares joined to a portal of a kind over lanes: an independent breadth-first search."""
+    grid = nx.grid_2d_graph(*cells.shape)
+    lanes = grid.subgraph([square for square in grid if cells[square] == Cell.LANE])
+    found = set()
+    for portal in map(tuple, np.argwhere(cells == kind).tolist()):
+        for lane in grid[portal]:
+            if cells[lane] == Cell.LANE:
+                found |= nx.node_connected_component(lanes, lane)
+    return found
+
+
+@pytest.mark.parametrize("block", range(20))
+def test_every_seed_builds_and_every_stall_is_reached(block):
+    for seed in range(10 * block, 10 * block + 10):
+        garage = generate(GarageConfig(**settings(seed)))
+        cells = garage.plan.structure.cells
+        both = reached(cells, Cell.ENTRANCE) & reached(cells, Cell.EXIT)
+        assert garage.layout.stalls
+        assert {stall.access_square for stall in garage.layout.stalls} <= both
+        assert len(garage.layout.stalls) == garage.plan.score.stalls
+        for portal in np.argwhere(cells >= Cell.ENTRANCE):
+            row, col = portal.tolist()
+            around = [(row - 1, col), (row + 1, col), (row, col - 1), (row, col + 1)]
+            assert any(square in both for square in around)

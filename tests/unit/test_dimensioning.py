@@ -1,0 +1,81 @@
+import numpy as np
+import pytest
+
+from garage2usd.config import BayConfig, GarageConfig
+from garage2usd.grid import Cell, Structure, cells_from_text
+from garage2usd.pipeline import generate
+from garage2usd.planning import area_per_stall_m2, dimension
+from garage2usd.stalls import square_capacity
+
+BAY = BayConfig()
+LADDER = """
+.........
+E=======X
+.=.......
+.=.......
+.=======.
+.=.....=.
+"""
+
+
+def structure(text, R=8.1, C=8.1):
+    return Structure.from_arrays(cells_from_text(text, field="S"), R, C)
+
+
+def test_area_per_stall_by_hand():
+    plan = structure("E=X\n...", [5.4, 8.1, 5.4], [6.7, 5.3])
+    assert square_capacity(plan, BAY).sum() == 3
+    assert area_per_stall_m2(plan, BAY) == pytest.approx((5.4 + 8.1 + 5.4) * (6.7 + 5.3) / 3)
+    assert area_per_stall_m2(structure("E=X\n###"), BAY) == float("inf")
+
+
+def test_aisles_are_as_wide_as_asked_and_stalls_just_fit():
+    sized = dimension(structure(LADDER), bay=BAY)
+    depths = sized.row_depths_mm.tolist()
+    assert depths[1] == depths[4] == 6700  # 6 m between columns of 0.6 m with a margin of 0.05 m on both sides
+    assert {depths[0], depths[2], depths[3]} <= {5300, 5400}
+    widths = sized.column_widths_mm.tolist()
+    assert widths[1] == widths[7] == 6700
+    assert set(widths[2:7]) <= {5400, 7800}
+    assert area_per_stall_m2(sized, BAY) < 0.8 * area_per_stall_m2(structure(LADDER), BAY)
+    assert (sized.cells == structure(LADDER).cells).all()
+
+
+def test_no_single_line_can_be_chosen_better():
+    sized = dimension(structure(LADDER), bay=BAY)
+    best = area_per_stall_m2(sized, BAY)
+    aisle_rows, aisle_columns = {1, 4}, {1, 7}
+    for axis, sizes in enumerate((sized.row_depths_mm, sized.column_widths_mm)):
+        for line in set(range(len(sizes))) - (aisle_rows, aisle_columns)[axis]:
+            for size in (5300, 5400, 7800):
+                changed = [sized.row_depths_mm.copy(), sized.column_widths_mm.copy()]
+                changed[axis][line] = size
+                other = Structure(sized.cells, changed[1], changed[0])
+                assert area_per_stall_m2(other, BAY) >= best - 1e-9
+
+
+def test_what_the_user_gives_is_kept():
+    config = GarageConfig(site={"structure": LADDER}, bay={"dimensioned": True, "column_widths_m": 8.0})
+    sized = generate(config).plan.structure
+    assert set(sized.column_widths_mm.tolist()) == {8000}
+    assert sized.row_depths_mm[1] == 6700
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_every_dimensioned_garage_keeps_its_aisles(seed):
+    config = GarageConfig(
+        seed=seed,
+        site={"width_cells": 12, "height_cells": 10, "rectangles": seed % 4},
+        bay={"dimensioned": True, "aisle_width_m": 5.5},
+        plan={"episodes": 300},
+    )
+    garage = generate(config)
+    cells = garage.plan.structure.cells
+    clear = 2 * config.bay.carriageway_setback_m
+    lane = cells == Cell.LANE
+    for row, col in np.argwhere(lane).tolist():
+        if (col > 0 and lane[row, col - 1]) or (col + 1 < cells.shape[1] and lane[row, col + 1]):
+            assert garage.plan.structure.C[row, col] - clear == pytest.approx(5.5)
+        if (row > 0 and lane[row - 1, col]) or (row + 1 < cells.shape[0] and lane[row + 1, col]):
+            assert garage.plan.structure.R[row, col] - clear == pytest.approx(5.5)
+    assert len(garage.layout.stalls) == garage.plan.score.stalls > 0
