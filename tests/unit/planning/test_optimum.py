@@ -79,12 +79,12 @@ def exhaustive(site, bay):
     return best
 
 
-@pytest.mark.parametrize("seed", range(30))
+# on site 24 no feasible structure holds a stall
+@pytest.mark.parametrize("seed", [*range(24), *range(25, 31)])
 def test_equals_exhaustive_search(seed):
     site, bay = small_site(seed)
     expected = exhaustive(site, bay)
-    if expected is None:
-        pytest.skip("no feasible structure with a stall")
+    assert expected is not None
     start = plan_lanes(site, plan=PlanConfig(preset="paper", episodes=20, climb=False), bay=bay, seed=seed)
     result = find_optimum(site, bay=bay, known=start.structure)
     assert result.score.value == pytest.approx(expected)
