@@ -60,6 +60,7 @@ class SarsaParameters(NamedTuple):
     archives_prefixes: bool
     revisit_rate: float
     max_steps_per_square: int
+    starts: int
 
 
 _PRESETS = {
@@ -83,20 +84,21 @@ _PRESETS = {
         archives_prefixes=False,
         revisit_rate=0.0,
         max_steps_per_square=3,
+        starts=1,
     ),
     "tuned": SarsaParameters(
-        alpha=0.2,
-        gamma=0.9,
+        alpha=0.5,
+        gamma=0.7,
         epsilon_start=1.0,
-        epsilon_min=0.1,
-        epsilon_decay=0.9985,
+        epsilon_min=0.05,
+        epsilon_decay=0.997,
         epsilon_refresh=0.3,
         patience_episodes=100,
         turn_back_penalty=0.5,
-        interval_penalty=0.2,
-        min_run_squares=3,
-        wheeling_penalty=0.5,
-        step_penalty=0.2,
+        interval_penalty=0.5,
+        min_run_squares=4,
+        wheeling_penalty=2.0,
+        step_penalty=0.1,
         failure_penalty=10.0,
         window_radius_squares=1,
         sees_distances=False,
@@ -104,6 +106,7 @@ _PRESETS = {
         archives_prefixes=True,
         revisit_rate=0.7,
         max_steps_per_square=2,
+        starts=4,
     ),
 }
 
@@ -120,7 +123,7 @@ class PlanConfig(Settings):
     agent: Agent = Agent.AUTO
     """'squares', 'aisles', or 'auto': aisles on large sites, except with the preset 'paper'."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
-    """Episodes of learning."""
+    """Episodes of learning, of each start."""
     archive_size: int = Field(200, ge=1, le=10_000)
     """How many of the best plans are kept."""
     climb: bool = True
@@ -181,6 +184,8 @@ class PlanConfig(Settings):
     """Share of the episodes that go on from part of an archived one instead of from the empty site."""
     max_steps_per_square: int | None = Field(None, ge=1, le=100)
     """Actions in an episode, for each free square of the site."""
+    starts: int | None = Field(None, ge=1, le=1000)
+    """How often learning starts with nothing, each time for all episodes; the best plans of all starts are kept."""
 
     def resolved(self, *, aisles: bool = False) -> SarsaParameters:
         """Every parameter with the user's value or the preset's, or that of the agent over aisles."""

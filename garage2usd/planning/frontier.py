@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.planning.board import NO_VALUE, Board, measure
+from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -224,6 +224,55 @@ def suffix_values(
 
 
 @compiled
+def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArray[np.int64]) -> float:
+    """How much more time than over free squares the stalls so far take at least, given what is decided no lane.
+
+    Squares from `depth` on may all still be lanes.
+    """
+    cells, hops, queue, stride = board.cells, board.hops, board.queue, ground.stride
+    border = 4 * stride + 4
+    first_open = border + (depth // cols) * stride + depth % cols
+    for q in ground.squares:
+        hops[q] = FAR
+    tail = 0
+    for entrance in ground.entrances:
+        for step in (-stride, stride, -1, 1):
+            p = entrance + step
+            if hops[p] == FAR and (cells[p] == 1 or (cells[p] == 0 and p >= first_open)):
+                hops[p] = 1
+                queue[tail] = p
+                tail += 1
+    head = 0
+    while head < tail:
+        q = queue[head]
+        head += 1
+        for step in (-stride, stride, -1, 1):
+            p = q + step
+            if (cells[p] == 1 or (cells[p] == 0 and p >= first_open)) and hops[p] == FAR:
+                hops[p] = hops[q] + 1
+                queue[tail] = p
+                tail += 1
+    more = 0.0
+    for q in ground.squares:
+        if q >= first_open:
+            break
+        if cells[q] != 0:
+            continue
+        edges, near, free = 0, FAR, FAR
+        for way in range(4):
+            p = q + (-stride, stride, -1, 1)[way]
+            if cells[p] == 1:
+                edges |= 1 << way
+                free = min(free, relaxed[p])
+            if cells[p] == 1 or (cells[p] == 0 and p >= first_open):
+                near = min(near, hops[p])
+        stalls = ground.capacity[q, edges]
+        if stalls > 0 and near > free:
+            more += stalls * (near - free)
+    return more
+
+
+@compiled
 def enumerate_layouts(
     sheet: Sheet,
     ground: Ground,
@@ -231,6 +280,8 @@ def enumerate_layouts(
     offsets: NDArray[np.int64],
     keys: NDArray[np.int64],
     suffixes: NDArray[np.float64],
+    relaxed: NDArray[np.int64],
+    price: float,
     floor: float,
     limit: int,
 ) -> tuple[float, int]:
@@ -244,6 +295,8 @@ def enumerate_layouts(
         int64, shape (squares + 2,): where the frontiers before each square start in `keys`.
     keys, suffixes
         The frontiers of all squares, and what can follow each.
+    relaxed, price
+        Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
     floor
         Value to beat.
     limit
@@ -290,6 +343,11 @@ def enumerate_layouts(
         if place >= last or keys[place] != key or value + suffixes[place] <= best + 1e-9:
             continue
         board.cells[square] = 1 if lane else ground.cells[square]
+        if (depth + 1) % sheet.cols == 0 or depth + 1 == total:
+            detour = price * _detour(ground, board, sheet.cols, depth + 1, relaxed)
+            if value + suffixes[place] - detour <= best + 1e-9:
+                board.cells[square] = ground.cells[square]
+                continue
         depth += 1
         stack_keys[depth], stack_values[depth], tried[depth] = key, value, 0
     board.cells[:] = best_cells

@@ -53,7 +53,23 @@ def uses_aisles(ground: Ground, plan: PlanConfig) -> bool:
 def learn_squares(
     ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
 ) -> Learnt:
-    """Run all episodes over squares, in batches, between which progress is told and signals are heard."""
+    """Learn over squares, as often as the settings say; the curve is that of the start that met the best plan."""
+    count = plan.resolved().starts
+
+    def told(start: int) -> Progress:
+        return lambda step, done, total: progress(step, start * total + done, count * total)
+
+    starts = [_learn_once(ground, board, plan, random, told(start)) for start in range(count)]
+    best = {lanes.tobytes(): (value, lanes) for start in starts for value, lanes in start.ranked}
+    ranked = sorted(best.values(), key=lambda entry: (-entry[0], entry[1].tobytes()))[: plan.archive_size]
+    leader = max(starts, key=lambda start: start.ranked[0][0] if start.ranked else -np.inf)
+    return Learnt(tuple(ranked), leader.curve, sum(start.steps for start in starts))
+
+
+def _learn_once(
+    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress
+) -> Learnt:
+    """Run all episodes in batches, between which progress is told and signals are heard."""
     from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415 - only planning pays for it
     from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
 

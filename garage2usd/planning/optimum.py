@@ -18,7 +18,7 @@ __all__ = ["Optimum", "find_optimum", "free_hops"]
 
 _MAX_COLS = 12
 _MAX_LAYOUTS = 20_000_000
-_STALLS_STEP = 6
+_STALLS_STEP = 3
 _FAR = 1 << 20
 
 
@@ -67,7 +67,7 @@ def find_optimum(site: Structure, *, bay: BayConfig, known: Structure | None = N
     ``N_S - U_S - 5 t / n``, and t is at least what it would be if every way to a lane were the shortest over free
     squares: both are sums over squares of what the four neighbours decide. A dynamic programme over frontiers
     maximises that sum for all suffixes; every layout whose sum is above the best known is then scored exactly. So it
-    is done for n in steps of six stalls down to where no layout can win.
+    is done for n in steps of three stalls down to where no layout can win.
     """
     if min(site.shape) > _MAX_COLS:
         raise ConfigError("site", f"{site.shape[0]} x {site.shape[1]} squares", f"a side of at most {_MAX_COLS}")
@@ -109,8 +109,10 @@ def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _B
         suffix_values,
     )
 
+    hops = free_hops(ground)
+    price = -float(ground.weights[1]) / most
     kinds = cells_of(ground, np.zeros(len(ground.squares), dtype=np.bool_)).ravel()
-    sheet = Sheet(shape[1], kinds, _worth(ground, shape, most))
+    sheet = Sheet(shape[1], kinds, _worth(ground, hops, price))
     layers = [(np.zeros(1, np.int64), np.zeros(1))]
     after = np.concatenate((np.cumsum((kinds == Cell.FREE)[::-1])[::-1][1:], [0]))
     for index in range(len(kinds)):
@@ -126,7 +128,7 @@ def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _B
     board = new_board(ground)
     keys = np.concatenate([keys for keys, _ in layers])
     found, scored = enumerate_layouts(
-        sheet, ground, board, offsets, keys, np.concatenate(suffixes), value, _MAX_LAYOUTS
+        sheet, ground, board, offsets, keys, np.concatenate(suffixes), hops, price, value, _MAX_LAYOUTS
     )
     if scored >= _MAX_LAYOUTS:
         raise GenerationError("optimum", "more candidates than can be scored", seed=0, attempts=scored)
@@ -134,9 +136,8 @@ def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _B
     return _Beaten(lanes, scored, frontiers)
 
 
-def _worth(ground: Ground, shape: tuple[int, int], most: int) -> NDArray[np.float64]:
+def _worth(ground: Ground, hops: NDArray[np.int64], price: float) -> NDArray[np.float64]:
     """Relaxed contribution of each square by its open edges; shape (rows * cols, 16)."""
-    hops = free_hops(ground)
     inside = cells_of(ground._replace(cells=np.arange(len(ground.cells))), np.zeros(len(ground.squares), np.bool_))
     squares = inside.ravel()
     near = np.full((len(squares), 16), _FAR)
@@ -145,10 +146,8 @@ def _worth(ground: Ground, shape: tuple[int, int], most: int) -> NDArray[np.floa
         near[:, edges] = np.min([hops[squares + step] for step in beside], axis=0)
     stalls = ground.capacity[squares].astype(np.float64)
     weights = ground.weights
-    each = weights[0] + weights[1] / most * (1 + near)
+    each = weights[0] - price * (1 + near)
     worth = np.where(stalls > 0, stalls * each, weights[2])
-    if worth.shape != (shape[0] * shape[1], 16):  # pragma: no cover - both come from one site
-        raise ConfigError("site", shape, "the ground's own shape")
     return np.ascontiguousarray(worth)
 
 

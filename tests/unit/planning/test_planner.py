@@ -40,7 +40,7 @@ def test_tuned_reaches_the_optimum_with_climb(name, seed):
     check(plan, GATES[name])
     assert plan.score.value >= 0.995 * OPTIMUM[name]
     assert plan.score.value <= OPTIMUM[name] + 1e-4
-    assert plan.learnt_value >= 0.9 * OPTIMUM[name]
+    assert plan.learnt_value >= 0.95 * OPTIMUM[name]
     assert [entry.score.value for entry in plan.archive] == sorted(
         (entry.score.value for entry in plan.archive), reverse=True
     )
@@ -112,7 +112,7 @@ def test_a_draw_stays_above_the_floor():
 def test_progress_is_told():
     told = []
     plan_lanes(G1, plan=PlanConfig(episodes=1000), bay=BAY, seed=0, progress=lambda *call: told.append(call))
-    assert told[0] == ("plan", 0, 1000)
+    assert told[0] == ("plan", 0, 4 * 1000)  # four starts
     assert all(before[1] < after[1] for before, after in pairwise(told))
 
 
