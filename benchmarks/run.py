@@ -15,21 +15,19 @@ import tempfile
 import time
 from pathlib import Path
 
+from planning import planning
+from scale import scale
+
 import garage2usd
-from garage2usd.config import BayConfig, GarageConfig, PlanConfig
-from garage2usd.planning import plan_lanes
-from garage2usd.site import make_site
 
 HERE = Path(__file__).parent
-GATES = {"G1": ((6, 2), (6, 6)), "G2": ((6, 4), (0, 4)), "G3": ((3, 0), (3, 8))}
-SEEDS = 10
 ROUNDS = 5
 PYTHON_EPISODES = 40
 
 
 def main() -> None:
     """Run everything and write the table."""
-    sections = [_heading(), _building(), _planning(), _compiled()]
+    sections = [_heading(), _building(), planning(), scale(), _compiled()]
     (HERE / "results.md").write_text("\n\n".join(sections) + "\n")
 
 
@@ -57,39 +55,6 @@ def _building() -> str:
         "",
         f"`import garage2usd` on top of starting Python: {statistics.median(imports):.3f} s, median of {ROUNDS}.",
     ]
-    return "\n".join(rows)
-
-
-def _planning() -> str:
-    """Give y' over seeds for each gate and preset, beside a policy that never learns."""
-    rows = [
-        "## Planning 7x9, 5000 episodes",
-        "",
-        f"y' mean / min over {SEEDS} seeds, distinct best plans, mean seconds.",
-        "",
-    ]
-    rows.append("| gate | no learning, masked | `paper` | `tuned` | `tuned` + climb | no learning + climb |")
-    rows.append("|---|---|---|---|---|---|")
-    random = {"epsilon_start": 1.0, "epsilon_min": 1.0, "epsilon_decay": 1.0, "epsilon_refresh": 1.0}
-    plans = [
-        PlanConfig(climb=False, **random),
-        PlanConfig(preset="paper", climb=False),
-        PlanConfig(climb=False),
-        PlanConfig(),
-        PlanConfig(**random),
-    ]
-    for gate, (entrance, exit_) in GATES.items():
-        cells = []
-        for plan in plans:
-            config = GarageConfig(site={"entrance_cells": [entrance], "exit_cells": [exit_]}, plan=plan)
-            site = make_site(config.site, bay=BayConfig(), seed=0)
-            start = time.perf_counter()
-            made = [plan_lanes(site, plan=plan, bay=BayConfig(), seed=seed) for seed in range(SEEDS)]
-            seconds = (time.perf_counter() - start) / SEEDS
-            values = [p.score.value for p in made]
-            distinct = len({p.structure.digest() for p in made})
-            cells.append(f"{statistics.mean(values):.2f} / {min(values):.2f}, {distinct} distinct, {seconds:.2f} s")
-        rows.append(f"| {gate} | {' | '.join(cells)} |")
     return "\n".join(rows)
 
 

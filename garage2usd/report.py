@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 
 from garage2usd.config import GarageConfig
@@ -9,7 +10,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.planning import Plan, area_per_stall_m2, rank_of, tape_of
+from garage2usd.planning import Plan, area_per_stall_m2, principles, rank_of, tape_of
 from garage2usd.version import VERSION
 
 __all__ = ["write_report"]
@@ -29,8 +30,9 @@ def write_report(
     Notes
     -----
     ``tape`` and ``rank`` are null where no single agent makes the lanes (see `garage2usd.planning.tape`); the rank is a
-    decimal number of any length. ``S`` is a list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are
-    metres by column and by row, stall centres are (x, z) in metres.
+    decimal number of any length. ``polish_gain`` is what polish added to the best y' that learning met. ``S`` is a list
+    of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row, stall centres are
+    (x, z) in metres.
     """
     structure = plan.structure
     score = plan.score
@@ -52,6 +54,9 @@ def write_report(
             "parking_time_squares": score.parking_time_squares,
             "unused_squares": score.unused_squares,
         },
+        "learnt_value": plan.learnt_value,
+        "polish_gain": plan.archive[0].score.value - plan.learnt_value if plan.archive else 0.0,
+        "principles": asdict(principles(structure, bay=config.bay)),
         "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
         "reachable_stalls": len(layout.stalls),
         "lane_kinds": graph.kind_counts(),
@@ -60,6 +65,7 @@ def write_report(
             {
                 "name": stall.name,
                 "type": str(stall.stall_type),
+                "use": str(stall.use),
                 "square": stall.square,
                 "access_square": stall.access_square,
                 "centre_m": stall.centre_m,

@@ -73,17 +73,17 @@ _PRESETS = {
         epsilon_refresh=0.3,
         patience_episodes=100,
         turn_back_penalty=2.0,
-        interval_penalty=1.0,
+        interval_penalty=2.0,
         min_run_squares=3,
-        wheeling_penalty=1.0,
-        step_penalty=0.1,
-        failure_penalty=10.0,
+        wheeling_penalty=0.5,
+        step_penalty=0.4,
+        failure_penalty=20.0,
         window_radius_squares=2,
         sees_distances=True,
         masks_actions=False,
         archives_prefixes=False,
         revisit_rate=0.0,
-        max_steps_per_square=3,
+        max_steps_per_square=2,
         starts=1,
     ),
     "tuned": SarsaParameters(
@@ -111,7 +111,7 @@ _PRESETS = {
 }
 
 
-_AISLES = _PRESETS["tuned"]._replace(alpha=0.03, gamma=0.95, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
+_AISLES = _PRESETS["tuned"]._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
 
 
 class PlanConfig(Settings):

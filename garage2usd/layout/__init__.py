@@ -1,15 +1,17 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.plan import DeadEnds
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.building import columns, obstacles, outer_walls
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
-from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops
-from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall
+from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
+from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
+from garage2usd.planning import dead_ends
 
-__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "lay_out"]
+__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "StallUse", "lay_out"]
 
 
 def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Layout:
@@ -38,6 +40,9 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     floors = [floor_panel(tile, grid, bay, has_bump=tile.square in with_bump) for tile in grid]
 
     stalls = stalls_of(grid, graph, bay)
+    if config.plan.dead_ends is DeadEnds.STANDARD:
+        tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
+        stalls = with_turning_stalls(stalls, grid, tips)
     parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, seed=seed)]
 
     overhead = [

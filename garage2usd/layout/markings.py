@@ -112,10 +112,10 @@ def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: boo
 
 
 @lru_cache(maxsize=256)
-def hatching(half_x: float, half_z: float) -> tuple[Marking, ...]:
-    """The yellow frame and diagonal stripes of a square where nobody may park."""
-    x, z = half_x - _HATCH_MARGIN_M, half_z - _HATCH_MARGIN_M
-    if min(x, z) < _MIN_HATCHED_M:
+def hatching(half_x: float, half_z: float, *, margin_m: float = _HATCH_MARGIN_M) -> tuple[Marking, ...]:
+    """The yellow frame and diagonal stripes where nobody may park, `margin_m` from the edges."""
+    x, z = half_x - margin_m, half_z - margin_m
+    if min(x, z) < _MIN_HATCHED_M / 2:
         return ()
     area = shapely.box(-x, -z, x, z)
     inside = area.buffer(-LINE_WIDTH_M - _HATCH_GAP_M, join_style="mitre")

@@ -1,23 +1,26 @@
 """Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
 
 import math
+from collections.abc import Iterable
+from dataclasses import replace
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.grid import NEIGHBOUR_STEPS
-from garage2usd.lanes import LaneGraph
-from garage2usd.layout.markings import stall_lines
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, edge_yaw_rad, to_world
-from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
+from garage2usd.lanes import LaneGraph, Square
+from garage2usd.layout.markings import hatching, stall_lines
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
+from garage2usd.layout.specs import CarSpec, Marking, PanelSpec, Surface, WheelStopSpec
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.randomness import Step, generator
 
-__all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops"]
+__all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
 
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
 _WHEEL_STOP_LENGTH_M = 1.65
 _LINE_CLEARANCE_M = 0.1
+_HATCH_MARGIN_M = 0.25
 _REAR_CLEARANCE_M = 0.12
 
 
@@ -46,13 +49,28 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
     return tuple(stalls)
 
 
+def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, tips: Iterable[Square]) -> tuple[Stall, ...]:
+    """The same with the stall nearest to each tip, the last lane of a dead-end aisle, kept free for turning."""
+    turned = list(stalls)
+    for tip in tips:
+        tile = grid.tiles[tip]
+        nearest = min(
+            (index for index, stall in enumerate(turned) if stall.use is StallUse.STANDARD),
+            key=lambda index: (math.dist(turned[index].centre_m, (tile.x_m, tile.z_m)), index),
+            default=None,
+        )
+        if nearest is not None:
+            turned[nearest] = replace(turned[nearest], use=StallUse.TURNING)
+    return tuple(turned)
+
+
 def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     """The floor of each stall with its lines."""
     return [
         Placement(
             stall.name,
             ObjectKind.STALL,
-            PanelSpec(stall.width_m, stall.length_m, Surface.STALL, stall_lines(stall.width_m, stall.length_m)),
+            PanelSpec(stall.width_m, stall.length_m, Surface.STALL, _stall_markings(stall)),
             (stall.centre_m[0], 0.0, stall.centre_m[1]),
             stall.yaw_rad,
             stall.square,
@@ -61,12 +79,21 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     ]
 
 
+def _stall_markings(stall: Stall) -> tuple[Marking, ...]:
+    lines = stall_lines(stall.width_m, stall.length_m)
+    if stall.use is StallUse.TURNING:
+        lines += hatching(stall.width_m / 2, stall.length_m / 2, margin_m=_HATCH_MARGIN_M)
+    return lines
+
+
 def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
-    """A wheel stop near the rear of each stall."""
+    """A wheel stop near the rear of each stall that cars park in."""
     if not fittings.wheel_stops:
         return []
     placements = []
     for stall in stalls:
+        if stall.use is StallUse.TURNING:
+            continue
         x, z = to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
         name = stall.name.replace("Stall", "WheelStop")
         spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
@@ -88,7 +115,7 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int)
     for stall in stalls:
         occupied, reverse, yaw_share, side_share, along_share = rng.random(5).tolist()
         body_index, paint_index = rng.random(2).tolist()
-        if occupied >= parking.occupancy:
+        if occupied >= parking.occupancy or stall.use is StallUse.TURNING:
             continue
         room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
         bodies = [

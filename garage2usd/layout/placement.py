@@ -10,7 +10,7 @@ from garage2usd.lanes import Square, StallType
 from garage2usd.layout.specs import Spec
 from garage2usd.stalls import Edge
 
-__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "edge_yaw_rad", "to_world"]
+__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "to_world"]
 
 
 class ObjectKind(StrEnum):
@@ -29,6 +29,14 @@ class ObjectKind(StrEnum):
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"
     CAR = "car"
+
+
+class StallUse(StrEnum):
+    """What a stall is for."""
+
+    STANDARD = "standard"
+    TURNING = "turning"
+    """Kept free, so that cars turn at the end of a long dead-end aisle."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +89,8 @@ class Stall:
         Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z.
     width_m, length_m
         Its size between the lines' middles.
+    use
+        What it is for.
     """
 
     name: str
@@ -92,6 +102,7 @@ class Stall:
     yaw_rad: float
     width_m: float
     length_m: float
+    use: StallUse = StallUse.STANDARD
 
     def corners_m(self) -> tuple[tuple[float, float], ...]:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""

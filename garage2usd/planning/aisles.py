@@ -20,6 +20,7 @@ OPTIONS = 4
 
 _PROFILES, _SHARES, _AHEAD = 9, 2, 4
 _LONGEST_PART = 8
+_SPREAD_SPINES = 12
 _STATES = _PROFILES * _SHARES * _AHEAD
 _OPTIMISTIC = 40.0
 
@@ -35,15 +36,16 @@ class Runs(NamedTuple):
         int64, shape (runs,): the run of the next line that lies beside most of it, or -1.
     turned
         int64, shape (2,): where the runs along rows end and those along columns end.
-    starts
-        int64, shape (2, portals): for each direction the runs that lead straight away from a portal, or -1.
+    spines
+        int64, shape (2, K): for each direction the runs across it that may join its aisles, or -1; those that lead
+        straight away from a portal and some spread over the site.
     """
 
     first: NDArray[np.int64]
     length: NDArray[np.int64]
     ahead: NDArray[np.int64]
     turned: NDArray[np.int64]
-    starts: NDArray[np.int64]
+    spines: NDArray[np.int64]
 
 
 def runs_of(ground: Ground) -> Runs:
@@ -51,7 +53,7 @@ def runs_of(ground: Ground) -> Runs:
     first: list[int] = []
     length: list[int] = []
     turned: list[int] = []
-    starts = np.full((2, len(ground.portals)), -1)
+    spines = np.full((2, len(ground.portals) + _SPREAD_SPINES), -1)
     for direction, step in enumerate((1, ground.stride)):
         heads = ground.squares[ground.cells[ground.squares - step] != 0]
         if direction == 1:
@@ -72,9 +74,15 @@ def runs_of(ground: Ground) -> Runs:
                 # a run across the aisles of the other direction
                 beside = {portal - ground.stride, portal + ground.stride, portal - 1, portal + 1}
                 if beside.intersection(squares):
-                    longest = starts[1 - direction, index]
+                    longest = spines[1 - direction, index]
                     if longest < 0 or length[run] > length[longest]:
-                        starts[1 - direction, index] = run
+                        spines[1 - direction, index] = run
+    for direction, (begin, end) in enumerate(((0, turned[0]), (turned[0], turned[1]))):
+        longest_first = sorted(range(begin, end), key=lambda run: (-length[run], run))
+        longish = sorted(longest_first[: 1 + (end - begin) // 2])
+        places = np.linspace(0, len(longish) - 1, _SPREAD_SPINES + 2)[1:-1].round().astype(int)
+        for index, place in enumerate(places[: len(longish)].tolist()):
+            spines[1 - direction, len(ground.portals) + index] = longish[place]
     ahead = np.full(len(first), -1)
     for begin, end, step, line in ((0, turned[0], 1, ground.stride), (turned[0], turned[1], ground.stride, 1)):
         owner = np.full(len(ground.cells), -1)
@@ -84,7 +92,7 @@ def runs_of(ground: Ground) -> Runs:
             past = owner[first[run] + line : first[run] + line + length[run] * step : step]
             if (past >= 0).any():
                 ahead[run] = np.bincount(past[past >= 0]).argmax()
-    return Runs(np.array(first, np.int64), np.array(length, np.int64), ahead, np.array(turned, np.int64), starts)
+    return Runs(np.array(first, np.int64), np.array(length, np.int64), ahead, np.array(turned, np.int64), spines)
 
 
 def new_values() -> NDArray[np.float64]:
@@ -165,7 +173,7 @@ def learn_aisles(
     Notes
     -----
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` as over squares, with options for
-    actions: what becomes of a run. Direction, and the portal from which an aisle leads across, take turns.
+    actions: what becomes of a run. Direction, and the run that joins the aisles across, take turns.
     The reward is the increment of ``k_1 N_S + k_3 U_S``, per square of the run. What stays apart is joined by
     repair.
     """
@@ -187,11 +195,11 @@ def learn_aisles(
         # only what is decided anew is explored; whole episodes follow what is learnt on other sites
         explored = epsilon if entry >= 0 or parameters.revisit_rate == 0 else 0.0
         # direction and the aisle across it
-        choice = archive.starts[entry] if entry >= 0 else episode % (2 * len(ground.portals))
-        direction, portal = choice % 2, choice // 2
+        choice = archive.starts[entry] if entry >= 0 else episode % runs.spines.size
+        direction, place = choice % 2, choice // 2
         along, across = (1, ground.stride) if direction == 0 else (ground.stride, 1)
         earned = 0.0
-        spine = runs.starts[direction, portal]
+        spine = runs.spines[direction, place]
         if spine >= 0:
             earned += _lay_run(
                 ground, board, runs.first[spine], runs.first[spine] + (runs.length[spine] - 1) * across, across, along

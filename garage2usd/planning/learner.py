@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.config.plan import Agent, DeadEnds
+from garage2usd.config.plan import Agent, DeadEnds, SarsaParameters
 from garage2usd.grid import Cell, Structure
 from garage2usd.planning.ground import Ground, Lanes, ground_of
 from garage2usd.progress import Progress, silent
@@ -20,7 +20,7 @@ __all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]
 _AISLE_SQUARES = 120
 _BATCH_SQUARES = 20_000
 _TABLE_BITS = 14
-_AISLE_EPISODE_SQUARES = 6_000_000
+_AISLE_EPISODE_SQUARES = 5_000_000
 _NURSERY_SIDE, _NURSERY_OBSTACLES, _NURSERY_EPISODES = 26, 6, 3000
 
 
@@ -104,25 +104,27 @@ def learn_aisles(
     """
     from garage2usd.planning import aisles  # noqa: PLC0415
     from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415
-    from garage2usd.planning.board import new_board  # noqa: PLC0415
 
     parameters = plan.resolved(aisles=True)
-    values = aisles.new_values()
-    nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(random[0]))))
-    schedule = _schedule(_NURSERY_EPISODES, epsilon=(0.5, 0.02), alpha=(0.3, 0.02))
-    runs = aisles.runs_of(nursery)
-    archive = new_archive(1, squares=len(nursery.squares), steps=len(runs.first))
-    first_parameters = parameters._replace(revisit_rate=0.0)
-    taken = aisles.learn_aisles(
-        nursery, new_board(nursery), runs, first_parameters, values, archive, random,
-        np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES,
-    )  # fmt: skip
-    episodes = max(1, min(plan.episodes, _AISLE_EPISODE_SQUARES // len(ground.squares)))
-    curve = np.zeros(episodes)
     runs = aisles.runs_of(ground)
     if not len(runs.first):
-        return Learnt((), curve, taken)
+        return Learnt((), np.zeros(plan.episodes), 0)
     archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=len(runs.first))
+    greedy = parameters._replace(revisit_rate=0.0)
+    whole = runs.spines.size
+    taken, values, best = 0, aisles.new_values(), -np.inf
+    for start in range(parameters.starts):
+        progress("plan", start, parameters.starts)
+        learnt, steps = _school(ground, greedy, random)
+        tried = new_archive(1, squares=len(ground.squares), steps=len(runs.first))
+        schedule, curve = np.array([0.0, 1.0, 0.0, 1.0]), np.zeros(whole)
+        taken += steps + aisles.learn_aisles(
+            ground, board, runs, greedy, learnt, tried, random, curve, schedule, 0, whole
+        )
+        if tried.in_use[0] and tried.values[0] > best:
+            values, best = learnt, tried.values[0]
+    episodes = max(1, min(plan.episodes, _AISLE_EPISODE_SQUARES // len(ground.squares)))
+    curve = np.zeros(episodes)
     schedule = _schedule(
         episodes, epsilon=(parameters.epsilon_start, parameters.epsilon_min), alpha=(parameters.alpha, parameters.alpha)
     )
@@ -134,6 +136,23 @@ def learn_aisles(
             first, min(first + batch, episodes),
         )  # fmt: skip
     return Learnt(ranked_lanes(archive), curve, taken)
+
+
+def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint64]) -> tuple[NDArray[np.float64], int]:
+    """What is learnt over aisles on a small site like this one, and how many decisions it took."""
+    from garage2usd.planning import aisles  # noqa: PLC0415
+    from garage2usd.planning.archive import new_archive, next_random  # noqa: PLC0415
+    from garage2usd.planning.board import new_board  # noqa: PLC0415
+
+    nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(next_random(random)))))
+    values, runs = aisles.new_values(), aisles.runs_of(nursery)
+    archive = new_archive(1, squares=len(nursery.squares), steps=len(runs.first))
+    schedule = _schedule(_NURSERY_EPISODES, epsilon=(0.5, 0.02), alpha=(0.3, 0.02))
+    taken = aisles.learn_aisles(
+        nursery, new_board(nursery), runs, parameters, values, archive, random,
+        np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES,
+    )  # fmt: skip
+    return values, taken
 
 
 def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:

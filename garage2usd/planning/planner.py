@@ -9,7 +9,7 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Choice, DeadEnds
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Cell, Structure
-from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
+from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.plan import ArchivedPlan, Plan
 from garage2usd.planning.score import Score
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from garage2usd.planning.board import Board
 
-__all__ = ["plan_lanes"]
+__all__ = ["anneal_alone", "plan_lanes"]
 
 _CLIMB_PASSES = 40
 _ANNEALED = 6
@@ -29,7 +29,8 @@ _ANNEAL_SQUARES, _FULL_EPISODES = 36_000_000, 5000
 _HOTTEST, _COLDEST = 3.0, 0.5
 _CLIMB_SQUARES = 40_000_000
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
-_DRIFT_HOTTEST, _DRIFT_COLDEST = 0.6, 0.1
+_DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
+_LARGE_SQUARES = 1000
 
 
 def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
@@ -75,7 +76,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     by_aisles = uses_aisles(ground, plan)
     learn = learn_aisles if by_aisles else learn_squares
     learnt = learn(ground, board, plan, random, progress)
-    ranked = list(learnt.ranked) or _repaired(ground, board)
+    ranked = list(learnt.ranked) or _repaired(ground, board, np.zeros(len(ground.squares), dtype=np.bool_))
     if not ranked:
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
@@ -84,24 +85,63 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         ranked = (_drifted if by_aisles else _polished)(ground, board, ranked, plan, random)
     if plan.dead_ends is DeadEnds.FORBID:
         ranked = _without_dead_ends(ground, board, ranked)
-    archive = tuple(
-        ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes))
-        for _, lanes in ranked[: plan.archive_size]
-    )
+    archive = _archived(site, ground, board, ranked, plan)
     chosen = archive[_draw(ranked[: len(archive)], plan, rng)]
     return Plan(chosen.structure, chosen.score, archive, learnt.curve, learnt_value, learnt.steps)
 
 
-def _repaired(ground: Ground, board: "Board") -> list[tuple[float, Lanes]]:
-    """Shortest ways between the portals, where learning met nothing feasible; empty if there are none."""
-    from garage2usd.planning.board import NO_VALUE, clear, measure  # noqa: PLC0415
+def anneal_alone(
+    site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, starts: "Iterable[Structure]" = ()
+) -> Plan:
+    """Plan without learning, as a control: repair, climb and anneal given lanes, or shortest ways between the portals.
+
+    Parameters
+    ----------
+    site, plan, bay, seed
+        As for `plan_lanes`; without ``climb`` the given lanes are repaired only.
+    starts
+        Structures on the site, feasible or not.
+
+    Raises
+    ------
+    GenerationError
+        If no lanes can join the portals.
+    """
+    from garage2usd.planning.board import new_board  # noqa: PLC0415
+
+    ground = ground_of(site, bay=bay, plan=plan)
+    board = new_board(ground)
+    random = generator(seed, Step.PLAN).integers(1, 2**63, size=1, dtype=np.uint64)
+    empty = np.zeros(len(ground.squares), dtype=np.bool_)
+    given = [lanes_of(structure, ground) for structure in starts] or [empty]
+    ranked = _ranked(entry for lanes in given for entry in _repaired(ground, board, lanes))
+    if not ranked:
+        raise GenerationError("plan", "no way joins all portals", seed=seed, attempts=len(given))
+    if plan.climb:
+        ranked = (_drifted if uses_aisles(ground, plan) else _polished)(ground, board, ranked, plan, random)
+    archive = _archived(site, ground, board, ranked, plan)
+    return Plan(archive[0].structure, archive[0].score, archive)
+
+
+def _archived(
+    site: Structure, ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], plan: PlanConfig
+) -> tuple[ArchivedPlan, ...]:
+    return tuple(
+        ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes))
+        for _, lanes in ranked[: plan.archive_size]
+    )
+
+
+def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[tuple[float, Lanes]]:
+    """Lanes with shortest ways between what is apart, and the portals; empty if there are none."""
+    from garage2usd.planning.board import NO_VALUE, measure  # noqa: PLC0415
     from garage2usd.planning.polish import connect  # noqa: PLC0415
 
-    clear(ground, board)
+    _put(ground, board, lanes)
     if not connect(ground, board):
         return []
-    lanes = board.cells[ground.squares] == Cell.LANE
-    return [(max(measure(ground, board), NO_VALUE), lanes)]
+    value = measure(ground, board)
+    return [(value, board.cells[ground.squares] == Cell.LANE)] if value > NO_VALUE else []
 
 
 def _polished(
@@ -136,9 +176,10 @@ def _drifted(
     best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
     flips = int(_DRIFT_FLIPS * min(1.0, plan.episodes / _FULL_EPISODES))
     refresh = _REFRESH_ROUNDS * len(ground.squares)
+    hottest = _DRIFT_HOTTEST if len(ground.squares) < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
     for _, lanes in ranked[:_DRIFTED]:
         _put(ground, board, lanes)
-        value = drift(ground, board, random, flips, _DRIFT_HOTTEST, _DRIFT_COLDEST, refresh)
+        value = drift(ground, board, random, flips, hottest, _DRIFT_COLDEST, refresh)
         improved = board.cells[ground.squares] == Cell.LANE
         best.setdefault(improved.tobytes(), (value, improved))
     return _ranked(best.values())

@@ -9,7 +9,7 @@ from sample_files import each_sample
 from garage2usd.config import GarageConfig
 from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.lanes import build_lane_graph
-from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
 from garage2usd.stalls import square_capacity
@@ -195,3 +195,16 @@ def test_names_are_unique_among_siblings(layout):
     ):
         names = [place.name for place in siblings]
         assert len(set(names)) == len(names)
+
+
+def test_a_long_dead_end_keeps_a_turning_stall():
+    text = ".......\n=======\n=.X....\nE......"
+    free = laid_out(text, GarageConfig(parking={"occupancy": 1.0}))
+    turning = [stall for stall in free.stalls if stall.use is StallUse.TURNING]
+    assert [stall.access_square for stall in turning] == [(1, 6)]  # four squares of 8.1 m past the exit's junction
+    assert len(free.of_kind(ObjectKind.CAR)) == len(free.of_kind(ObjectKind.WHEEL_STOP)) == len(free.stalls) - 1
+    allowed = laid_out(text, GarageConfig(parking={"occupancy": 1.0}, plan={"dead_ends": "allow"}))
+    assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind(ObjectKind.CAR))
+    hatched = {place.spec for place in free.of_kind(ObjectKind.STALL) if place.name == turning[0].name}
+    plain = {place.spec for place in free.of_kind(ObjectKind.STALL) if place.name != turning[0].name}
+    assert hatched.isdisjoint(plain)
