@@ -106,6 +106,7 @@ def _describe(made: "Build") -> None:
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
         *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
+        ("labels", str(made.labels)),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     for name, value in lines:

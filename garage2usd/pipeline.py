@@ -17,7 +17,7 @@ from garage2usd.planning import Plan, dimension, evaluate, given_plan, plan_lane
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
-from garage2usd.stage import StageFormat, write_stage
+from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
@@ -58,8 +58,8 @@ class Build:
     ----------
     garage
         The garage.
-    stage, report
-        The stage and the JSON report.
+    stage, report, labels
+        The stage, the JSON report, and the JSON table of all objects with their classes.
     pictures
         The picture of the plan, then the learning curve and the best plans where they were asked for.
     asset_folder
@@ -71,6 +71,7 @@ class Build:
     garage: Garage
     stage: Path
     report: Path
+    labels: Path
     pictures: tuple[Path, ...]
     asset_folder: Path | None
     seconds: dict[str, float]
@@ -151,8 +152,15 @@ def build(
         folder = staging / "stage"
         folder.mkdir()
         *assets, stage = write_stage(
-            garage.layout, garage.graph, folder / path.name, metadata=_metadata(garage), progress=progress
+            garage.layout,
+            garage.graph,
+            folder / path.name,
+            metadata=_metadata(garage),
+            setback_m=garage.config.bay.carriageway_setback_m,
+            progress=progress,
         )
+        labels = staging / f"{path.stem}_labels.json"
+        write_labels(garage.layout, labels)
         pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
         drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
         for picture, image in zip(drawn, pictures.values(), strict=True):
@@ -168,10 +176,10 @@ def build(
             seconds=seconds,
         )
         # the stage comes last: where it stands, all of it does
-        places = publish([*assets, *drawn, report, stage], path.parent)
-    *_, report, stage = places
+        places = publish([*assets, *drawn, labels, report, stage], path.parent)
+    *_, labels, report, stage = places
     shown = places[len(assets) : len(assets) + len(drawn)]
-    return Build(garage, stage, report, shown, places[0] if assets else None, seconds)
+    return Build(garage, stage, report, labels, shown, places[0] if assets else None, seconds)
 
 
 def _generate(

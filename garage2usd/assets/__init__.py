@@ -4,12 +4,13 @@ from garage2usd.assets.building import ceiling_panel, column, obstacle_block, po
 from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
-from garage2usd.assets.materials import MATERIALS, Material
+from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.textures import bake_textures, texture_folder
 
 __all__ = [
     "MATERIALS",
+    "VARYING",
     "Asset",
     "Collider",
     "Marking",

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part, moved
-from garage2usd.config.vehicles import CarBody
+from garage2usd.config.vehicles import PAINTS, CarBody
 
 __all__ = ["car"]
 
@@ -98,31 +98,22 @@ _SHAPES = {
 }
 
 
-def car(body: CarBody, paint: str) -> Asset:
-    """A parked car; origin in the middle of its footprint on the floor, nose to -Z.
-
-    Parameters
-    ----------
-    body
-        Its measures.
-    paint
-        One of `garage2usd.config.vehicles.PAINTS`.
-    """
+def car(body: CarBody) -> Asset:
+    """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
     shell = _Shell(body, _SHAPES[body.name])
     regions = shell.regions()
-    paint_key = f"car_paint_{paint}"
     parts = [
-        make_part("Body", regions["body"], paint_key, collider=Collider.CONVEX_HULL, crease_deg=38),
+        make_part("Body", regions["body"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=38),
         make_part("Glass", regions["glass"], "glass", crease_deg=38),
         make_part("Underbody", regions["under"], "trim_black"),
         make_part("HeadLamps", regions["lamp_front"], "lamp_front", crease_deg=50),
         make_part("TailLamps", regions["lamp_rear"], "lamp_rear", crease_deg=50),
         make_part("Trim", shell.trim(), "trim_black"),
-        make_part("Mirrors", shell.mirrors(), paint_key, crease_deg=50),
+        make_part("Mirrors", shell.mirrors(), "car_paint", crease_deg=50),
         make_part("Plates", shell.plates(), "number_plate"),
         *_wheels(body),
     ]
-    return Asset("car", tuple(parts))
+    return Asset("car", tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
 class _Shell:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.config.vehicles import PAINTS
 
-__all__ = ["MATERIALS", "Material"]
+__all__ = ["MATERIALS", "VARYING", "Material"]
 
 Rgb = tuple[float, float, float]
 
@@ -56,6 +56,9 @@ _PAINT_RGB: dict[str, Rgb] = {
     "red": (0.30, 0.018, 0.016),
 }
 
+VARYING = frozenset({"car_paint"})
+"""Materials whose colour, roughness and metallic are one of their asset's choices."""
+
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
         colour_texture="floor_colour.png",
@@ -99,6 +102,7 @@ MATERIALS: dict[str, Material] = {
     "lamp_front": Material(colour_rgb=(0.62, 0.65, 0.68), roughness=0.08, metallic=0.4, clearcoat=1.0),
     "lamp_rear": Material(colour_rgb=(0.33, 0.008, 0.01), roughness=0.12, clearcoat=1.0),
     "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5),
+    "car_paint": Material(roughness=0.32, clearcoat=1.0),
     **{
         f"car_paint_{paint}": Material(
             colour_rgb=_PAINT_RGB[paint], roughness=0.32, metallic=0.3 if paint == "silver" else 0.0, clearcoat=1.0

@@ -1,7 +1,7 @@
 """Meshes as plain arrays: parts with one material each, made of faces in metres, Y up."""
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import pairwise
 
@@ -105,11 +105,14 @@ class Asset:
         Its meshes.
     light
         Its light, if it gives any.
+    paints
+        Materials of which one takes the place of ``car_paint``, by the names of the choices.
     """
 
     label: str
     parts: tuple[Part, ...]
     light: RectLight | None = None
+    paints: Mapping[str, str] = field(default_factory=dict)
 
 
 def make_part(

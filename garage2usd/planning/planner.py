@@ -140,8 +140,8 @@ def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[tuple[float,
     _put(ground, board, lanes)
     if not connect(ground, board):
         return []
-    value = measure(ground, board)
-    return [(value, board.cells[ground.squares] == Cell.LANE)] if value > NO_VALUE else []
+    joined = board.cells[ground.squares] == Cell.LANE
+    return [(max(measure(ground, board), NO_VALUE), joined)]  # without stalls it has no value, but stands
 
 
 def _polished(

@@ -1,5 +1,6 @@
 """The only authoring of USD: a layout becomes a stage with its assets and textures."""
 
+import json
 import shutil
 from collections.abc import Mapping
 from enum import StrEnum
@@ -9,13 +10,14 @@ from garage2usd.assets import MATERIALS, texture_folder
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
-from garage2usd.stage.garage_layer import write_garage_layer
+from garage2usd.stage.garage_layer import prim_paths, write_garage_layer
+from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.usdz import write_usdz
 
-__all__ = ["StageFormat", "asset_folder_name", "write_stage"]
+__all__ = ["StageFormat", "asset_folder_name", "write_labels", "write_stage"]
 
 
 class StageFormat(StrEnum):
@@ -31,12 +33,18 @@ def asset_folder_name(stage_path: Path) -> str:
     return f"{stage_path.stem}_assets"
 
 
+def write_labels(layout: Layout, path: Path) -> None:
+    """Write the table of all labelled objects of the stage as JSON (see `garage2usd.stage.labels.label_table`)."""
+    path.write_text(json.dumps(label_table(layout, prim_paths(layout)), indent=1) + "\n", encoding="utf-8")
+
+
 def write_stage(
     layout: Layout,
     graph: LaneGraph,
     path: Path,
     *,
     metadata: Mapping[str, str | int],
+    setback_m: float,
     progress: Progress = silent,
 ) -> tuple[Path, ...]:
     """Write a stage into a folder of its own.
@@ -49,6 +57,8 @@ def write_stage(
         The stage's file in an existing, empty folder; its extension decides the format.
     metadata
         Written into the root's customData.
+    setback_m
+        How far the carriageway stays from squares that are no lane.
     progress
         Told of each prototype.
 
@@ -63,8 +73,9 @@ def write_stage(
     textures.mkdir(parents=True)
     prototypes = name_prototypes(layout.placements)
     used: set[str] = set()
-    for done, (spec, name) in enumerate(prototypes.items()):
-        progress("assets", done, len(prototypes))
+    shapes = {prototype.name: spec for spec, prototype in reversed(prototypes.items())}
+    for done, (name, spec) in enumerate(sorted(shapes.items())):
+        progress("assets", done, len(shapes))
         asset = asset_of(spec)
         write_prototype(asset, folder / f"{name}.usdc")
         used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
@@ -75,7 +86,13 @@ def write_stage(
     layer_path = path.with_suffix(".usda") if packed else path
     progress("stage", 0, 1)
     write_garage_layer(
-        layout, graph, prototypes=prototypes, asset_folder=folder.name, metadata=metadata, path=layer_path
+        layout,
+        graph,
+        prototypes=prototypes,
+        asset_folder=folder.name,
+        metadata=metadata,
+        setback_m=setback_m,
+        path=layer_path,
     )
     if not packed:
         return folder, path

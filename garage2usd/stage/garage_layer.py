@@ -1,56 +1,50 @@
-"""The garage's own layer: tiles, building and cameras as instances of the prototypes.
+"""The garage's own layer: tiles, building, lane graph and cameras over instances of the prototypes.
 
 Authored as Sdf specs inside one change block with no stage open, so that nothing is composed while writing.
 """
 
-import math
 from collections.abc import Mapping
-from itertools import groupby
 from pathlib import Path
 
 from pxr import Gf, Kind, Sdf, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout, ObjectKind, Placement
+from garage2usd.layout import Layout, ObjectKind, Placement, Stall
 from garage2usd.layout.specs import Spec
-from garage2usd.stage.prototype_layer import LABEL_TAXONOMY
+from garage2usd.stage.authoring import attribute, define, place
+from garage2usd.stage.cameras import FRAMES_PER_SECOND, author_cameras
+from garage2usd.stage.labels import OBJECT_LABELS
+from garage2usd.stage.lane_curves import author_lane_graph, square_name
+from garage2usd.stage.prototypes import Prototype
+from garage2usd.stage.variants import author_variants
 
-__all__ = ["OBJECT_LABELS", "ROOT_NAME", "write_garage_layer"]
+__all__ = ["ROOT_NAME", "prim_paths", "write_garage_layer"]
 
 ROOT_NAME = "Garage"
 
-OBJECT_LABELS: dict[ObjectKind, str] = {
-    ObjectKind.FLOOR: "floor",
-    ObjectKind.STALL: "parking_stall",
-    ObjectKind.CEILING: "ceiling",
-    ObjectKind.WALL: "wall",
-    ObjectKind.PORTAL: "vehicle_door",
-    ObjectKind.OBSTACLE: "obstacle",
-    ObjectKind.COLUMN: "column",
-    ObjectKind.LIGHT: "light",
-    ObjectKind.DUCT: "duct",
-    ObjectKind.SPEED_BUMP: "speed_bump",
-    ObjectKind.WHEEL_STOP: "wheel_stop",
-    ObjectKind.NO_PARKING_SIGN: "traffic_sign",
-    ObjectKind.CAR: "car",
-}
-"""Semantic class of each kind of object, authored on every instance root."""
-
 _BUILDING_GROUPS = {
-    "Walls": (ObjectKind.WALL, ObjectKind.PORTAL),
-    "Obstacles": (ObjectKind.OBSTACLE,),
-    "Columns": (ObjectKind.COLUMN,),
+    ObjectKind.WALL: "Walls",
+    ObjectKind.PORTAL: "Walls",
+    ObjectKind.OBSTACLE: "Obstacles",
+    ObjectKind.COLUMN: "Columns",
 }
+"""Group of each kind of object that belongs to the building, not to a tile."""
+
+
+def prim_paths(layout: Layout) -> dict[int, str]:
+    """Prim path of each placement by its index in ``layout.placements``."""
+    return {index: str(_path(placement)) for index, placement in enumerate(layout.placements)}
 
 
 def write_garage_layer(
     layout: Layout,
     graph: LaneGraph,
     *,
-    prototypes: Mapping[Spec, str],
+    prototypes: Mapping[Spec, Prototype],
     asset_folder: str,
     metadata: Mapping[str, str | int],
+    setback_m: float,
     path: Path,
 ) -> None:
     """Author the layer that places every prototype.
@@ -60,11 +54,13 @@ def write_garage_layer(
     layout, graph
         What to place, and the kinds of the lane squares.
     prototypes
-        Asset name of every spec in the layout.
+        Asset and look of every spec in the layout.
     asset_folder
         Folder of the assets, relative to `path`.
     metadata
         Written into the root's customData beside S, R and C.
+    setback_m
+        How far the carriageway stays from squares that are no lane.
     path
         The file; ``.usda`` or ``.usdc``.
     """
@@ -76,149 +72,88 @@ def write_garage_layer(
         pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.Tokens.y)
         pseudo_root.SetInfo(UsdGeom.Tokens.metersPerUnit, 1.0)
         pseudo_root.SetInfo(UsdPhysics.Tokens.kilogramsPerUnit, 1.0)
-        root = _prim(layer, root_path, "Xform", kind=Kind.Tokens.assembly)
+        root = define(layer, root_path, "Xform", kind=Kind.Tokens.assembly)
         root.SetInfo("customData", {**metadata, **_matrices(layout.structure)})
-
-        author = _InstanceAuthor(layer, prototypes, asset_folder)
-        _prim(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        _author_tiles(layer, root_path.AppendChild("Tiles"), layout, graph, author)
-        _author_building(layer, root_path, layout, author)
-        _author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph)
+        define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
+        _author_tiles(layer, root_path.AppendChild("Tiles"), layout, graph)
+        for group in dict.fromkeys(_BUILDING_GROUPS[p.kind] for p in layout.placements if p.square is None):
+            define(layer, root_path.AppendChild(group), "Xform", kind=Kind.Tokens.group)
+        _author_instances(layer, layout, prototypes, asset_folder)
+        author_lane_graph(layer, root_path.AppendChild("LaneGraph"), layout.structure, graph, setback_m=setback_m)
+        last_frame = author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph)
+        layer.framesPerSecond = layer.timeCodesPerSecond = FRAMES_PER_SECOND
+        layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
+        author_variants(root, layout, prim_paths(layout))
     layer.Save()
 
 
-class _InstanceAuthor:
-    """Authors instances of prototypes with what all of them share."""
-
-    def __init__(self, layer: Sdf.Layer, prototypes: Mapping[Spec, str], asset_folder: str) -> None:
-        self._layer = layer
-        self._references = {
-            spec: Sdf.ReferenceListOp.Create(
-                prependedItems=[Sdf.Reference(f"./{asset_folder}/{name}.usdc")],
-            )
-            for spec, name in prototypes.items()
-        }
-
-    def instance(self, path: Sdf.Path, placement: Placement, origin_m: tuple[float, float]) -> None:
-        """One instanceable reference, placed relative to its parent's origin."""
-        prim = _prim(self._layer, path, "Xform", label=OBJECT_LABELS[placement.kind])
-        prim.SetInfo("references", self._references[placement.spec])
-        prim.instanceable = True
-        x, y, z = placement.position_m
-        _place(prim, (x - origin_m[0], y, z - origin_m[1]), placement.yaw_rad)
+def _path(placement: Placement) -> Sdf.Path:
+    root = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
+    if placement.square is None:
+        return root.AppendChild(_BUILDING_GROUPS[placement.kind]).AppendChild(placement.name)
+    return _tile_path(placement.square).AppendChild(placement.name)
 
 
-def _author_tiles(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, author: _InstanceAuthor) -> None:
+def _tile_path(square: Square) -> Sdf.Path:
+    return Sdf.Path(f"/{ROOT_NAME}/Tiles/Row_r{square[0]:02d}/Tile_{square_name(square)}")
+
+
+def _author_tiles(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> None:
     """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
-    _prim(layer, path, "Xform", kind=Kind.Tokens.group)
-    on_tiles = [placement for placement in layout.placements if placement.square is not None]
-    for row, in_row in groupby(on_tiles, key=lambda placement: (placement.square or (0, 0))[0]):
-        row_path = path.AppendChild(f"Row_r{row:02d}")
-        _prim(layer, row_path, "Xform", kind=Kind.Tokens.group)
-        for square, on_tile in groupby(in_row, key=lambda placement: placement.square or (0, 0)):
-            placements = list(on_tile)
-            tile_path = row_path.AppendChild(f"Tile_r{square[0]:02d}_c{square[1]:02d}")
-            label = _tile_label(layout.structure, graph, square)
-            tile = _prim(layer, tile_path, "Xform", kind=Kind.Tokens.group, label=label)
-            x, _, z = next(p.position_m for p in placements if p.kind is ObjectKind.FLOOR)
-            _place(tile, (x, 0.0, z), 0.0)
-            for placement in placements:
-                author.instance(tile_path.AppendChild(placement.name), placement, (x, z))
+    define(layer, path, "Xform", kind=Kind.Tokens.group)
+    for floor in layout.of_kind(ObjectKind.FLOOR):
+        if floor.square is None:  # pragma: no cover - a floor lies on a square
+            continue
+        tile_path = _tile_path(floor.square)
+        if layer.GetPrimAtPath(tile_path.GetParentPath()) is None:
+            define(layer, tile_path.GetParentPath(), "Xform", kind=Kind.Tokens.group)
+        label = _tile_label(layout.structure, graph, floor.square)
+        place(define(layer, tile_path, "Xform", kind=Kind.Tokens.group, label=label), floor.position_m)
+
+
+def _author_instances(
+    layer: Sdf.Layer, layout: Layout, prototypes: Mapping[Spec, Prototype], asset_folder: str
+) -> None:
+    """One instanceable reference for each placement, relative to its tile's origin."""
+    references = {
+        prototype.name: Sdf.ReferenceListOp.Create(
+            prependedItems=[Sdf.Reference(f"./{asset_folder}/{prototype.name}.usdc")]
+        )
+        for prototype in prototypes.values()
+    }
+    origins = {floor.square: floor.position_m for floor in layout.of_kind(ObjectKind.FLOOR)}
+    stalls = {stall.name: stall for stall in layout.stalls}
+    for placement in layout.placements:
+        prototype = prototypes[placement.spec]
+        prim = define(layer, _path(placement), "Xform", label=OBJECT_LABELS[placement.kind])
+        prim.SetInfo("references", references[prototype.name])
+        prim.instanceable = True
+        for name, choice in prototype.look:
+            prim.variantSelections[name] = choice
+        x, y, z = placement.position_m
+        origin_x, _, origin_z = origins.get(placement.square, (0.0, 0.0, 0.0)) if placement.square else (0.0, 0.0, 0.0)
+        place(prim, (x - origin_x, y, z - origin_z), placement.yaw_rad)
+        if placement.kind is ObjectKind.STALL:
+            _describe_stall(prim, stalls[placement.name])
+
+
+def _describe_stall(prim: Sdf.PrimSpec, stall: Stall) -> None:
+    """Id, type, use, lane, mouth and corners (x, z in the world) of a stall as attributes of its prim."""
+    types = Sdf.ValueTypeNames
+    attribute(prim, "garage:stall:id", types.String, stall.name)
+    attribute(prim, "garage:stall:type", types.Token, stall.stall_type.value)
+    attribute(prim, "garage:stall:use", types.Token, stall.use.value)
+    attribute(prim, "garage:stall:square", types.Int2, Gf.Vec2i(*stall.square))
+    attribute(prim, "garage:stall:accessSquare", types.Int2, Gf.Vec2i(*stall.access_square))
+    attribute(prim, "garage:stall:entryEdge", types.Token, stall.edge.name.lower())
+    corners = Vt.Vec2fArray([Gf.Vec2f(*corner) for corner in stall.corners_m()])
+    attribute(prim, "garage:stall:corners", types.Float2Array, corners)
 
 
 def _tile_label(structure: Structure, graph: LaneGraph, square: Square) -> str:
     if structure.cells[square] == Cell.FREE:
         return f"stall_{graph.stall_types[square].value}"
     return graph.kind(square).value
-
-
-def _author_building(layer: Sdf.Layer, root: Sdf.Path, layout: Layout, author: _InstanceAuthor) -> None:
-    for group, kinds in _BUILDING_GROUPS.items():
-        placements = [placement for placement in layout.placements if placement.kind in kinds]
-        if not placements:
-            continue
-        path = root.AppendChild(group)
-        _prim(layer, path, "Xform", kind=Kind.Tokens.group)
-        for placement in placements:
-            author.instance(path.AppendChild(placement.name), placement, (0.0, 0.0))
-
-
-def _author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> None:
-    """A camera at a driver's eye on the lane behind the first entrance, and one over the whole garage."""
-    _prim(layer, path, "Scope")
-    entrance = layout.structure.where(Cell.ENTRANCE)[0]
-    nodes = graph.graph.nodes
-    lane = min(graph.graph[entrance])
-    x, z = nodes[entrance]["x_m"], nodes[entrance]["z_m"]
-    yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
-    _camera(layer, path.AppendChild("Inside"), (x, 1.5, z), (0.0, yaw), focal_mm=20)
-
-    width, depth = layout.structure.column_edges_m[-1], layout.structure.row_edges_m[-1]
-    height = 1.15 * max(width * 20 / 36, depth * 20 / 20.25)
-    _camera(
-        layer,
-        path.AppendChild("Above"),
-        (width / 2, height + layout.ceiling_height_m, depth / 2),
-        (-90.0, 0.0),
-        focal_mm=20,
-    )
-
-
-def _camera(
-    layer: Sdf.Layer,
-    path: Sdf.Path,
-    position: tuple[float, float, float],
-    turn_deg: tuple[float, float],
-    *,
-    focal_mm: float,
-) -> None:
-    camera = _prim(layer, path, "Camera")
-    # focal length and aperture are tenths of a stage unit
-    for name, value in (("focalLength", focal_mm / 100), ("horizontalAperture", 0.36), ("verticalAperture", 0.2025)):
-        Sdf.AttributeSpec(camera, name, Sdf.ValueTypeNames.Float).default = value
-    clipping = Sdf.AttributeSpec(camera, "clippingRange", Sdf.ValueTypeNames.Float2)
-    clipping.default = Gf.Vec2f(0.1, 2000.0)
-    _operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*position))
-    order = ["xformOp:translate"]
-    for name, value in (("rotateY", turn_deg[1]), ("rotateX", turn_deg[0])):
-        if value:
-            _operation(camera, name, Sdf.ValueTypeNames.Float, value)
-            order.append(f"xformOp:{name}")
-    _order(camera, order)
-
-
-def _place(prim: Sdf.PrimSpec, position: tuple[float, float, float], yaw_rad: float) -> None:
-    # float3, not double3: three.js cannot read a double3 from a crate file
-    _operation(prim, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*position))
-    order = ["xformOp:translate"]
-    if yaw_rad:
-        _operation(prim, "rotateY", Sdf.ValueTypeNames.Float, round(math.degrees(yaw_rad), 4))
-        order.append("xformOp:rotateY")
-    _order(prim, order)
-
-
-def _operation(prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object) -> None:
-    Sdf.AttributeSpec(prim, f"xformOp:{name}", type_name).default = value
-
-
-def _order(prim: Sdf.PrimSpec, names: list[str]) -> None:
-    order = Sdf.AttributeSpec(prim, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, Sdf.VariabilityUniform)
-    order.default = Vt.TokenArray(names)
-
-
-def _prim(
-    layer: Sdf.Layer, path: Sdf.Path, type_name: str, *, kind: str | None = None, label: str | None = None
-) -> Sdf.PrimSpec:
-    prim = Sdf.CreatePrimInLayer(layer, path)
-    prim.specifier = Sdf.SpecifierDef
-    prim.typeName = type_name
-    if kind is not None:
-        prim.kind = kind
-    if label is not None:
-        prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=[f"SemanticsLabelsAPI:{LABEL_TAXONOMY}"]))
-        name = f"semantics:labels:{LABEL_TAXONOMY}"
-        Sdf.AttributeSpec(prim, name, Sdf.ValueTypeNames.TokenArray).default = Vt.TokenArray([label])
-    return prim
 
 
 def _matrices(structure: Structure) -> dict[str, object]:

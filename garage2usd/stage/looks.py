@@ -4,22 +4,29 @@ from pxr import Gf, Sdf, Usd, UsdShade
 
 from garage2usd.assets import Material
 
-__all__ = ["TEXTURE_FOLDER", "define_material"]
+__all__ = ["TEXTURE_FOLDER", "define_material", "set_varying"]
 
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
 
 
-def define_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> UsdShade.Material:
-    """Author one material at `path` with its surface, its texture readers and their shared coordinate reader."""
+def define_material(
+    stage: Usd.Stage, path: Sdf.Path, material: Material, *, varying: bool = False
+) -> UsdShade.Material:
+    """Author one material at `path` with its surface, its texture readers and their shared coordinate reader.
+
+    A varying one takes what `set_varying` sets from the variants of its asset.
+    """
     look = UsdShade.Material.Define(stage, path)
     surface = UsdShade.Shader.Define(stage, path.AppendChild("Surface"))
     surface.CreateIdAttr("UsdPreviewSurface")
     surface_output = surface.CreateOutput("surface", Sdf.ValueTypeNames.Token)
     look.CreateSurfaceOutput().ConnectToSource(surface_output)
 
-    _bind_colour(stage, path, surface, material)
-    _bind_roughness(stage, path, surface, material)
+    if not varying:
+        _bind_colour(stage, path, surface, material)
+        _bind_roughness(stage, path, surface, material)
+        surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
     if material.normal_texture is not None:
         reader = _texture(stage, path, "NormalTexture", material.normal_texture, "raw")
         # an 8-bit normal map holds (n + 1) / 2
@@ -28,7 +35,6 @@ def define_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> Usd
         output = reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
         surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).ConnectToSource(output)
     for name, value in (
-        ("metallic", material.metallic),
         ("opacity", material.opacity),
         ("clearcoat", material.clearcoat),
     ):
@@ -38,6 +44,14 @@ def define_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> Usd
     if any(material.emissive_rgb):
         surface.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*material.emissive_rgb))
     return look
+
+
+def set_varying(stage: Usd.Stage, path: Sdf.Path, material: Material) -> None:
+    """Author what a variant decides of the material at `path`, at the stage's edit target."""
+    surface = UsdShade.Shader(stage.OverridePrim(path.AppendChild("Surface")))
+    surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*material.colour_rgb))
+    surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(material.roughness)
+    surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
 
 
 def _bind_colour(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:

@@ -1,18 +1,48 @@
 """One asset as a layer of its own: ``/Name`` with its meshes, materials and light."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
-from garage2usd.assets import MATERIALS, Asset, Collider, Part, RectLight
-from garage2usd.stage.looks import define_material
+from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight
+from garage2usd.stage.authoring import LABEL_TAXONOMY
+from garage2usd.stage.looks import define_material, set_varying
+from garage2usd.stage.prototypes import PAINT_SET
+from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["LABEL_TAXONOMY", "write_prototype"]
-
-LABEL_TAXONOMY = "class"
-"""Instance name of the semantic labels: ``semantics:labels:class``."""
+__all__ = ["write_prototype"]
 
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
+
+
+class _Friction(NamedTuple):
+    """Coefficients of a dry surface against a tyre."""
+
+    static: float
+    dynamic: float
+    restitution: float
+
+
+_FRICTION = {
+    "Concrete": _Friction(0.8, 0.7, 0.05),
+    "Coating": _Friction(0.7, 0.6, 0.05),
+    "Rubber": _Friction(1.0, 0.9, 0.2),
+    "Steel": _Friction(0.45, 0.35, 0.1),
+}
+_FRICTION_OF = {
+    "stall_epoxy": "Coating",
+    "paint_white": "Coating",
+    "paint_yellow": "Coating",
+    "rubber_black": "Rubber",
+    "rubber_yellow": "Rubber",
+    "steel_galvanised": "Steel",
+    "steel_dark": "Steel",
+    "door_steel": "Steel",
+    "car_paint": "Steel",
+}
+"""Surface of a material to the touch; all others are concrete."""
 
 
 def write_prototype(asset: Asset, path: Path) -> None:
@@ -40,17 +70,71 @@ def write_prototype(asset: Asset, path: Path) -> None:
     geometry = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Geom")).GetPath()
     looks = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Looks")).GetPath()
     materials = {
-        key: define_material(stage, looks.AppendChild(_pascal(key)), MATERIALS[key])
+        key: define_material(stage, looks.AppendChild(_pascal(key)), MATERIALS[key], varying=key in VARYING)
         for key in sorted({part.material for part in asset.parts})
     }
+    surfaces = {name: _define_friction(stage, looks, name) for name in sorted(_touched(asset))}
     for part in asset.parts:
-        _define_mesh(stage, geometry.AppendChild(part.name), part, materials[part.material])
+        mesh = _define_mesh(stage, geometry.AppendChild(part.name), part, materials[part.material])
+        if part.collider is not None:
+            _define_collider(mesh, part.collider, surfaces[_FRICTION_OF.get(part.material, "Concrete")])
+    if asset.paints:
+        _define_paints(stage, root, looks, asset.paints)
     if asset.light is not None:
-        _define_light(stage, root.GetPath().AppendChild("Light"), asset.light)
+        light = _define_light(stage, root.GetPath().AppendChild("Light"), asset.light)
+        _define_power(root, light, asset.light, [materials[key] for key in sorted(_glowing(asset))])
     stage.GetRootLayer().Save()
 
 
-def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShade.Material) -> None:
+def _touched(asset: Asset) -> set[str]:
+    return {_FRICTION_OF.get(part.material, "Concrete") for part in asset.parts if part.collider is not None}
+
+
+def _glowing(asset: Asset) -> set[str]:
+    return {part.material for part in asset.parts if any(MATERIALS[part.material].emissive_rgb)}
+
+
+def _define_friction(stage: Usd.Stage, looks: Sdf.Path, name: str) -> UsdShade.Material:
+    """A physics material with the friction of dry surfaces."""
+    friction = _FRICTION[name]
+    material = UsdShade.Material.Define(stage, looks.AppendChild(f"Friction{name}"))
+    physics = UsdPhysics.MaterialAPI.Apply(material.GetPrim())
+    physics.CreateStaticFrictionAttr(friction.static)
+    physics.CreateDynamicFrictionAttr(friction.dynamic)
+    physics.CreateRestitutionAttr(friction.restitution)
+    return material
+
+
+def _define_paints(stage: Usd.Stage, root: Usd.Prim, looks: Sdf.Path, paints: Mapping[str, str]) -> None:
+    """A variant for each paint; the first is selected where an instance selects none."""
+    choices = root.GetVariantSets().AddVariantSet(PAINT_SET)
+    for name, key in paints.items():
+        choices.AddVariant(name)
+        choices.SetVariantSelection(name)
+        with choices.GetVariantEditContext():
+            set_varying(stage, looks.AppendChild(_pascal("car_paint")), MATERIALS[key])
+    choices.SetVariantSelection(next(iter(paints)))
+
+
+def _define_power(root: Usd.Prim, rect: UsdLux.RectLight, light: RectLight, glowing: list[UsdShade.Material]) -> None:
+    """Light and glow as the variants on and off, on being selected."""
+    choices = root.GetVariantSets().AddVariantSet(POWER_SET)
+    glows = [UsdShade.Shader(material.GetPrim().GetChild("Surface")).GetInput("emissiveColor") for material in glowing]
+    colours = [glow.Get() for glow in glows]
+    for name, share in (("on", 1.0), ("off", 0.0)):
+        choices.AddVariant(name)
+        choices.SetVariantSelection(name)
+        with choices.GetVariantEditContext():
+            rect.CreateIntensityAttr(share * light.intensity_nit)
+            for glow, colour in zip(glows, colours, strict=True):
+                glow.Set(share * colour)
+    # opinions of variants are weaker than those beside them
+    for glow in glows:
+        glow.GetAttr().Clear()
+    choices.SetVariantSelection("on")
+
+
+def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShade.Material) -> Usd.Prim:
     mesh = UsdGeom.Mesh.Define(stage, path)
     points = Vt.Vec3fArray.FromNumpy(part.points)
     mesh.CreatePointsAttr(points)
@@ -66,20 +150,19 @@ def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShad
     coordinates.Set(Vt.Vec2fArray.FromNumpy(part.st))
     coordinates.SetIndices(Vt.IntArray.FromNumpy(part.st_indices))
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
-    if part.collider is not None:
-        _define_collider(mesh.GetPrim(), part.collider)
+    return mesh.GetPrim()
 
 
-def _define_collider(prim: Usd.Prim, collider: Collider) -> None:
+def _define_collider(prim: Usd.Prim, collider: Collider, surface: UsdShade.Material) -> None:
     UsdPhysics.CollisionAPI.Apply(prim)
     UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(collider.value)
+    UsdShade.MaterialBindingAPI(prim).Bind(surface, materialPurpose="physics")
 
 
-def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> None:
+def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> UsdLux.RectLight:
     rect = UsdLux.RectLight.Define(stage, path)
     rect.CreateWidthAttr(light.width_m)
     rect.CreateHeightAttr(light.depth_m)
-    rect.CreateIntensityAttr(light.intensity_nit)
     rect.CreateColorAttr(Gf.Vec3f(*_TUBE_COLOUR))
     rect.CreateNormalizeAttr(False)
     extent = [Gf.Vec3f(-light.width_m / 2, -light.depth_m / 2, 0), Gf.Vec3f(light.width_m / 2, light.depth_m / 2, 0)]
@@ -87,6 +170,7 @@ def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> None:
     # a rect light shines along its -Z; turned by -90 degrees about X it shines down
     rect.AddTranslateOp(UsdGeom.XformOp.PrecisionFloat).Set(Gf.Vec3f(0, light.height_m, 0))
     rect.AddRotateXOp().Set(-90.0)
+    return rect
 
 
 def _pascal(key: str) -> str:

@@ -2,38 +2,68 @@
 
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import lru_cache, singledispatch
+from typing import NamedTuple
 
 from garage2usd import assets
 from garage2usd.assets import Asset
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.layout import Placement
 from garage2usd.layout import specs as s
 
-__all__ = ["asset_of", "name_prototypes"]
+__all__ = ["Prototype", "asset_of", "name_prototypes"]
+
+PAINT_SET = "paint"
+"""Variant set of every car's asset."""
 
 
-def name_prototypes(placements: Iterable[Placement]) -> dict[s.Spec, str]:
-    """Name the distinct specs of a layout, numbered by kind in the order of their first place.
+class Prototype(NamedTuple):
+    """The asset that stands for a spec, and how it looks there.
+
+    Attributes
+    ----------
+    name
+        Name of the asset.
+    look
+        (variant set, variant) pairs that an instance selects.
+    """
+
+    name: str
+    look: tuple[tuple[str, str], ...] = ()
+
+
+def name_prototypes(placements: Iterable[Placement]) -> dict[s.Spec, Prototype]:
+    """Name the distinct shapes of a layout, numbered by kind in the order of their first place.
 
     Returns
     -------
     dict
-        Spec to PascalCase asset name: ``Floor_03``, ``Column_01``, ``Car_02``.
+        Spec to prototype, whose asset's name is PascalCase: ``Floor_03``, ``Column_01``, ``Car_02``.
     """
     names: dict[s.Spec, str] = {}
+    prototypes: dict[s.Spec, Prototype] = {}
     counts: Counter[str] = Counter()
     for placement in placements:
-        if placement.spec not in names:
+        shape, look = _shape_and_look(placement.spec)
+        if shape not in names:
             kind = "".join(word.capitalize() for word in placement.kind.value.split("_"))
             counts[kind] += 1
-            names[placement.spec] = f"{kind}_{counts[kind]:02d}"
-    return names
+            names[shape] = f"{kind}_{counts[kind]:02d}"
+        prototypes[placement.spec] = Prototype(names[shape], look)
+    return prototypes
+
+
+def _shape_and_look(spec: s.Spec) -> tuple[s.Spec, tuple[tuple[str, str], ...]]:
+    """What has an asset of its own, and the variants that make the rest of the difference."""
+    if isinstance(spec, s.CarSpec):
+        return replace(spec, paint=PAINTS[0]), ((PAINT_SET, spec.paint),)
+    return spec, ()
 
 
 @lru_cache(maxsize=4096)
 def asset_of(spec: s.Spec) -> Asset:
-    """The meshes of one spec; made once a process."""
+    """The meshes of one spec's shape; made once a process."""
     return _make(spec)
 
 
@@ -128,4 +158,4 @@ def _(_spec: s.NoParkingSignSpec) -> Asset:
 @_make.register
 def _(spec: s.CarSpec) -> Asset:
     body = next(body for body in CAR_BODIES if body.name == spec.body)
-    return assets.car(body, spec.paint)
+    return assets.car(body)

@@ -7,10 +7,10 @@ import shapely
 
 from garage2usd import assets
 from garage2usd.assets import MATERIALS, Collider, Marking, texture_folder
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
-from garage2usd.stage.garage_layer import OBJECT_LABELS
+from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
 PANEL = {
@@ -41,7 +41,7 @@ CASES = {
     "bump": assets.speed_bump(7.2),
     "stop": assets.wheel_stop(1.65),
     "sign": assets.no_parking_sign(),
-    **{f"car_{body.name}": assets.car(body, PAINTS[0]) for body in CAR_BODIES},
+    **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
 }
 each_part = pytest.mark.parametrize(
     ("case", "part"),

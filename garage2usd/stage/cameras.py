@@ -1,0 +1,118 @@
+"""The cameras: at the entrance, over the garage, and one that drives from an entrance to an exit."""
+
+import math
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf, Sdf
+
+from garage2usd.grid import Cell
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout import Layout
+from garage2usd.stage.authoring import attribute, define, operation, order_operations
+
+__all__ = ["FRAMES_PER_SECOND", "author_cameras"]
+
+FRAMES_PER_SECOND = 24.0
+_EYE_M = 1.5
+_FOCAL_MM = 20.0
+_SPEED_M_S = 2.7
+_CORNER_CUTS = 3
+_LOOK_AHEAD_M = 4.0
+
+
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> int:
+    """Author all cameras; returns the last frame of the drive, the first being 0.
+
+    Notes
+    -----
+    The drive takes the shortest way from the first entrance to the exit nearest to it at 2.7 m/s, with rounded corners,
+    looking 4 m ahead.
+    """
+    define(layer, path, "Scope")
+    entrance = layout.structure.where(Cell.ENTRANCE)[0]
+    nodes = graph.graph.nodes
+    lane = min(graph.graph[entrance])
+    x, z = nodes[entrance]["x_m"], nodes[entrance]["z_m"]
+    yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
+    _fixed(_camera(layer, path.AppendChild("Inside")), (x, _EYE_M, z), yaw_deg=yaw)
+
+    width, depth = layout.structure.column_edges_m[-1], layout.structure.row_edges_m[-1]
+    height = 1.15 * max(width * 20 / 36, depth * 20 / 20.25) + layout.ceiling_height_m
+    _fixed(_camera(layer, path.AppendChild("Above")), (width / 2, height, depth / 2), pitch_deg=-90.0)
+    return _drive(_camera(layer, path.AppendChild("Drive")), layer, _way(layout, graph))
+
+
+def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:
+    """Middles of the squares from the first entrance to the nearest exit; float64, shape (n, 2)."""
+    entrance = layout.structure.where(Cell.ENTRANCE)[0]
+    lanes = [square for square in graph.graph if layout.structure.cells[square] == Cell.LANE]
+    ways = []
+    for exit_ in layout.structure.where(Cell.EXIT):
+        # a car does not drive through other portals
+        roads = graph.graph.subgraph([*lanes, entrance, exit_])
+        if nx.has_path(roads, entrance, exit_):
+            ways.append(nx.shortest_path(roads, entrance, exit_, weight="length_m"))
+    squares = min(ways, key=len)
+    return np.array([(graph.graph.nodes[square]["x_m"], graph.graph.nodes[square]["z_m"]) for square in squares])
+
+
+def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> int:
+    way = _rounded(way)
+    reached = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))))
+    frames = int(reached[-1] / _SPEED_M_S * FRAMES_PER_SECOND)
+
+    def at(distance: float) -> tuple[float, float]:
+        return tuple(float(np.interp(distance, reached, way[:, axis])) for axis in (0, 1))  # type: ignore[return-value]
+
+    step = _SPEED_M_S / FRAMES_PER_SECOND
+    start = (float(way[0, 0]), _EYE_M, float(way[0, 1]))
+    moves = operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*start))
+    turns = operation(camera, "rotateY", Sdf.ValueTypeNames.Float, 0.0)
+    order_operations(camera, ["translate", "rotateY"])
+    yaw = 0.0
+    for frame in range(frames + 1):
+        x, z = at(frame * step)
+        ahead_x, ahead_z = at(frame * step + _LOOK_AHEAD_M)
+        if math.hypot(ahead_x - x, ahead_z - z) > 1e-3:  # noqa: PLR2004 - at the end it looks on as before
+            target = math.degrees(math.atan2(x - ahead_x, z - ahead_z))
+            yaw += math.remainder(target - yaw, 360.0)
+        if frame == 0:
+            turns.default = yaw
+        layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, _EYE_M, z))
+        layer.SetTimeSample(turns.path, float(frame), round(yaw, 3))
+    return frames
+
+
+def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The way with its corners cut again and again, by Chaikin."""
+    for _ in range(_CORNER_CUTS):
+        cut = [way[0]]
+        for one, other in pairwise(way):
+            cut += [0.75 * one + 0.25 * other, 0.25 * one + 0.75 * other]
+        way = np.array([*cut, way[-1]])
+    return way
+
+
+def _camera(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.PrimSpec:
+    camera = define(layer, path, "Camera")
+    # focal length and aperture are tenths of a stage unit
+    lens = (("focalLength", _FOCAL_MM / 100), ("horizontalAperture", 0.36), ("verticalAperture", 0.2025))
+    for name, value in lens:
+        attribute(camera, name, Sdf.ValueTypeNames.Float, value)
+    attribute(camera, "clippingRange", Sdf.ValueTypeNames.Float2, Gf.Vec2f(0.1, 2000.0))
+    return camera
+
+
+def _fixed(
+    camera: Sdf.PrimSpec, position_m: tuple[float, float, float], *, yaw_deg: float = 0.0, pitch_deg: float = 0.0
+) -> None:
+    operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*position_m))
+    names = ["translate"]
+    for name, value in (("rotateY", yaw_deg), ("rotateX", pitch_deg)):
+        if value:
+            operation(camera, name, Sdf.ValueTypeNames.Float, value)
+            names.append(name)
+    order_operations(camera, names)

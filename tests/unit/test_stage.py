@@ -1,0 +1,193 @@
+"""What a stage holds beside its meshes: lane graph, stalls, labels, variants, cameras, friction."""
+
+import json
+
+import networkx as nx
+import numpy as np
+import pytest
+from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+
+from garage2usd.config import GarageConfig
+from garage2usd.config.vehicles import PAINTS
+from garage2usd.grid import Cell
+from garage2usd.layout import ObjectKind
+from garage2usd.pipeline import build
+from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
+
+CONFIG = GarageConfig(
+    seed=3,
+    site={"rectangles": 3, "width_cells": 11, "height_cells": 9, "obstacles": 1, "min_portal_distance_cells": 3},
+    plan={"episodes": 300},
+)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return build(CONFIG, tmp_path_factory.mktemp("stage") / "garage.usda")
+
+
+@pytest.fixture
+def stage(made):
+    return Usd.Stage.Open(str(made.stage), Usd.Stage.LoadAll)
+
+
+def everything(stage):
+    return list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+
+
+def test_a_program_can_drive_on_the_stage_alone(stage, made):
+    roads = nx.Graph()
+    for prim in stage.GetPrimAtPath("/Garage/LaneGraph/Nodes").GetChildren():
+        square = tuple(prim.GetAttribute("garage:lane:square").Get())
+        middle = np.mean(UsdGeom.BasisCurves(prim).GetPointsAttr().Get(), axis=0)
+        roads.add_node(square, kind=prim.GetAttribute("garage:lane:kind").Get(), middle=middle[[0, 2]])
+    for prim in stage.GetPrimAtPath("/Garage/LaneGraph/Edges").GetChildren():
+        start, end = (tuple(prim.GetAttribute(f"garage:lane:{name}").Get()) for name in ("from", "to"))
+        points = np.array(UsdGeom.BasisCurves(prim).GetPointsAttr().Get())[:, [0, 2]]
+        assert points == pytest.approx(np.array([roads.nodes[start]["middle"], roads.nodes[end]["middle"]]), abs=1e-4)
+        length = prim.GetAttribute("garage:lane:length").Get()
+        assert length == pytest.approx(np.linalg.norm(points[1] - points[0]), abs=1e-4)
+        assert 5.0 < prim.GetAttribute("garage:lane:width").Get() < 8.1
+        assert UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide
+        kinds = {roads.nodes[start]["kind"], roads.nodes[end]["kind"]}
+        portals = kinds & {"entrance", "exit"}
+        assert prim.GetAttribute("garage:lane:direction").Get() == ("forward" if portals else "both")
+        assert roads.nodes[end]["kind"] != "entrance"
+        assert roads.nodes[start]["kind"] != "exit"
+        roads.add_edge(start, end)
+    graph = made.garage.graph.graph
+    assert nx.utils.graphs_equal(nx.Graph(roads.edges), nx.Graph(graph.edges))
+    assert {square: str(kind) for square, kind in graph.nodes(data="kind")} == dict(roads.nodes(data="kind"))
+
+
+def test_stalls_describe_themselves(stage, made):
+    stalls = {stall.name: stall for stall in made.garage.layout.stalls}
+    cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
+    found = 0
+    for prim in stage.Traverse():
+        identity = prim.GetAttribute("garage:stall:id")
+        if not identity:
+            continue
+        stall = stalls[identity.Get()]
+        found += 1
+        assert prim.GetName() == stall.name
+        assert prim.GetAttribute("garage:stall:type").Get() == stall.stall_type
+        assert prim.GetAttribute("garage:stall:use").Get() == stall.use
+        assert tuple(prim.GetAttribute("garage:stall:accessSquare").Get()) == stall.access_square
+        corners = np.array(prim.GetAttribute("garage:stall:corners").Get())
+        box = cache.ComputeWorldBound(prim).ComputeAlignedRange()
+        low, high = np.array(box.GetMin())[[0, 2]], np.array(box.GetMax())[[0, 2]]
+        assert corners.min(axis=0) == pytest.approx(low, abs=1e-4)
+        assert corners.max(axis=0) == pytest.approx(high, abs=1e-4)
+        # the mouth, the first two corners, lies on the edge to the lane that it names
+        lane = stage.GetPrimAtPath(
+            "/Garage/LaneGraph/Nodes/Node_r{:02d}_c{:02d}".format(*prim.GetAttribute("garage:stall:accessSquare").Get())
+        )
+        middle = np.mean(UsdGeom.BasisCurves(lane).GetPointsAttr().Get(), axis=0)[[0, 2]]
+        mouth, rear = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
+        assert np.linalg.norm(mouth - middle) < np.linalg.norm(rear - middle)
+    assert found == len(stalls)
+
+
+def test_the_label_table_agrees_with_the_stage(stage, made):
+    table = json.loads(made.labels.read_text())
+    assert [entry["id"] for entry in table["objects"]] == list(range(1, len(made.garage.layout.placements) + 1))
+    names = {entry["name"] for entry in table["classes"]}
+    assert names == set(OBJECT_LABELS.values()) == set(CITYSCAPES)
+    cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
+    labelled = {
+        str(prim.GetPath()): list(prim.GetAttribute("semantics:labels:class").Get())
+        for prim in stage.Traverse()
+        if prim.IsInstance()
+    }
+    assert {entry["path"]: [entry["class"]] for entry in table["objects"]} == labelled
+    for entry in table["objects"]:
+        bound = cache.ComputeWorldBound(stage.GetPrimAtPath(entry["path"]))
+        box = bound.ComputeAlignedRange()
+        if entry["class"] == "car":  # turned by a few degrees: the cache bounds a turned box, the table the points
+            assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
+            assert (np.array(entry["max_m"]) <= np.array(box.GetMax()) + 1e-3).all()
+        else:
+            assert entry["min_m"] == pytest.approx(list(box.GetMin()), abs=1e-3)
+            assert entry["max_m"] == pytest.approx(list(box.GetMax()), abs=1e-3)
+
+
+def test_every_paint_is_a_variant(stage, made):
+    cars = made.garage.layout.of_kind(ObjectKind.CAR)
+    assert cars
+    colours = {}
+    for car in cars:
+        row, col = car.square
+        path = f"/Garage/Tiles/Row_r{row:02d}/Tile_r{row:02d}_c{col:02d}/{car.name}"
+        prim = stage.GetPrimAtPath(path)
+        assert prim.GetVariantSets().GetVariantSet("paint").GetVariantNames() == sorted(PAINTS)
+        surface = stage.GetPrimAtPath(f"{path}/Looks/CarPaint/Surface")
+        colours.setdefault(car.spec.paint, set()).add(tuple(surface.GetAttribute("inputs:diffuseColor").Get()))
+    assert all(len(seen) == 1 for seen in colours.values())
+    assert len(set().union(*colours.values())) == len(colours)
+
+
+def test_occupancy_lights_and_ceiling_are_variants(stage, made):
+    layout = made.garage.layout
+
+    def state():
+        prims = everything(stage)
+        lights = [prim for prim in prims if prim.IsA(UsdLux.RectLight)]
+        ceilings = [prim for prim in prims if prim.GetName() == "Ceiling"]
+        return (
+            sum(prim.GetName().startswith("Car_") for prim in prims),
+            sum(UsdLux.RectLight(light).GetIntensityAttr().Get() > 0 for light in lights),
+            sum(UsdGeom.Imageable(ceiling).ComputeVisibility() == UsdGeom.Tokens.inherited for ceiling in ceilings),
+        )
+
+    cars, lights, ceilings = (
+        len(layout.of_kind(kind)) for kind in (ObjectKind.CAR, ObjectKind.LIGHT, ObjectKind.CEILING)
+    )
+    assert state() == (cars, lights, ceilings)
+    sets = stage.GetPrimAtPath("/Garage").GetVariantSets()
+    for name, choice, expected in (
+        ("occupancy", "empty", (0, lights, ceilings)),
+        ("lights", "off", (cars, 0, ceilings)),
+        ("ceiling", "hidden", (cars, lights, 0)),
+    ):
+        usual = sets.GetVariantSelection(name)
+        sets.SetSelection(name, choice)
+        assert state() == expected
+        sets.SetSelection(name, usual)
+    assert state() == (cars, lights, ceilings)
+
+
+def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
+    structure = made.garage.layout.structure
+    camera = UsdGeom.Camera(stage.GetPrimAtPath("/Garage/Cameras/Drive"))
+    last = int(stage.GetEndTimeCode())
+    x_edges, z_edges = structure.column_edges_m, structure.row_edges_m
+    squares, places = [], []
+    for frame in range(last + 1):
+        pose = camera.ComputeLocalToWorldTransform(frame)
+        x, y, z = pose.ExtractTranslation()
+        assert y == pytest.approx(1.5)
+        places.append((x, z))
+        squares.append(
+            structure.cells[np.searchsorted(z_edges, z, "right") - 1, np.searchsorted(x_edges, x, "right") - 1]
+        )
+    assert squares[0] == Cell.ENTRANCE
+    assert squares[-1] == Cell.EXIT
+    assert set(squares) == {Cell.ENTRANCE, Cell.LANE, Cell.EXIT}
+    steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    assert steps.max() < 2.7 / stage.GetFramesPerSecond() + 1e-3
+    forward = camera.ComputeLocalToWorldTransform(0).TransformDir((0, 0, -1))
+    ahead = np.subtract(places[20], places[0])
+    assert np.dot((forward[0], forward[2]), ahead / np.linalg.norm(ahead)) > 0.9
+
+
+def test_every_collider_has_friction(stage):
+    frictions = {}
+    for prim in everything(stage):
+        if prim.HasAPI(UsdPhysics.CollisionAPI):
+            material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+            physics = UsdPhysics.MaterialAPI(material)
+            friction = physics.GetStaticFrictionAttr().Get(), physics.GetDynamicFrictionAttr().Get()
+            assert 0 < friction[1] < friction[0] <= 1
+            frictions[prim.GetName()] = friction
+    assert frictions["Black"] > frictions["Shaft"]  # rubber grips better than concrete
