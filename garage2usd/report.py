@@ -59,6 +59,7 @@ def write_report(
         "principles": asdict(principles(structure, bay=config.bay)),
         "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
         "reachable_stalls": len(layout.stalls),
+        "illuminance": asdict(layout.illuminance),
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),
         "stalls": [

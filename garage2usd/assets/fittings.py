@@ -11,13 +11,12 @@ WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
 _HOUSING_HEIGHT_M = 0.06
 _TUBE_RADIUS_M = 0.016
 _LIGHT_DROP_M = 0.115
-TUBE_INTENSITY_NIT = 150.0
 _FLANGE_PITCH_M = 1.35
 _FLANGE_M = 0.025
 _SEGMENT_M = 0.5
 
 
-def tube_light(length_m: float, width_m: float) -> Asset:
+def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asset:
     """A batten with two bare tubes, long along X; origin in the middle of its top."""
     x, z = length_m / 2, width_m / 2
     housing = box_faces((-x, -_HOUSING_HEIGHT_M, -z), (x, 0, z))
@@ -28,7 +27,7 @@ def tube_light(length_m: float, width_m: float) -> Asset:
     for side in (-z / 2, z / 2):
         ring = lathe_faces([(-x + 0.03, _TUBE_RADIUS_M), (x - 0.03, _TUBE_RADIUS_M)], segments=10)
         tubes += [face + np.array((0.0, -_HOUSING_HEIGHT_M - 0.024, side)) for face in ring]
-    light = RectLight(length_m, width_m, -_LIGHT_DROP_M, TUBE_INTENSITY_NIT)
+    light = RectLight(length_m, width_m, -_LIGHT_DROP_M, luminance_nit)
     return Asset(
         "light",
         (

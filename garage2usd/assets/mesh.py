@@ -83,14 +83,14 @@ class RectLight:
         Extent along X and Z.
     height_m
         Height of the rectangle in the asset.
-    intensity_nit
-        UsdLux intensity.
+    luminance_nit
+        Luminance of its lower face, cd/m2.
     """
 
     width_m: float
     depth_m: float
     height_m: float
-    intensity_nit: float
+    luminance_nit: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,10 @@ class FittingsConfig(Settings):
     """Thickness of the outer walls, outside the contour."""
     tubes_per_cell: int = Field(2, ge=0, le=6)
     """Tube lights over each lane square; squares with stalls carry one."""
+    lane_lux: float = Field(50.0, gt=0, le=2000)
+    """Wanted mean direct illuminance on the lanes' floor; tubes get the luminance for it."""
+    stall_lux: float = Field(30.0, gt=0, le=2000)
+    """The same on the stalls."""
     ducts: bool = True
     """Ventilation ducts along the aisles."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)

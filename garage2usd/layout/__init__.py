@@ -6,12 +6,13 @@ from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.building import columns, obstacles, outer_walls
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.lighting import Illuminance, light_up
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.planning import dead_ends
 
-__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "StallUse", "lay_out"]
+__all__ = ["Illuminance", "Layout", "ObjectKind", "Placement", "Stall", "StallUse", "lay_out"]
 
 
 def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Layout:
@@ -45,9 +46,10 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         stalls = with_turning_stalls(stalls, grid, tips)
     parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, seed=seed)]
 
+    tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
     overhead = [
         *(ceiling_panel(tile, fittings) for tile in grid),
-        *tube_lights(grid, fittings),
+        *tubes,
         *ducts(structure, grid, fittings),
     ]
     on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
@@ -57,4 +59,4 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *columns(structure, bay, fittings),
     ]
     by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
-    return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m)
+    return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m, illuminance)

@@ -4,11 +4,15 @@ import math
 from collections import Counter
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 from garage2usd.grid import Structure
 from garage2usd.lanes import Square, StallType
 from garage2usd.layout.specs import Spec
 from garage2usd.stalls import Edge
+
+if TYPE_CHECKING:
+    from garage2usd.layout.lighting import Illuminance
 
 __all__ = ["Layout", "ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "to_world"]
 
@@ -125,12 +129,15 @@ class Layout:
         All stalls in reading order; each has a placement of the same name.
     ceiling_height_m
         Height of the ceiling's underside.
+    illuminance
+        How bright its floor is.
     """
 
     structure: Structure
     placements: tuple[Placement, ...]
     stalls: tuple[Stall, ...]
     ceiling_height_m: float
+    illuminance: "Illuminance"
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""

@@ -127,10 +127,17 @@ class ColumnSpec:
 
 @dataclass(frozen=True)
 class TubeLightSpec:
-    """A tube light with its housing, long along X; origin in the middle of its top."""
+    """A tube light with its housing, long along X; origin in the middle of its top.
+
+    Attributes
+    ----------
+    luminance_nit
+        Of its downward face, cd/m2.
+    """
 
     length_m: float
     width_m: float
+    luminance_nit: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,10 @@ from garage2usd.stage.looks import define_material, set_varying
 from garage2usd.stage.prototypes import PAINT_SET
 from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["write_prototype"]
+__all__ = ["NITS_PER_INTENSITY", "write_prototype"]
+
+NITS_PER_INTENSITY = 40.0
+"""What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
 
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
 
@@ -125,7 +128,7 @@ def _define_power(root: Usd.Prim, rect: UsdLux.RectLight, light: RectLight, glow
         choices.AddVariant(name)
         choices.SetVariantSelection(name)
         with choices.GetVariantEditContext():
-            rect.CreateIntensityAttr(share * light.intensity_nit)
+            rect.CreateIntensityAttr(share * light.luminance_nit / NITS_PER_INTENSITY)
             for glow, colour in zip(glows, colours, strict=True):
                 glow.Set(share * colour)
     # opinions of variants are weaker than those beside them
@@ -165,6 +168,8 @@ def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> UsdLux.
     rect.CreateHeightAttr(light.depth_m)
     rect.CreateColorAttr(Gf.Vec3f(*_TUBE_COLOUR))
     rect.CreateNormalizeAttr(False)
+    luminance = rect.GetPrim().CreateAttribute("garage:light:luminance", Sdf.ValueTypeNames.Float)
+    luminance.Set(light.luminance_nit)
     extent = [Gf.Vec3f(-light.width_m / 2, -light.depth_m / 2, 0), Gf.Vec3f(light.width_m / 2, light.depth_m / 2, 0)]
     rect.CreateExtentAttr(extent)
     # a rect light shines along its -Z; turned by -90 degrees about X it shines down

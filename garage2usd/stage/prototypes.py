@@ -132,7 +132,7 @@ def _(spec: s.ColumnSpec) -> Asset:
 
 @_make.register
 def _(spec: s.TubeLightSpec) -> Asset:
-    return assets.tube_light(spec.length_m, spec.width_m)
+    return assets.tube_light(spec.length_m, spec.width_m, luminance_nit=spec.luminance_nit)
 
 
 @_make.register

@@ -35,7 +35,7 @@ CASES = {
     "obstacle": assets.obstacle_block(8.1, 5.4, 3.2),
     "column": assets.column(0.6, 3.2),
     "ceiling": assets.ceiling_panel(8.1, 8.1, 0.25),
-    "tube": assets.tube_light(1.5, 0.12),
+    "tube": assets.tube_light(1.5, 0.12, luminance_nit=4000.0),
     "duct": assets.duct(8.1, 0.8, 0.35, hanger_m=0.15),
     "branch": assets.duct(0.65, 0.8, 0.35, hanger_m=0.15),
     "bump": assets.speed_bump(7.2),

@@ -1,0 +1,147 @@
+"""How bright the floor is: tubes get the luminance that reaches the wanted illuminance."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from garage2usd.config import FittingsConfig
+from garage2usd.grid import Cell
+from garage2usd.layout.placement import Placement, Stall
+from garage2usd.layout.specs import TubeLightSpec
+from garage2usd.layout.tiles import TileGrid
+
+__all__ = ["Illuminance", "Lux", "direct_lux", "light_up"]
+
+UTILISATION, MAINTENANCE = 1.0, 0.8
+"""Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
+_REACH_M = 25.0
+_SEGMENTS = 3
+_POINTS_A_SIDE = 3
+_LIGHT_DROP_M = 0.115
+
+
+@dataclass(frozen=True)
+class Lux:
+    """Illuminance over points of the floor."""
+
+    minimum: float
+    mean: float
+    maximum: float
+
+
+@dataclass(frozen=True)
+class Illuminance:
+    """The light of a garage.
+
+    Attributes
+    ----------
+    luminance_nit
+        Of each tube's downward face, cd/m2.
+    flux_lm
+        Of each tube: pi x luminance x area.
+    lanes, stalls
+        Direct light on the floor by the point-by-point method: on nine points of each lane square, and in the middle
+        of each stall; None where there is none.
+    lumen_method_lux
+        Mean over the whole floor by the lumen method, reflections included.
+    """
+
+    luminance_nit: float
+    flux_lm: float
+    lanes: Lux | None
+    stalls: Lux | None
+    lumen_method_lux: float
+
+
+def light_up(
+    tubes: Sequence[Placement], grid: TileGrid, stalls: Sequence[Stall], fittings: FittingsConfig
+) -> tuple[list[Placement], Illuminance]:
+    """The same tubes with the luminance that the floor needs, and what the floor then gets.
+
+    Notes
+    -----
+    ``E(p) = MF L sum dA h^2 / r^4`` for level tubes over a level floor, each tube in three pieces, without what stands
+    in the way. L is the least with which the mean direct light on lanes reaches
+    ``lane_lux`` and that on stalls ``stall_lux``. The lumen method has ``E = N Phi UF MF / A``.
+    """
+    lane_points = _lane_points(grid)
+    stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
+    unit_lanes, unit_stalls = (direct_lux(points, tubes) for points in (lane_points, stall_points))
+    needs = [
+        target / unit.mean()
+        for target, unit in ((fittings.lane_lux, unit_lanes), (fittings.stall_lux, unit_stalls))
+        if unit.size and unit.mean() > 0
+    ]
+    luminance = round(max(needs), 1) if needs else 0.0
+    lit = [replace(tube, spec=replace(_spec(tube), luminance_nit=luminance)) for tube in tubes]
+    area = sum(tile.width_m * tile.depth_m for tile in grid)
+    flux = sum(_flux_lm(tube) for tube in lit)
+    each = flux / len(lit) if lit else 0.0
+    return lit, Illuminance(
+        luminance,
+        each,
+        _lux(luminance * unit_lanes),
+        _lux(luminance * unit_stalls),
+        flux * UTILISATION * MAINTENANCE / area,
+    )
+
+
+def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArray[np.float64]:
+    """Direct, maintained illuminance of points (x, z) on the floor for a luminance of 1 cd/m2; shape (n,)."""
+    if not len(points) or not tubes:
+        return np.zeros(len(points))
+    pieces, areas, heights = _pieces(tubes)
+    near = KDTree(points).query_ball_point(pieces, _REACH_M)
+    counts = np.array([len(found) for found in near])
+    which = np.concatenate([np.asarray(found, dtype=np.int64) for found in near])
+    source = np.repeat(np.arange(len(pieces)), counts)
+    squared_m2 = ((points[which] - pieces[source]) ** 2).sum(axis=1) + heights[source] ** 2
+    lux = MAINTENANCE * areas[source] * heights[source] ** 2 / squared_m2**2
+    total: NDArray[np.float64] = np.bincount(which, weights=lux, minlength=len(points)).astype(np.float64)
+    return total
+
+
+def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Middles (x, z), areas and heights over the floor of equal pieces of all tubes."""
+    middles, areas, heights = [], [], []
+    for tube in tubes:
+        spec = _spec(tube)
+        x, y, z = tube.position_m
+        for index in range(_SEGMENTS):
+            along = ((index + 0.5) / _SEGMENTS - 0.5) * spec.length_m
+            middles.append((x + along * np.cos(tube.yaw_rad), z - along * np.sin(tube.yaw_rad)))
+            areas.append(spec.length_m * spec.width_m / _SEGMENTS)
+            heights.append(y - _LIGHT_DROP_M)
+    return np.array(middles), np.array(areas), np.array(heights)
+
+
+def _flux_lm(tube: Placement) -> float:
+    spec = _spec(tube)
+    return np.pi * spec.luminance_nit * spec.length_m * spec.width_m
+
+
+def _spec(tube: Placement) -> TubeLightSpec:
+    if not isinstance(tube.spec, TubeLightSpec):  # pragma: no cover - only tubes are handed over
+        raise TypeError(type(tube.spec).__name__)
+    return tube.spec
+
+
+def _lane_points(grid: TileGrid) -> NDArray[np.float64]:
+    shares = (np.arange(_POINTS_A_SIDE) + 0.5) / _POINTS_A_SIDE - 0.5
+    points = [
+        (tile.x_m + u * tile.width_m, tile.z_m + v * tile.depth_m)
+        for tile in grid
+        if tile.cell is Cell.LANE
+        for u in shares
+        for v in shares
+    ]
+    return np.array(points).reshape(-1, 2)
+
+
+def _lux(values: NDArray[np.float64]) -> Lux | None:
+    if not values.size:
+        return None
+    return Lux(*(round(float(value), 2) for value in (values.min(), values.mean(), values.max())))
