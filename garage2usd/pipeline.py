@@ -157,6 +157,7 @@ def build(
             folder / path.name,
             metadata=_metadata(garage),
             setback_m=garage.config.bay.carriageway_setback_m,
+            config=garage.config.stage,
             progress=progress,
         )
         labels = staging / f"{path.stem}_labels.json"

@@ -30,9 +30,9 @@ def write_report(
     Notes
     -----
     ``tape`` and ``rank`` are null where no single agent makes the lanes (see `garage2usd.planning.tape`); the rank is a
-    decimal number of any length. ``polish_gain`` is what polish added to the best y' that learning met. ``S`` is a list
-    of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row, stall centres are
-    (x, z) in metres.
+    hexadecimal number of any length. ``polish_gain`` is what polish added to the best y' that learning met. ``S`` is a
+    list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row, stall centres
+    are (x, z) in metres.
     """
     structure = plan.structure
     score = plan.score
@@ -44,7 +44,7 @@ def write_report(
         "structure_digest": structure.digest(),
         "config": config.model_dump(mode="json"),
         "tape": tape,
-        "rank": None if tape is None else str(rank_of(tape)),
+        "rank": None if tape is None else hex(rank_of(tape)),
         "S": str(structure).splitlines(),
         "R": structure.R[0].tolist(),
         "C": structure.C[:, 0].tolist(),

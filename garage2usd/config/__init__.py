@@ -13,6 +13,7 @@ from garage2usd.config.base import Settings
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
+from garage2usd.config.stage import StageConfig
 from garage2usd.errors import ConfigError
 
 __all__ = [
@@ -22,12 +23,13 @@ __all__ = [
     "ParkingConfig",
     "PlanConfig",
     "SiteConfig",
+    "StageConfig",
     "config_from_mapping",
     "config_schema",
     "load_config",
 ]
 
-_SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig)
+_SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig, StageConfig)
 _MAX_FILE_BYTES = 16 * 1024 * 1024
 
 
@@ -46,6 +48,8 @@ class GarageConfig(Settings):
     """Walls, lights, ducts, bumps, stops and signs."""
     parking: ParkingConfig = ParkingConfig()
     """Parked cars."""
+    stage: StageConfig = StageConfig()
+    """The stage's files."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.

@@ -4,6 +4,9 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
+import numpy as np
+from scipy.spatial import KDTree
+
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.grid import NEIGHBOUR_STEPS
@@ -21,6 +24,7 @@ WHEEL_STOP_FROM_REAR_M = 0.55
 _WHEEL_STOP_LENGTH_M = 1.65
 _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
+_NEAR_STALLS = 12
 _REAR_CLEARANCE_M = 0.12
 
 
@@ -52,15 +56,14 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
 def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, tips: Iterable[Square]) -> tuple[Stall, ...]:
     """The same with the stall nearest to each tip, the last lane of a dead-end aisle, kept free for turning."""
     turned = list(stalls)
+    places = KDTree(np.array([stall.centre_m for stall in stalls]))
     for tip in tips:
         tile = grid.tiles[tip]
-        nearest = min(
-            (index for index, stall in enumerate(turned) if stall.use is StallUse.STANDARD),
-            key=lambda index: (math.dist(turned[index].centre_m, (tile.x_m, tile.z_m)), index),
-            default=None,
-        )
-        if nearest is not None:
-            turned[nearest] = replace(turned[nearest], use=StallUse.TURNING)
+        _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))
+        for index in np.atleast_1d(nearest).tolist():
+            if turned[index].use is StallUse.STANDARD:
+                turned[index] = replace(turned[index], use=StallUse.TURNING)
+                break
     return tuple(turned)
 
 

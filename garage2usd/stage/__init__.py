@@ -7,14 +7,17 @@ from enum import StrEnum
 from pathlib import Path
 
 from garage2usd.assets import MATERIALS, texture_folder
+from garage2usd.config.stage import StageConfig, StageForm
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
+from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import prim_paths, write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of, name_prototypes
+from garage2usd.stage.textures import write_texture
 from garage2usd.stage.usdz import write_usdz
 
 __all__ = ["StageFormat", "asset_folder_name", "write_labels", "write_stage"]
@@ -35,7 +38,9 @@ def asset_folder_name(stage_path: Path) -> str:
 
 def write_labels(layout: Layout, path: Path) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.stage.labels.label_table`)."""
-    path.write_text(json.dumps(label_table(layout, prim_paths(layout)), indent=1) + "\n", encoding="utf-8")
+    table = label_table(layout, prim_paths(layout))
+    lists = (f' "{name}": [\n  ' + ",\n  ".join(map(json.dumps, entries)) + "\n ]" for name, entries in table.items())
+    path.write_text("{\n" + ",\n".join(lists) + "\n}\n", encoding="utf-8")
 
 
 def write_stage(
@@ -45,6 +50,7 @@ def write_stage(
     *,
     metadata: Mapping[str, str | int],
     setback_m: float,
+    config: StageConfig | None = None,
     progress: Progress = silent,
 ) -> tuple[Path, ...]:
     """Write a stage into a folder of its own.
@@ -59,6 +65,8 @@ def write_stage(
         Written into the root's customData.
     setback_m
         How far the carriageway stays from squares that are no lane.
+    config
+        Texture quality and form; the defaults if left out.
     progress
         Told of each prototype.
 
@@ -67,6 +75,7 @@ def write_stage(
     tuple of Path
         What now stands in the folder: the asset folder, if the format has one, then the stage.
     """
+    config = config or StageConfig()
     packed = path.suffix == StageFormat.USDZ
     folder = path.parent / ("assets" if packed else asset_folder_name(path))
     textures = folder / TEXTURE_FOLDER
@@ -80,7 +89,7 @@ def write_stage(
         write_prototype(asset, folder / f"{name}.usdc")
         used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
     for texture in sorted(used):
-        shutil.copyfile(texture_folder() / texture, textures / texture)
+        write_texture(texture_folder() / texture, textures / texture, config.texture_quality)
 
     # a browser reads a package only if its root layer is text
     layer_path = path.with_suffix(".usda") if packed else path
@@ -94,6 +103,8 @@ def write_stage(
         setback_m=setback_m,
         path=layer_path,
     )
+    if config.form is StageForm.FLAT:
+        _make_flat(layer_path, folder)
     if not packed:
         return folder, path
     inner = sorted(file for file in folder.rglob("*") if file.is_file())
@@ -101,3 +112,12 @@ def write_stage(
     shutil.rmtree(folder)
     layer_path.unlink()
     return (path,)
+
+
+def _make_flat(layer_path: Path, folder: Path) -> None:
+    """Put one flat layer in the place of an instanced one and its assets; the textures stay."""
+    flat = layer_path.with_stem(f"{layer_path.stem}_flat")
+    flatten_stage(layer_path, flat)
+    flat.replace(layer_path)
+    for asset in folder.glob("*.usdc"):
+        asset.unlink()

@@ -48,7 +48,7 @@ CITYSCAPES: dict[str, str] = {
 """Name of the nearest Cityscapes class of each class."""
 
 
-def label_table(layout: Layout, paths: Mapping[int, str]) -> dict[str, Any]:
+def label_table(layout: Layout, paths: Mapping[int, str]) -> dict[str, list[dict[str, Any]]]:
     """Classes and objects as plain values for JSON.
 
     Parameters

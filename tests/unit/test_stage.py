@@ -5,6 +5,7 @@ import json
 import networkx as nx
 import numpy as np
 import pytest
+from PIL import Image
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 
 from garage2usd.config import GarageConfig
@@ -191,3 +192,45 @@ def test_every_collider_has_friction(stage):
             assert 0 < friction[1] < friction[0] <= 1
             frictions[prim.GetName()] = friction
     assert frictions["Black"] > frictions["Shaft"]  # rubber grips better than concrete
+
+
+@pytest.mark.parametrize("extension", ["usdc", "usdz"])
+def test_the_flat_form_needs_no_composition(tmp_path, made, stage, extension):
+    config = GarageConfig(**{**CONFIG.model_dump(), "stage": {"form": "flat", "texture_quality": "low"}})
+    flat = build(config, tmp_path / f"flat.{extension}")
+    opened = Usd.Stage.Open(str(flat.stage))
+    assert [layer for layer in opened.GetUsedLayers() if not layer.anonymous] == [opened.GetRootLayer()]
+    assert not opened.GetPrototypes()
+    for prim in opened.Traverse():
+        assert not prim.HasAuthoredReferences()
+        assert not prim.HasVariantSets()
+    # every mesh of the instanced stage is there, in its place
+    mine = {str(prim.GetPath()): prim for prim in opened.Traverse() if prim.IsA(UsdGeom.Mesh)}
+    theirs = {str(prim.GetPath()): prim for prim in everything(stage) if prim.IsA(UsdGeom.Mesh)}
+    assert mine.keys() == theirs.keys()
+    places, expected = UsdGeom.XformCache(), UsdGeom.XformCache()
+    for path, prim in mine.items():
+        assert places.GetLocalToWorldTransform(prim) == expected.GetLocalToWorldTransform(theirs[path])
+        assert UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
+    textures = {
+        prim.GetAttribute("inputs:file").Get() for prim in opened.Traverse() if prim.GetAttribute("inputs:file")
+    }
+    assert textures
+    assert all(texture.path.startswith("./") and texture.resolvedPath for texture in textures)
+
+
+def width_of(file):
+    with Image.open(file) as picture:
+        return picture.width
+
+
+def test_texture_quality_is_a_budget(tmp_path, made):
+    sizes, widths = {}, {}
+    for quality in ("low", "medium", "high"):
+        config = GarageConfig(**{**CONFIG.model_dump(), "stage": {"texture_quality": quality}})
+        folder = build(config, tmp_path / f"{quality}.usda").asset_folder / "textures"
+        sizes[quality] = sum(file.stat().st_size for file in folder.iterdir())
+        widths[quality] = {file.name: width_of(file) for file in folder.iterdir()}
+    assert 3 * sizes["low"] < sizes["medium"] < sizes["high"] / 2
+    for name, width in widths["high"].items():
+        assert (widths["medium"][name], widths["low"][name]) == (width // 2, width // 4)

@@ -1,0 +1,45 @@
+"""The flat form of a stage: one layer without references, variants or instances."""
+
+from pathlib import Path
+
+from pxr import Sdf, Usd, UsdUtils
+
+__all__ = ["flatten_stage"]
+
+
+def flatten_stage(source: Path, target: Path) -> None:
+    """Write everything that a stage composes to as one layer beside it, with relative texture paths.
+
+    Parameters
+    ----------
+    source
+        The instanced stage.
+    target
+        The layer, in the same folder.
+    """
+    stage = Usd.Stage.Open(str(source))
+    stage.SetEditTarget(stage.GetSessionLayer())
+    # instances nest no deeper than one, so one pass finds all
+    for prim in list(stage.Traverse()):
+        if prim.IsInstance():
+            prim.SetInstanceable(False)
+    flat = stage.Flatten(addSourceFileComment=False)
+    folder = source.parent.resolve()
+
+    def relative(path: str) -> str:
+        place = Path(path)
+        return f"./{place.resolve().relative_to(folder).as_posix()}" if place.is_absolute() else path
+
+    UsdUtils.ModifyAssetPaths(flat, relative)
+    for prim in _prims(flat.pseudoRoot):
+        prim.ClearInfo("instanceable")
+        if prim.HasInfo("assetInfo"):  # it names a file that is no longer there
+            prim.ClearInfo("assetInfo")
+    flat.Export(str(target))
+
+
+def _prims(parent: Sdf.PrimSpec) -> list[Sdf.PrimSpec]:
+    found = []
+    for child in parent.nameChildren:
+        found += [child, *_prims(child)]
+    return found
