@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import assert_same_places
 from sample_files import each_format, each_sample
-from scipy.spatial import KDTree
 
 from garage2usd.layout import ObjectKind
 
@@ -19,7 +19,6 @@ pytestmark = [
 ]
 
 PREFIXES = {ObjectKind.STALL: "Stall_", ObjectKind.CAR: "Car_", ObjectKind.COLUMN: "Column_", ObjectKind.LIGHT: "Tube_"}
-MILLIMETRE = 0.001
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +32,6 @@ def imported(tmp_path_factory):
         return json.loads(output.read_text())
 
     return dump
-
-
-def assert_same_places(found, expected):
-    assert len(found) == len(expected)
-    distance, partner = KDTree(found).query(expected)
-    assert distance.max() < MILLIMETRE
-    assert len(set(partner.tolist())) == len(expected)
 
 
 @each_sample
