@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image
 
 FOLDER = Path(__file__).parent / "clients" / "pictures"
-STORED_SIZE = 320, 180
+_STORED_SIZE = 320, 180
 _COARSE_SIZE = 32, 18
 
 
@@ -22,7 +22,7 @@ def read_png(data):
 
 def coarse(picture):
     """32 x 18 greys from 0 to 255; float64, shape (18, 32)."""
-    return np.asarray(picture.convert("L").resize(_COARSE_SIZE, Image.Resampling.BOX), dtype=float)
+    return np.asarray(_shrunk(picture).convert("L").resize(_COARSE_SIZE, Image.Resampling.BOX), dtype=float)
 
 
 def difference(one, other):
@@ -38,5 +38,9 @@ def stored(name):
 
 def store(name, picture):
     """Replace a stored picture."""
-    small = picture.convert("RGB").resize(STORED_SIZE, Image.Resampling.BOX)
-    small.save(FOLDER / f"{name}.png", optimize=True)
+    FOLDER.mkdir(exist_ok=True)
+    _shrunk(picture).save(FOLDER / f"{name}.png", optimize=True)
+
+
+def _shrunk(picture):
+    return picture.convert("RGB").resize(_STORED_SIZE, Image.Resampling.BOX)
