@@ -64,8 +64,9 @@ def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
         assert image["values"] == width * height * 4 > 0
 
 
-# Measured: see CONTRIBUTING.md
-LARGEST_DIFFERENCE = 2.0
+# In greys of 255, measured: Cycles' own noise 0.7 to 1.5 from run to run, 2.2 to a picture of 64 samples, 10.1 to the
+# mirrored picture.
+LARGEST_DIFFERENCE = 4.0
 
 
 def test_blender_draws_the_stored_picture(builds, tmp_path, write_pictures):
