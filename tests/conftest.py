@@ -7,6 +7,10 @@ import pytest
 import garage2usd
 
 
+def pytest_addoption(parser):
+    parser.addoption("--write-pictures", action="store_true", help="replace the stored pictures by what is drawn now")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     report = yield
@@ -29,3 +33,9 @@ def builds(tmp_path_factory):
         return made[key]
 
     return build
+
+
+@pytest.fixture(scope="session")
+def write_pictures(pytestconfig):
+    """Whether the stored pictures are replaced before they are compared."""
+    return pytestconfig.getoption("--write-pictures")

@@ -28,7 +28,11 @@ def main(stage, output):
                 entry["energy_w"] = instance.object.data.energy
                 entry["down"] = list(instance.matrix_world.to_3x3() @ Vector((0, 0, -1)))
             drawn.append(entry)
-    images = [{"name": image.name, "size": list(image.size)} for image in bpy.data.images]
+    # an image is read when its pixels are asked for; before that it only has the size of its header
+    images = [
+        {"name": image.name, "size": list(image.size), "values": len(image.pixels), "read": image.has_data}
+        for image in bpy.data.images
+    ]
     with open(output, "w") as file:
         json.dump({"objects": objects, "drawn": drawn, "images": images}, file)
 

@@ -1,0 +1,104 @@
+"""Newton, a physics engine, finds every collider of a stage: of the right kind, size and place."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from places import MILLIMETRE, assert_same_places
+from sample_files import each_sample
+
+from garage2usd.assets import Collider
+from garage2usd.layout.placement import to_world
+from garage2usd.stage.prototypes import asset_of
+
+pytestmark = [
+    pytest.mark.client,
+    pytest.mark.skipif(
+        any(importlib.util.find_spec(name) is None for name in ("newton", "newton_usd_schemas")),
+        reason="newton is not installed",
+    ),
+]
+
+SHAPES = {Collider.MESH: "MESH", Collider.BOX: "BOX", Collider.CONVEX_HULL: "CONVEX_MESH"}
+# newton turns a box to fit its points, which on a square slab is off by up to 15 mm
+BOX_TOLERANCE_M = 0.02
+
+
+def load_in_newton(stage, folder):
+    output = folder / "dump.json"
+    script = Path(__file__).with_name("newton_dump.py")
+    run = subprocess.run(
+        [sys.executable, str(script), str(stage), str(output)],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    return json.loads(output.read_text())
+
+
+def colliders(layout):
+    """(placement, part) of everything that can be touched."""
+    for placement in layout.placements:
+        for part in asset_of(placement.spec).parts:
+            if part.collider is not None:
+                yield placement, part
+
+
+def expected_place(placement, part):
+    """A box lies around the middle of its points, everything else at the placement's origin."""
+    low, high = part.points.min(axis=0), part.points.max(axis=0)
+    x, y, z = (low + high) / 2 if part.collider is Collider.BOX else np.zeros(3)
+    origin = placement.position_m
+    world_x, world_z = to_world((x, z), (origin[0], origin[2]), placement.yaw_rad)
+    return world_x, origin[1] + y, world_z
+
+
+def assert_same_kinds_and_places(shapes, expected):
+    assert len(shapes) == len(expected)
+    # by the mesh's name, too: a wall's concrete in the place of its stripe does not count
+    for collider, name in {(part.collider, part.name) for _, part in expected}:
+        found = [
+            shape["place"]
+            for shape in shapes
+            if shape["type"] == SHAPES[collider] and shape["path"].endswith(f"/{name}")
+        ]
+        places = [
+            expected_place(placement, part)
+            for placement, part in expected
+            if part.collider is collider and part.name == name
+        ]
+        assert_same_places(found, places)
+
+
+def assert_same_sizes(shapes, expected):
+    parts = {}
+    for placement, part in expected:
+        parts.setdefault((placement.name, part.name), set()).add(part)
+    for shape in shapes:
+        owner, _, name = shape["path"].split("/")[-3:]
+        bounds = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts[owner, name]]
+        if shape["type"] == "BOX":
+            sizes = [np.sort(high - low) for low, high in bounds]
+            assert any(np.allclose(np.sort(shape["size"]), size, atol=2 * BOX_TOLERANCE_M) for size in sizes), shape
+        else:
+            assert shape["scale"] == [1, 1, 1]
+            fits = [np.allclose([shape["low"], shape["high"]], pair, atol=MILLIMETRE) for pair in bounds]
+            assert any(fits), shape
+
+
+@each_sample
+def test_newton_agrees_with_the_layout(sample, builds, tmp_path):
+    build = builds(sample, "usdc")
+    scene = load_in_newton(build.stage, tmp_path)
+    expected = list(colliders(build.garage.layout))
+    assert expected
+    assert scene["bodies"] == 0
+    assert all(shape["collides"] for shape in scene["shapes"])
+    assert_same_kinds_and_places(scene["shapes"], expected)
+    assert_same_sizes(scene["shapes"], expected)
