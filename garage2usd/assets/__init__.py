@@ -1,5 +1,6 @@
 """Everything that is placed in a garage, as plain meshes, materials and textures, free of any file format."""
 
+from garage2usd.assets.access import barrier, ramp, sky
 from garage2usd.assets.building import ceiling_panel, column, obstacle_block, portal_wall, wall_panel, wall_post
 from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import duct, no_parking_sign, speed_bump, tube_light, wheel_stop
@@ -17,6 +18,7 @@ __all__ = [
     "Part",
     "RectLight",
     "bake_textures",
+    "barrier",
     "car",
     "ceiling_panel",
     "column",
@@ -25,6 +27,8 @@ __all__ = [
     "no_parking_sign",
     "obstacle_block",
     "portal_wall",
+    "ramp",
+    "sky",
     "speed_bump",
     "texture_folder",
     "tube_light",

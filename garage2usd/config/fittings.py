@@ -16,6 +16,10 @@ class FittingsConfig(Settings):
     """Height of the ceiling's underside above the floor."""
     wall_thickness_m: float = Field(0.3, ge=0.1, le=1)
     """Thickness of the outer walls, outside the contour."""
+    ramps: bool = True
+    """A ramp to the ground outside behind each portal that has room for one; the others keep a closed roller door."""
+    barriers: bool = True
+    """A barrier gate with a ticket column at each ramp."""
     tubes_per_cell: int = Field(2, ge=0, le=6)
     """Tube lights over each lane square; squares with stalls carry one."""
     ducts: bool = True

@@ -4,7 +4,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
-from garage2usd.layout.building import columns, obstacles, outer_walls
+from garage2usd.layout.access import barriers, with_ramps
+from garage2usd.layout.building import columns, ground_inside, obstacles, outer_walls
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
@@ -51,8 +52,10 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *ducts(structure, grid, fittings),
     ]
     on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
+    walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
     shell = [
-        *outer_walls(structure, grid, fittings),
+        *walls,
+        *barriers(walls, fittings),
         *obstacles(structure, fittings),
         *columns(structure, bay, fittings),
     ]

@@ -3,6 +3,7 @@
 from itertools import product
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy import ndimage
 
@@ -13,7 +14,7 @@ from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPo
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.stalls import Edge
 
-__all__ = ["columns", "obstacles", "outer_walls"]
+__all__ = ["columns", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_JAMB_M = 0.6
@@ -51,6 +52,13 @@ def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]
         position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
         placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
     return placements
+
+
+def ground_inside(structure: Structure) -> shapely.Geometry:
+    """The (x, z) ground of every square inside the contour, obstacles too."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    squares = np.argwhere(~_outside(structure)).tolist()
+    return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
 def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:

@@ -29,6 +29,9 @@ class ObjectKind(StrEnum):
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"
     CAR = "car"
+    RAMP = "ramp"
+    SKY = "sky"
+    BARRIER = "barrier"
 
 
 class StallUse(StrEnum):

@@ -34,6 +34,9 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.WHEEL_STOP: "wheel_stop",
     ObjectKind.NO_PARKING_SIGN: "traffic_sign",
     ObjectKind.CAR: "car",
+    ObjectKind.RAMP: "ramp",
+    ObjectKind.SKY: "sky",
+    ObjectKind.BARRIER: "barrier",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 
@@ -41,6 +44,7 @@ _BUILDING_GROUPS = {
     "Walls": (ObjectKind.WALL, ObjectKind.PORTAL),
     "Obstacles": (ObjectKind.OBSTACLE,),
     "Columns": (ObjectKind.COLUMN,),
+    "Ramps": (ObjectKind.RAMP, ObjectKind.SKY, ObjectKind.BARRIER),
 }
 
 

@@ -87,7 +87,37 @@ def _(spec: s.PortalSpec) -> Asset:
         door_width_m=spec.door_width_m,
         door_height_m=spec.door_height_m,
         is_entrance=spec.is_entrance,
+        is_open=spec.is_open,
     )
+
+
+@_make.register
+def _(spec: s.RampSpec) -> Asset:
+    return assets.ramp(
+        width_m=spec.width_m,
+        wall_m=spec.wall_m,
+        threshold_m=(spec.threshold_width_m, spec.profile[0][0]),
+        profile=spec.profile,
+        cover_m=(spec.cover_end_m, spec.cover_height_m, spec.profile[-1][1]),
+        wall_top_m=spec.wall_top_m,
+    )
+
+
+@_make.register
+def _(spec: s.SkySpec) -> Asset:
+    return assets.sky(
+        width_m=spec.width_m,
+        start_m=spec.start_m,
+        end_m=spec.end_m,
+        ground_m=spec.ground_m,
+        low_m=spec.low_m,
+        high_m=spec.high_m,
+    )
+
+
+@_make.register
+def _(spec: s.BarrierSpec) -> Asset:
+    return assets.barrier(arm_m=spec.arm_m, is_raised=spec.is_raised, elbow_m=spec.elbow_m)
 
 
 @_make.register
