@@ -17,7 +17,7 @@ OPEN = ".......\nE=====X\n......."
 # the ground behind the exit is the garage's own, two squares on
 POCKET = """
 ..........
-.E====X#..
+E=====X#..
 .......#..
 .......#..
 .......#..
