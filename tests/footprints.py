@@ -47,6 +47,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case s.CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)
+        case s.DigitSpec():
+            return _centred(0.56 * spec.height_m, spec.height_m)
+        case s.ChargerSpec():
+            return _centred(0.32, 0.1)
         case s.NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)

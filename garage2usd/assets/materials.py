@@ -69,6 +69,18 @@ MATERIALS: dict[str, Material] = {
         normal_texture="floor_normal.png",
         repeat_m=6.7,
     ),
+    "stall_green": Material(
+        colour_rgb=(0.025, 0.15, 0.06),
+        roughness_texture="floor_roughness.png",
+        normal_texture="floor_normal.png",
+        repeat_m=6.7,
+    ),
+    "stall_blue": Material(
+        colour_rgb=(0.02, 0.07, 0.24),
+        roughness_texture="floor_roughness.png",
+        normal_texture="floor_normal.png",
+        repeat_m=6.7,
+    ),
     "paint_white": Material(colour_texture="paint_white.png", roughness=0.55, repeat_m=2.7),
     "paint_yellow": Material(colour_texture="paint_yellow.png", roughness=0.55, repeat_m=2.7),
     "wall_concrete": Material(

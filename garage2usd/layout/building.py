@@ -9,12 +9,13 @@ from scipy import ndimage
 
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.lanes import Square
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.stalls import Edge
 
-__all__ = ["columns", "ground_inside", "obstacles", "outer_walls"]
+__all__ = ["columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_JAMB_M = 0.6
@@ -52,6 +53,13 @@ def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]
         position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
         placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
     return placements
+
+
+def core_doors(structure: Structure) -> list[Square]:
+    """The lane squares that the doors of stair cores, on their +Z sides, open onto."""
+    cores = np.argwhere((structure.cells == Cell.OBSTACLE) & ~_outside(structure)).tolist()
+    last = structure.shape[0] - 1
+    return [(row + 1, col) for row, col in cores if row < last and structure.cells[row + 1, col] == Cell.LANE]
 
 
 def ground_inside(structure: Structure) -> shapely.Geometry:

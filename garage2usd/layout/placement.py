@@ -32,6 +32,8 @@ class ObjectKind(StrEnum):
     RAMP = "ramp"
     SKY = "sky"
     BARRIER = "barrier"
+    STALL_NUMBER = "stall_number"
+    CHARGER = "charger"
 
 
 class StallUse(StrEnum):
@@ -40,6 +42,10 @@ class StallUse(StrEnum):
     STANDARD = "standard"
     TURNING = "turning"
     """Kept free, so that cars turn at the end of a long dead-end aisle."""
+    EV = "ev"
+    """With a charger."""
+    ACCESSIBLE = "accessible"
+    """For people with a disability."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,9 @@ __all__ = [
     "BarrierSpec",
     "CarSpec",
     "CeilingSpec",
+    "ChargerSpec",
     "ColumnSpec",
+    "DigitSpec",
     "DuctSpec",
     "Marking",
     "NoParkingSignSpec",
@@ -38,6 +40,8 @@ class Surface(StrEnum):
 
     LANE = "lane"
     STALL = "stall"
+    STALL_EV = "stall_ev"
+    STALL_ACCESSIBLE = "stall_accessible"
     PAINT_WHITE = "paint_white"
     PAINT_YELLOW = "paint_yellow"
 
@@ -224,6 +228,19 @@ class NoParkingSignSpec:
 
 
 @dataclass(frozen=True)
+class DigitSpec:
+    """A digit painted on the floor, its top to -Z; origin in its middle on the floor."""
+
+    digit: int
+    height_m: float
+
+
+@dataclass(frozen=True)
+class ChargerSpec:
+    """A slim charging post that looks to +Z; origin in the middle of its foot."""
+
+
+@dataclass(frozen=True)
 class CarSpec:
     """A parked car; origin in the middle of its footprint, nose to -Z."""
 
@@ -248,6 +265,8 @@ Spec = (
     | WheelStopSpec
     | NoParkingSignSpec
     | CarSpec
+    | DigitSpec
+    | ChargerSpec
 )
 
 

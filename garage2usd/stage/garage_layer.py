@@ -37,6 +37,8 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.RAMP: "ramp",
     ObjectKind.SKY: "sky",
     ObjectKind.BARRIER: "barrier",
+    ObjectKind.STALL_NUMBER: "stall_number",
+    ObjectKind.CHARGER: "charger",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 

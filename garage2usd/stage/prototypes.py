@@ -45,6 +45,8 @@ def _make(spec: s.Spec) -> Asset:
 _FLOOR_MATERIAL = {
     s.Surface.LANE: "floor_concrete",
     s.Surface.STALL: "stall_epoxy",
+    s.Surface.STALL_EV: "stall_green",
+    s.Surface.STALL_ACCESSIBLE: "stall_blue",
     s.Surface.PAINT_WHITE: "paint_white",
     s.Surface.PAINT_YELLOW: "paint_yellow",
 }
@@ -52,7 +54,7 @@ _FLOOR_MATERIAL = {
 
 @_make.register
 def _(spec: s.PanelSpec) -> Asset:
-    is_stall = spec.surface is s.Surface.STALL
+    is_stall = spec.surface is not s.Surface.LANE
     return assets.floor_panel(
         width_m=spec.width_m,
         depth_m=spec.depth_m,
@@ -159,3 +161,13 @@ def _(_spec: s.NoParkingSignSpec) -> Asset:
 def _(spec: s.CarSpec) -> Asset:
     body = next(body for body in CAR_BODIES if body.name == spec.body)
     return assets.car(body, spec.paint)
+
+
+@_make.register
+def _(spec: s.DigitSpec) -> Asset:
+    return assets.floor_digit(spec.digit, spec.height_m)
+
+
+@_make.register
+def _(_spec: s.ChargerSpec) -> Asset:
+    return assets.charger()

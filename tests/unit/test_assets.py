@@ -53,6 +53,8 @@ CASES = {
     "bump": assets.speed_bump(7.2),
     "stop": assets.wheel_stop(1.65),
     "sign": assets.no_parking_sign(),
+    "charger": assets.charger(),
+    **{f"digit_{digit}": assets.floor_digit(digit, 0.45) for digit in range(10)},
     **{f"car_{body.name}": assets.car(body, PAINTS[0]) for body in CAR_BODIES},
 }
 each_part = pytest.mark.parametrize(
@@ -200,7 +202,7 @@ def test_every_texture_is_there_and_used():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"light", "sky"}
+    untouchable = {"light", "sky", "stall_number"}
     for asset in CASES.values():
         assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}

@@ -164,11 +164,24 @@ def test_settings_decide_what_is_there():
                 "no_parking_sign_rate": 0,
                 "tubes_per_cell": 0,
                 "ramps": False,
+                "stall_numbers": False,
             },
-            parking={"occupancy": 0},
+            parking={"occupancy": 0, "ev_share": 0},
         ),
     ).counts()
-    empty = {"duct", "wheel_stop", "speed_bump", "no_parking_sign", "light", "car", "ramp", "sky", "barrier"}
+    empty = {
+        "duct",
+        "wheel_stop",
+        "speed_bump",
+        "no_parking_sign",
+        "light",
+        "car",
+        "ramp",
+        "sky",
+        "barrier",
+        "stall_number",
+        "charger",
+    }
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 
