@@ -18,7 +18,7 @@ def footprint(placement):
     return affinity.translate(turned, x, z)
 
 
-def _local(spec):
+def _local(spec):  # noqa: PLR0912 - a case for each kind of object
     match spec:
         case s.PanelSpec():
             panel = _centred(spec.width_m, spec.depth_m)
@@ -27,6 +27,11 @@ def _local(spec):
             return _centred(spec.width_m, spec.depth_m)
         case s.WallSpec() | s.PortalSpec():
             return shapely.box(-spec.length_m / 2, -spec.thickness_m, spec.length_m / 2, 0)
+        case s.RampSpec():
+            half = spec.width_m / 2 + spec.wall_m
+            return shapely.box(-half, -spec.profile[-1][0], half, -spec.profile[0][0])
+        case s.BarrierSpec():
+            return shapely.box(-0.2, -1.9, 0.2, 0.2)
         case s.WallPostSpec():
             return _centred(spec.side_m, spec.side_m)
         case s.ColumnSpec():
@@ -42,6 +47,10 @@ def _local(spec):
         case s.CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)
+        case s.DigitSpec():
+            return _centred(0.56 * spec.height_m, spec.height_m)
+        case s.ChargerSpec():
+            return _centred(0.32, 0.1)
         case s.NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)

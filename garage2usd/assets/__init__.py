@@ -1,9 +1,11 @@
 """Everything that is placed in a garage, as plain meshes, materials and textures, free of any file format."""
 
+from garage2usd.assets.access import barrier, ramp, sky
 from garage2usd.assets.building import ceiling_panel, column, obstacle_block, portal_wall, wall_panel, wall_post
 from garage2usd.assets.cars import car
-from garage2usd.assets.fittings import duct, no_parking_sign, speed_bump, tube_light, wheel_stop
+from garage2usd.assets.fittings import charger, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
+from garage2usd.assets.glyphs import floor_digit
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.textures import bake_textures, texture_folder
@@ -18,14 +20,19 @@ __all__ = [
     "Part",
     "RectLight",
     "bake_textures",
+    "barrier",
     "car",
     "ceiling_panel",
+    "charger",
     "column",
     "duct",
+    "floor_digit",
     "floor_panel",
     "no_parking_sign",
     "obstacle_block",
     "portal_wall",
+    "ramp",
+    "sky",
     "speed_bump",
     "texture_folder",
     "tube_light",

@@ -48,15 +48,20 @@ def portal_wall(
     door_width_m: float,
     door_height_m: float,
     is_entrance: bool,
+    is_open: bool = False,
 ) -> Asset:
-    """A wall with a closed roller door set back in it, a steel frame and a lit sign; origin as `wall_panel`."""
+    """A wall with a roller door set back in it, closed or up, a steel frame and a lit sign; origin as `wall_panel`."""
     half, jamb, back = length_m / 2, door_width_m / 2, -thickness_m
     concrete = box_faces((-half, 0, back), (-jamb, height_m, 0))
     concrete += box_faces((jamb, 0, back), (half, height_m, 0))
     lintel = box_faces((-jamb, door_height_m, back), (jamb, height_m, 0), without="lr")
     opening, head = jamb - _FRAME_M, door_height_m - _FRAME_M
     frame = frame_faces(opening, head, _FRAME_M, back, 0.02)
-    door = _lamellae(opening, head, -thickness_m / 2)
+    door = (
+        []
+        if is_open
+        else [make_part("Door", _lamellae(opening, head, -thickness_m / 2), "door_steel", collider=Collider.BOX)]
+    )
     sign_low = door_height_m + 0.08
     sign_high = min(sign_low + 0.28, height_m - 0.04)
     sign = box_faces((-0.6, sign_low, 0), (0.6, sign_high, 0.06))
@@ -73,7 +78,7 @@ def portal_wall(
             make_part("RightJamb", concrete[6:], "wall_concrete", collider=Collider.BOX),
             make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
             make_part("Frame", frame, "hazard", collider=Collider.MESH),
-            make_part("Door", door, "door_steel", collider=Collider.BOX),
+            *door,
             make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
             make_part("Arrow", arrow, "sign_white"),
         ),

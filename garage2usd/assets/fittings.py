@@ -4,7 +4,7 @@ import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part, ring_faces
 
-__all__ = ["duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
+__all__ = ["charger", "duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
 
 SPEED_BUMP_WIDTH_M, SPEED_BUMP_HEIGHT_M = 0.35, 0.05
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
@@ -109,6 +109,28 @@ def _striped(label: str, profile: list[tuple[float, float]], start: float, step:
         make_part("Yellow", yellow, "rubber_yellow", collider=Collider.CONVEX_HULL),
     ]
     return Asset(label, tuple(parts))
+
+
+def charger() -> Asset:
+    """A slim charging post with a lit screen, a socket and a cable, looking to +Z; origin in the middle of its foot."""
+    front = 0.045
+    body = box_faces((-0.16, 0.0, -0.045), (0.16, 1.45, front))
+    band = box_faces((-0.16, 1.25, front), (0.16, 1.38, front + 0.003), without="n")
+    screen = box_faces((-0.09, 1.02, front), (0.09, 1.18, front + 0.003), without="n")
+    socket = box_faces((-0.06, 0.82, front), (0.06, 0.94, front + 0.02), without="n")
+    cable: list[Face] = []
+    for left, low, right, high in ((-0.11, 0.35, -0.09, 0.88), (0.09, 0.35, 0.11, 0.88), (-0.085, 0.35, 0.085, 0.37)):
+        cable += box_faces((left, low, front), (right, high, front + 0.018))
+    return Asset(
+        "charger",
+        (
+            make_part("Body", body, "housing_white", collider=Collider.BOX),
+            make_part("Band", band, "sign_green"),
+            make_part("Screen", screen, "screen_glow"),
+            make_part("Socket", socket, "rubber_black"),
+            make_part("Cable", cable, "rubber_black"),
+        ),
+    )
 
 
 def no_parking_sign() -> Asset:

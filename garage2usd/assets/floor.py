@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 
-__all__ = ["Marking", "floor_panel"]
+__all__ = ["Marking", "flat_part", "floor_panel"]
 
 Polygon = tuple[tuple[float, float], ...]
 
@@ -60,14 +60,22 @@ def floor_panel(
     areas = {material: shapely.intersection(area, base, grid_size=_GRID_M) for material, area in areas.items()}
     base = shapely.difference(base, shapely.union_all(list(areas.values())), grid_size=_GRID_M)
     parts = [
-        _flat_part(_pascal(material), area, material)
+        flat_part(_pascal(material), area, material)
         for material, area in [(base_material, base), *areas.items()]
         if area.area > 0
     ]
     return Asset(label, tuple(parts))
 
 
-def _flat_part(name: str, area: shapely.Geometry, material: str) -> Part:
+def flat_part(
+    name: str,
+    area: shapely.Geometry,
+    material: str,
+    *,
+    height_m: float = 0.0,
+    collider: Collider | None = Collider.MESH,
+) -> Part:
+    """A level sheet that looks up, of an (x, z) area."""
     # constrained Delaunay, because no edge of it passes through another vertex
     triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(area))
     corners = np.stack([shapely.get_coordinates(triangle)[:3] for triangle in triangles])
@@ -76,8 +84,8 @@ def _flat_part(name: str, area: shapely.Geometry, material: str) -> Part:
     # looking up, with +Z down the plan, is clockwise in (x, z)
     turned = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] > 0
     corners[turned] = corners[turned][:, ::-1]
-    faces = [np.stack([x, np.zeros(3), z], axis=1) for x, z in corners.transpose(0, 2, 1)]
-    return make_part(name, faces, material, collider=Collider.MESH, project=_from_above)
+    faces = [np.stack([x, np.full(3, height_m), z], axis=1) for x, z in corners.transpose(0, 2, 1)]
+    return make_part(name, faces, material, collider=collider, project=_from_above)
 
 
 def _from_above(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -16,6 +16,12 @@ class FittingsConfig(Settings):
     """Height of the ceiling's underside above the floor."""
     wall_thickness_m: float = Field(0.3, ge=0.1, le=1)
     """Thickness of the outer walls, outside the contour."""
+    ramps: bool = True
+    """A ramp to the ground outside behind each portal that has room for one; the others keep a closed roller door."""
+    barriers: bool = True
+    """A barrier gate with a ticket column at each ramp."""
+    stall_numbers: bool = True
+    """A number painted at the mouth of each stall."""
     tubes_per_cell: int = Field(2, ge=0, le=6)
     """Tube lights over each lane square; squares with stalls carry one."""
     lane_lux: float = Field(50.0, gt=0, le=2000)
@@ -37,6 +43,10 @@ class ParkingConfig(Settings):
 
     occupancy: float = Field(0.6, ge=0, le=1)
     """Share of the stalls that hold a car."""
+    ev_share: float = Field(0.08, ge=0, le=1)
+    """Share of the stalls that have a charger."""
+    accessible_share: float = Field(0.02, ge=0, le=1)
+    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0."""
     reversed_share: float = Field(0.3, ge=0, le=1)
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)

@@ -2,13 +2,16 @@
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds
-from garage2usd.grid import Structure
+from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
-from garage2usd.layout.building import columns, obstacles, outer_walls
+from garage2usd.layout.access import barriers, with_ramps
+from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
+from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout.specs import Point
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.planning import dead_ends
 
@@ -38,13 +41,19 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     # what lies on the lanes decides what is painted there
     bumps = speed_bumps(grid, graph, fittings, seed=seed)
     with_bump = {bump.square for bump in bumps}
-    floors = [floor_panel(tile, grid, bay, has_bump=tile.square in with_bump) for tile in grid]
+    crossings = set(core_doors(structure)) - with_bump
+    floors = [
+        floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
+        for tile in grid
+    ]
 
     stalls = stalls_of(grid, graph, bay)
     if config.plan.dead_ends is DeadEnds.STANDARD:
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, tips)
+    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
     parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, seed=seed)]
+    parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
     overhead = [
@@ -53,10 +62,18 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *ducts(structure, grid, fittings),
     ]
     on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
+    walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
     shell = [
-        *outer_walls(structure, grid, fittings),
+        *walls,
+        *barriers(walls, fittings),
         *obstacles(structure, fittings),
         *columns(structure, bay, fittings),
     ]
     by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
     return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m, illuminance)
+
+
+def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:
+    """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
+    squares = core_doors(structure) or structure.where(Cell.EXIT)[:1]
+    return [(grid.tiles[square].x_m, grid.tiles[square].z_m) for square in squares]

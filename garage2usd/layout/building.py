@@ -3,17 +3,19 @@
 from itertools import product
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.lanes import Square
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.stalls import Edge
 
-__all__ = ["columns", "obstacles", "outer_walls"]
+__all__ = ["columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_JAMB_M = 0.6
@@ -51,6 +53,20 @@ def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]
         position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
         placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
     return placements
+
+
+def core_doors(structure: Structure) -> list[Square]:
+    """The lane squares that the doors of stair cores, on their +Z sides, open onto."""
+    cores = np.argwhere((structure.cells == Cell.OBSTACLE) & ~_outside(structure)).tolist()
+    last = structure.shape[0] - 1
+    return [(row + 1, col) for row, col in cores if row < last and structure.cells[row + 1, col] == Cell.LANE]
+
+
+def ground_inside(structure: Structure) -> shapely.Geometry:
+    """The (x, z) ground of every square inside the contour, obstacles too."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    squares = np.argwhere(~_outside(structure)).tolist()
+    return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
 def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:

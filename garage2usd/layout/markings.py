@@ -16,11 +16,14 @@ __all__ = [
     "hatching",
     "stall_lines",
     "two_way_arrows",
+    "zebra",
 ]
 
 LINE_WIDTH_M = 0.12
 _DASH_LENGTH_M = 2.0
 _DASH_PERIOD_M = 4.05
+_ZEBRA_BAR_M = 0.45
+_ZEBRA_DEPTH_M = 3.0
 _HATCH_WIDTH_M = 0.3
 _HATCH_PERIOD_M = 1.2
 _HATCH_MARGIN_M = 0.6
@@ -109,6 +112,21 @@ def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: boo
         return arrow(0, offset, Edge.RIGHT), arrow(0, -offset, Edge.LEFT)
     offset = (half_x - setback) / 2
     return arrow(offset, 0, Edge.UP), arrow(-offset, 0, Edge.DOWN)
+
+
+@lru_cache(maxsize=256)
+def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, ...]:
+    """The bars of a crossing in the middle of a straight lane square, long along the lane."""
+    room = 2 * ((half_z if along_x else half_x) - setback - LINE_WIDTH_M - _ZEBRA_BAR_M / 2)
+    count = int((room + _ZEBRA_BAR_M) / (2 * _ZEBRA_BAR_M))
+    half_bar, half_length = _ZEBRA_BAR_M / 2, _ZEBRA_DEPTH_M / 2
+    bars: list[Polygon] = []
+    for index in range(count):
+        middle = round((index - (count - 1) / 2) * 2 * _ZEBRA_BAR_M, 6)
+        across, along = (middle - half_bar, middle + half_bar), (-half_length, half_length)
+        (x0, x1), (z0, z1) = (along, across) if along_x else (across, along)
+        bars.append(rectangle(x0, z0, x1, z1))
+    return tuple(Marking(bar, Surface.PAINT_WHITE) for bar in bars)
 
 
 @lru_cache(maxsize=256)

@@ -11,6 +11,7 @@ from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.grid import NEIGHBOUR_STEPS
 from garage2usd.lanes import LaneGraph, Square
+from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.markings import hatching, stall_lines
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
 from garage2usd.layout.specs import CarSpec, Marking, PanelSpec, Surface, WheelStopSpec
@@ -26,6 +27,7 @@ _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
 _REAR_CLEARANCE_M = 0.12
+_COATINGS = {StallUse.EV: Surface.STALL_EV, StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE}
 
 
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
@@ -73,7 +75,7 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
         Placement(
             stall.name,
             ObjectKind.STALL,
-            PanelSpec(stall.width_m, stall.length_m, Surface.STALL, _stall_markings(stall)),
+            PanelSpec(stall.width_m, stall.length_m, _COATINGS.get(stall.use, Surface.STALL), _stall_markings(stall)),
             (stall.centre_m[0], 0.0, stall.centre_m[1]),
             stall.yaw_rad,
             stall.square,
@@ -86,7 +88,7 @@ def _stall_markings(stall: Stall) -> tuple[Marking, ...]:
     lines = stall_lines(stall.width_m, stall.length_m)
     if stall.use is StallUse.TURNING:
         lines += hatching(stall.width_m / 2, stall.length_m / 2, margin_m=_HATCH_MARGIN_M)
-    return lines
+    return (*lines, *use_symbol(stall.use))
 
 
 def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:

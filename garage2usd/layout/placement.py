@@ -33,6 +33,11 @@ class ObjectKind(StrEnum):
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"
     CAR = "car"
+    RAMP = "ramp"
+    SKY = "sky"
+    BARRIER = "barrier"
+    STALL_NUMBER = "stall_number"
+    CHARGER = "charger"
 
 
 class StallUse(StrEnum):
@@ -41,6 +46,10 @@ class StallUse(StrEnum):
     STANDARD = "standard"
     TURNING = "turning"
     """Kept free, so that cars turn at the end of a long dead-end aisle."""
+    EV = "ev"
+    """With a charger."""
+    ACCESSIBLE = "accessible"
+    """For people with a disability."""
 
 
 @dataclass(frozen=True)

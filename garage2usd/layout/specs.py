@@ -4,9 +4,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 __all__ = [
+    "BarrierSpec",
     "CarSpec",
     "CeilingSpec",
+    "ChargerSpec",
     "ColumnSpec",
+    "DigitSpec",
     "DuctSpec",
     "Marking",
     "NoParkingSignSpec",
@@ -15,6 +18,8 @@ __all__ = [
     "Point",
     "Polygon",
     "PortalSpec",
+    "RampSpec",
+    "SkySpec",
     "Spec",
     "SpeedBumpSpec",
     "Surface",
@@ -35,6 +40,8 @@ class Surface(StrEnum):
 
     LANE = "lane"
     STALL = "stall"
+    STALL_EV = "stall_ev"
+    STALL_ACCESSIBLE = "stall_accessible"
     PAINT_WHITE = "paint_white"
     PAINT_YELLOW = "paint_yellow"
 
@@ -106,6 +113,58 @@ class PortalSpec:
     door_width_m: float
     door_height_m: float
     is_entrance: bool
+    is_open: bool = False
+    """Whether its roller door is up, because a ramp lies behind it."""
+
+
+@dataclass(frozen=True)
+class RampSpec:
+    """A straight ramp up to the ground outside; origin and direction as `PortalSpec`, rising towards -Z.
+
+    Attributes
+    ----------
+    width_m
+        Between its side walls.
+    wall_m
+        Thickness of the side walls.
+    threshold_width_m
+        Of the floor in the door's opening.
+    profile
+        (run, height) along the floor, from the back of the door's wall to the far end.
+    cover_end_m, cover_height_m
+        Run where the slab over its foot ends, and height of that slab's underside.
+    wall_top_m
+        Height of the side walls.
+    """
+
+    width_m: float
+    wall_m: float
+    threshold_width_m: float
+    profile: tuple[Point, ...]
+    cover_end_m: float
+    cover_height_m: float
+    wall_top_m: float
+
+
+@dataclass(frozen=True)
+class SkySpec:
+    """Daylight over a ramp's open end, on its side walls from `low_m` to `high_m`; origin as `RampSpec`."""
+
+    width_m: float
+    start_m: float
+    end_m: float
+    ground_m: float
+    low_m: float
+    high_m: float
+
+
+@dataclass(frozen=True)
+class BarrierSpec:
+    """A boom barrier whose arm reaches to -X, for traffic to +Z; origin in the middle of its housing's foot."""
+
+    arm_m: float
+    is_raised: bool
+    elbow_m: float
 
 
 @dataclass(frozen=True)
@@ -176,6 +235,19 @@ class NoParkingSignSpec:
 
 
 @dataclass(frozen=True)
+class DigitSpec:
+    """A digit painted on the floor, its top to -Z; origin in its middle on the floor."""
+
+    digit: int
+    height_m: float
+
+
+@dataclass(frozen=True)
+class ChargerSpec:
+    """A slim charging post that looks to +Z; origin in the middle of its foot."""
+
+
+@dataclass(frozen=True)
 class CarSpec:
     """A parked car; origin in the middle of its footprint, nose to -Z."""
 
@@ -189,6 +261,9 @@ Spec = (
     | WallSpec
     | WallPostSpec
     | PortalSpec
+    | RampSpec
+    | SkySpec
+    | BarrierSpec
     | ObstacleSpec
     | ColumnSpec
     | TubeLightSpec
@@ -197,6 +272,8 @@ Spec = (
     | WheelStopSpec
     | NoParkingSignSpec
     | CarSpec
+    | DigitSpec
+    | ChargerSpec
 )
 
 

@@ -16,6 +16,7 @@ from garage2usd.layout.markings import (
     edge_line,
     hatching,
     two_way_arrows,
+    zebra,
 )
 from garage2usd.layout.placement import ObjectKind, Placement
 from garage2usd.layout.specs import CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
@@ -130,12 +131,12 @@ def lane_edges(tile: Tile) -> list[Edge]:
     return [edge for edge in Edge if tile.drivable[edge]]
 
 
-def floor_panel(tile: Tile, grid: TileGrid, bay: BayConfig, *, has_bump: bool) -> Placement:
+def floor_panel(tile: Tile, grid: TileGrid, bay: BayConfig, *, has_bump: bool, has_crossing: bool = False) -> Placement:
     """The floor of one square with its markings, open where stalls lie."""
     openings: list[Polygon] = []
     markings: tuple[Marking, ...]
     if tile.cell is Cell.LANE:
-        markings = _lane_markings(tile, grid, has_bump=has_bump)
+        markings = _lane_markings(tile, grid, has_bump=has_bump, has_crossing=has_crossing)
     elif tile.cell is Cell.FREE:
         rows = grid.rows_by_square.get(tile.square, [])
         openings = [stall_rectangle(tile, row, index, bay) for row in rows for index in range(row.count)]
@@ -182,7 +183,7 @@ def _row_end_lines(tile: Tile, rows: list[StallRow], bay: BayConfig) -> tuple[Ma
     return tuple(lines)
 
 
-def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool) -> tuple[Marking, ...]:
+def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, has_crossing: bool) -> tuple[Marking, ...]:
     half_x, half_z, setback = tile.half_x_m, tile.half_z_m, grid.setback_m
     markings: list[Marking] = []
     for edge in Edge:
@@ -196,7 +197,9 @@ def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool) -> tuple[Marki
             if tile.drivable[vertical] and tile.drivable[horizontal] and closed:
                 markings.extend(corner_lines(vertical, horizontal, half_x, half_z, setback))
     along_x = tile.axis_is_x
-    if along_x is not None and not has_bump:
+    if along_x is not None and has_crossing:
+        markings.extend(zebra(half_x, half_z, setback, along_x=along_x))
+    elif along_x is not None and not has_bump:
         markings.extend(dashes(half_x, half_z, along_x=along_x))
         if sum(tile.square) % 2 == 0:
             markings.extend(two_way_arrows(half_x, half_z, setback, along_x=along_x))

@@ -28,6 +28,9 @@ _BUILDING_GROUPS = {
     ObjectKind.PORTAL: "Walls",
     ObjectKind.OBSTACLE: "Obstacles",
     ObjectKind.COLUMN: "Columns",
+    ObjectKind.RAMP: "Ramps",
+    ObjectKind.SKY: "Ramps",
+    ObjectKind.BARRIER: "Ramps",
 }
 """Group of each kind of object that belongs to the building, not to a tile."""
 

@@ -27,6 +27,11 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.WHEEL_STOP: "wheel_stop",
     ObjectKind.NO_PARKING_SIGN: "traffic_sign",
     ObjectKind.CAR: "car",
+    ObjectKind.RAMP: "ramp",
+    ObjectKind.SKY: "sky",
+    ObjectKind.BARRIER: "barrier",
+    ObjectKind.STALL_NUMBER: "stall_number",
+    ObjectKind.CHARGER: "charger",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 
@@ -44,6 +49,11 @@ CITYSCAPES: dict[str, str] = {
     "wheel_stop": "static",
     "traffic_sign": "traffic sign",
     "car": "car",
+    "ramp": "road",
+    "sky": "sky",
+    "barrier": "guard rail",
+    "stall_number": "parking",
+    "charger": "static",
 }
 """Name of the nearest Cityscapes class of each class."""
 

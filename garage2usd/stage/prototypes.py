@@ -75,6 +75,8 @@ def _make(spec: s.Spec) -> Asset:
 _FLOOR_MATERIAL = {
     s.Surface.LANE: "floor_concrete",
     s.Surface.STALL: "stall_epoxy",
+    s.Surface.STALL_EV: "stall_green",
+    s.Surface.STALL_ACCESSIBLE: "stall_blue",
     s.Surface.PAINT_WHITE: "paint_white",
     s.Surface.PAINT_YELLOW: "paint_yellow",
 }
@@ -82,7 +84,7 @@ _FLOOR_MATERIAL = {
 
 @_make.register
 def _(spec: s.PanelSpec) -> Asset:
-    is_stall = spec.surface is s.Surface.STALL
+    is_stall = spec.surface is not s.Surface.LANE
     return assets.floor_panel(
         width_m=spec.width_m,
         depth_m=spec.depth_m,
@@ -117,7 +119,37 @@ def _(spec: s.PortalSpec) -> Asset:
         door_width_m=spec.door_width_m,
         door_height_m=spec.door_height_m,
         is_entrance=spec.is_entrance,
+        is_open=spec.is_open,
     )
+
+
+@_make.register
+def _(spec: s.RampSpec) -> Asset:
+    return assets.ramp(
+        width_m=spec.width_m,
+        wall_m=spec.wall_m,
+        threshold_m=(spec.threshold_width_m, spec.profile[0][0]),
+        profile=spec.profile,
+        cover_m=(spec.cover_end_m, spec.cover_height_m, spec.profile[-1][1]),
+        wall_top_m=spec.wall_top_m,
+    )
+
+
+@_make.register
+def _(spec: s.SkySpec) -> Asset:
+    return assets.sky(
+        width_m=spec.width_m,
+        start_m=spec.start_m,
+        end_m=spec.end_m,
+        ground_m=spec.ground_m,
+        low_m=spec.low_m,
+        high_m=spec.high_m,
+    )
+
+
+@_make.register
+def _(spec: s.BarrierSpec) -> Asset:
+    return assets.barrier(arm_m=spec.arm_m, is_raised=spec.is_raised, elbow_m=spec.elbow_m)
 
 
 @_make.register
@@ -159,3 +191,13 @@ def _(_spec: s.NoParkingSignSpec) -> Asset:
 def _(spec: s.CarSpec) -> Asset:
     body = next(body for body in CAR_BODIES if body.name == spec.body)
     return assets.car(body)
+
+
+@_make.register
+def _(spec: s.DigitSpec) -> Asset:
+    return assets.floor_digit(spec.digit, spec.height_m)
+
+
+@_make.register
+def _(_spec: s.ChargerSpec) -> Asset:
+    return assets.charger()

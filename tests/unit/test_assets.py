@@ -32,6 +32,18 @@ CASES = {
     "post": assets.wall_post(0.3, 3.2),
     "entrance": assets.portal_wall(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True),
     "exit": assets.portal_wall(5.4, 3.0, 0.3, door_width_m=4.2, door_height_m=2.4, is_entrance=False),
+    "open_door": assets.portal_wall(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True, is_open=True),
+    "ramp": assets.ramp(
+        width_m=6.2,
+        wall_m=0.3,
+        threshold_m=(5.84, 0.3),
+        profile=[(0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5)],
+        cover_m=(9.3, 3.2, 3.5),
+        wall_top_m=4.8,
+    ),
+    "sky": assets.sky(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
+    "raised_barrier": assets.barrier(arm_m=6.1, is_raised=True, elbow_m=2.75),
+    "closed_barrier": assets.barrier(arm_m=6.1, is_raised=False, elbow_m=2.75),
     "obstacle": assets.obstacle_block(8.1, 5.4, 3.2),
     "column": assets.column(0.6, 3.2),
     "ceiling": assets.ceiling_panel(8.1, 8.1, 0.25),
@@ -41,6 +53,8 @@ CASES = {
     "bump": assets.speed_bump(7.2),
     "stop": assets.wheel_stop(1.65),
     "sign": assets.no_parking_sign(),
+    "charger": assets.charger(),
+    **{f"digit_{digit}": assets.floor_digit(digit, 0.45) for digit in range(10)},
     **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
 }
 each_part = pytest.mark.parametrize(
@@ -188,7 +202,7 @@ def test_every_texture_is_there_and_used():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"light"}
+    untouchable = {"light", "sky", "stall_number"}
     for asset in CASES.values():
         assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}

@@ -163,11 +163,25 @@ def test_settings_decide_what_is_there():
                 "speed_bump_rate": 0,
                 "no_parking_sign_rate": 0,
                 "tubes_per_cell": 0,
+                "ramps": False,
+                "stall_numbers": False,
             },
-            parking={"occupancy": 0},
+            parking={"occupancy": 0, "ev_share": 0},
         ),
     ).counts()
-    empty = {"duct", "wheel_stop", "speed_bump", "no_parking_sign", "light", "car"}
+    empty = {
+        "duct",
+        "wheel_stop",
+        "speed_bump",
+        "no_parking_sign",
+        "light",
+        "car",
+        "ramp",
+        "sky",
+        "barrier",
+        "stall_number",
+        "charger",
+    }
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 
@@ -183,7 +197,7 @@ def test_samples_have_no_overlap(sample):
 
     layout = generate(load_config(sample)).layout
     standing = (ObjectKind.COLUMN, ObjectKind.CAR, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
-    standing += (ObjectKind.SPEED_BUMP, ObjectKind.NO_PARKING_SIGN)
+    standing += (ObjectKind.SPEED_BUMP, ObjectKind.NO_PARKING_SIGN, ObjectKind.RAMP, ObjectKind.BARRIER)
     assert_disjoint([place for place in layout.placements if place.kind in standing])
     assert_disjoint([place for place in layout.placements if place.kind in {ObjectKind.FLOOR, ObjectKind.STALL}])
     assert_disjoint([*layout.of_kind(ObjectKind.DUCT), *layout.of_kind(ObjectKind.COLUMN)])

@@ -1,0 +1,131 @@
+"""Ramps from the ground outside to the portals, and the barrier gates in them."""
+
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from garage2usd.config import FittingsConfig
+from garage2usd.layout.placement import ObjectKind, Placement, to_world
+from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec
+
+__all__ = ["barriers", "with_ramps"]
+
+MAX_SLOPE = 0.15
+TRANSITION_M = 3.6
+"""Least length of the half-slope pieces at a ramp's foot and top."""
+_SLAB_M = 0.3
+_FOOT_M = 0.5
+_LANDING_M = 2.5
+_PARAPET_M = 1.3
+_SKY_M = 3.0
+_DOOR_FRAME_M = 0.08
+_KERB_ROOM_M = 0.1
+_BARRIER_GAP_M = 0.32
+_BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
+_ELBOW_MAX_M = 2.75
+_ELBOW_BELOW_CEILING_M = 0.35
+_ARM_HALF_M = 0.04
+
+
+def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig) -> list[Placement]:
+    """The outer walls with every door opened behind which a ramp finds room, and the ramps with their sky.
+
+    Parameters
+    ----------
+    walls
+        The outer walls with a closed door in each portal.
+    inside
+        The garage's squares, (x, z) in metres.
+    fittings
+        Heights, and whether there are ramps.
+
+    Notes
+    -----
+    A ramp needs its whole footprint free of the garage, of its walls and of the ramps before it.
+    """
+    if not fittings.ramps:
+        return walls
+    taken = inside.buffer(fittings.wall_thickness_m, join_style="mitre")
+    opened: list[Placement] = []
+    ramps: list[Placement] = []
+    for wall in walls:
+        if not isinstance(wall.spec, PortalSpec):
+            opened.append(wall)
+            continue
+        spec = _ramp(wall.spec, fittings)
+        ground = _ground(spec, wall)
+        if ground.intersection(taken).area > 1e-6:  # noqa: PLR2004 - they may touch
+            opened.append(wall)
+            continue
+        taken = taken.union(ground)
+        opened.append(replace(wall, spec=replace(wall.spec, is_open=True)))
+        for kind, shape in ((ObjectKind.RAMP, spec), (ObjectKind.SKY, _sky(spec))):
+            name = wall.name.replace("Portal", kind.name.capitalize())
+            ramps.append(Placement(name, kind, shape, wall.position_m, wall.yaw_rad))
+    return [*opened, *ramps]
+
+
+def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
+    """The ramp behind a door: level foot, half slope, full slope, half slope, landing."""
+    rise = portal.height_m + _SLAB_M
+    transition = TRANSITION_M * MAX_SLOPE / 2
+    lengths = (_FOOT_M, TRANSITION_M, (rise - 2 * transition) / MAX_SLOPE, TRANSITION_M, _LANDING_M)
+    climbs = (0.0, transition, rise - 2 * transition, transition, 0.0)
+    runs = np.cumsum([portal.thickness_m, *lengths])
+    heights = np.cumsum([0.0, *climbs])
+    # the slab over the foot ends where the floor comes within the clear height of it
+    room = max(portal.height_m - fittings.clear_height_m, transition / 2)
+    cover_end = float(np.interp(room, heights[1:-1], runs[1:-1]))
+    return RampSpec(
+        width_m=round(portal.door_width_m + 2 * _KERB_ROOM_M, 6),
+        wall_m=portal.thickness_m,
+        threshold_width_m=round(portal.door_width_m - 2 * _DOOR_FRAME_M, 6),
+        profile=tuple((round(run, 6), round(height, 6)) for run, height in zip(runs.tolist(), heights, strict=True)),
+        cover_end_m=round(cover_end, 6),
+        cover_height_m=portal.height_m,
+        wall_top_m=round(rise + _PARAPET_M, 6),
+    )
+
+
+def _sky(ramp: RampSpec) -> SkySpec:
+    end, ground = ramp.profile[-1]
+    return SkySpec(
+        width_m=round(ramp.width_m + 2 * ramp.wall_m, 6),
+        start_m=ramp.cover_end_m,
+        end_m=round(end + 0.01, 6),
+        ground_m=round(ground - 0.05, 6),
+        low_m=ramp.wall_top_m,
+        high_m=round(ramp.wall_top_m + _SKY_M, 6),
+    )
+
+
+def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
+    """The (x, z) footprint of a ramp with its side walls, from the back of the door's wall on."""
+    half, near, far = ramp.width_m / 2 + ramp.wall_m, -ramp.profile[0][0], -ramp.profile[-1][0]
+    x, _, z = wall.position_m
+    corners = ((-half, near), (half, near), (half, far), (-half, far))
+    return shapely.Polygon([to_world(corner, (x, z), wall.yaw_rad) for corner in corners])
+
+
+def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:
+    """A barrier gate inside each open door, beside the opening on the driver's left; every other one is raised."""
+    if not fittings.barriers:
+        return []
+    gates: list[Placement] = []
+    for wall in walls:
+        portal = wall.spec
+        if not isinstance(portal, PortalSpec) or not portal.is_open:
+            continue
+        half = portal.door_width_m / 2 - _DOOR_FRAME_M
+        elbow = max(
+            fittings.clear_height_m + _ARM_HALF_M + 0.02, min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M)
+        )
+        spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=len(gates) % 2 == 0, elbow_m=round(elbow, 3))
+        left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
+        x, _, z = wall.position_m
+        x, z = to_world((left * (half + _BARRIER_GAP_M), along), (x, z), wall.yaw_rad)
+        yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
+        name = wall.name.replace("Portal", "Barrier")
+        gates.append(Placement(name, ObjectKind.BARRIER, spec, (round(x, 6), 0.0, round(z, 6)), yaw))
+    return gates

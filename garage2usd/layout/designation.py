@@ -1,0 +1,104 @@
+"""What single stalls are for: accessible and charging stalls, their symbols, chargers and numbers."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+import shapely
+
+from garage2usd.config import FittingsConfig, ParkingConfig
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.specs import ChargerSpec, DigitSpec, Marking, Point, Surface
+
+__all__ = ["chargers", "stall_numbers", "use_symbol", "with_designated_stalls"]
+
+_ACCESSIBLE_FROM_STALLS = 25
+"""Garages of so many stalls have an accessible one at least."""
+_DIGIT_HEIGHT_M = 0.45
+_DIGIT_PITCH_M = 0.32
+_NUMBER_FROM_MOUTH_M = 0.45
+_CHARGER_FROM_REAR_M = 0.055
+_SYMBOL_Z_M = 0.35
+
+
+def with_designated_stalls(
+    stalls: tuple[Stall, ...], anchors: Iterable[Point], parking: ParkingConfig
+) -> tuple[Stall, ...]:
+    """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones."""
+    anchors = list(anchors)
+    accessible = round(parking.accessible_share * len(stalls))
+    if parking.accessible_share > 0 and len(stalls) >= _ACCESSIBLE_FROM_STALLS:
+        accessible = max(accessible, 1)
+    charging = round(parking.ev_share * len(stalls))
+    order = sorted(
+        (index for index, stall in enumerate(stalls) if stall.use is StallUse.STANDARD),
+        key=lambda index: (round(min(math.dist(stalls[index].centre_m, anchor) for anchor in anchors), 6), index),
+    )
+    designated = list(stalls)
+    for rank, index in enumerate(order[: accessible + charging]):
+        use = StallUse.ACCESSIBLE if rank < accessible else StallUse.EV
+        designated[index] = replace(stalls[index], use=use)
+    return tuple(designated)
+
+
+def use_symbol(use: StallUse) -> tuple[Marking, ...]:
+    """The white symbol of a stall's use, upright for who drives in; none for a standard stall."""
+    if use is StallUse.EV:
+        bolt = ((0.12, -0.75), (-0.38, 0.12), (-0.04, 0.12), (-0.16, 0.75), (0.38, -0.18), (0.03, -0.18))
+        return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE),)
+    if use is StallUse.ACCESSIBLE:
+        return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in _wheelchair())
+    return ()
+
+
+def _wheelchair() -> list[tuple[Point, ...]]:
+    """The outlines of a wheelchair with its user, as polygons without holes."""
+    head = shapely.Point(-0.1, -0.68).buffer(0.12, quad_segs=4)
+    body = shapely.LineString([(-0.07, -0.5), (0.0, 0.0), (0.38, 0.0), (0.52, 0.46), (0.68, 0.41)])
+    arm = shapely.LineString([(-0.04, -0.24), (0.32, -0.24)])
+    angles = [math.radians(30 + 200 * step / 20) for step in range(21)]
+    wheel = shapely.LineString([(0.05 + 0.38 * math.cos(a), 0.22 + 0.38 * math.sin(a)) for a in angles])
+    strokes = [line.buffer(0.055, cap_style="flat", join_style="mitre") for line in (body, arm, wheel)]
+    shapes = shapely.get_parts(shapely.union_all([head, *strokes], grid_size=1e-4))
+    return [
+        tuple((round(x - 0.1, 6), round(z + _SYMBOL_Z_M, 6)) for x, z in list(shape.exterior.coords)[:-1])
+        for shape in sorted(shapes, key=lambda shape: shape.bounds)
+    ]
+
+
+def stall_numbers(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
+    """The running number of each stall that cars park in, painted at its mouth, a placement for each digit."""
+    if not fittings.stall_numbers:
+        return []
+    numbers: list[Placement] = []
+    for number, stall in enumerate(stalls, start=1):
+        if stall.use is StallUse.TURNING:
+            continue
+        digits = f"{number:03d}"
+        for index, digit in enumerate(digits):
+            across = (index - (len(digits) - 1) / 2) * _DIGIT_PITCH_M
+            along = stall.length_m / 2 - _NUMBER_FROM_MOUTH_M
+            x, z = to_world((across, along), stall.centre_m, stall.yaw_rad)
+            numbers.append(
+                Placement(
+                    f"{stall.name.replace('Stall', 'StallNumber')}_{index + 1}",
+                    ObjectKind.STALL_NUMBER,
+                    DigitSpec(int(digit), _DIGIT_HEIGHT_M),
+                    (round(x, 6), 0.0, round(z, 6)),
+                    stall.yaw_rad,
+                    stall.square,
+                )
+            )
+    return numbers
+
+
+def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
+    """A charging post at the rear of each charging stall, behind where cars end."""
+    posts = []
+    for stall in stalls:
+        if stall.use is StallUse.EV:
+            x, z = to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
+            name = stall.name.replace("Stall", "Charger")
+            position = (round(x, 6), 0.0, round(z, 6))
+            posts.append(Placement(name, ObjectKind.CHARGER, ChargerSpec(), position, stall.yaw_rad, stall.square))
+    return posts

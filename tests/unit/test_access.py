@@ -1,0 +1,95 @@
+import itertools
+
+import numpy as np
+import pytest
+import shapely
+from footprints import footprint
+from sample_files import each_sample
+
+from garage2usd.config import GarageConfig, load_config
+from garage2usd.grid import Cell, Structure, cells_from_text
+from garage2usd.lanes import build_lane_graph
+from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.pipeline import generate
+from garage2usd.stage.prototypes import asset_of
+
+OPEN = ".......\nE=====X\n......."
+# the ground behind the exit is the garage's own, two squares on
+POCKET = """
+..........
+E=====X#..
+.......#..
+.......#..
+.......#..
+"""
+
+
+def laid_out(text, **fittings):
+    config = GarageConfig(fittings=fittings)
+    structure = Structure.from_arrays(cells_from_text(text, field="S"), 8.1, 8.1)
+    return lay_out(structure, build_lane_graph(structure, config.bay), config)
+
+
+def ground_of(layout):
+    structure = layout.structure
+    x, z = structure.column_edges_m, structure.row_edges_m
+    return shapely.union_all(
+        [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()]
+    )
+
+
+@each_sample
+def test_every_open_door_has_its_ramp_outside_the_garage(sample):
+    layout = generate(load_config(sample)).layout
+    doors = [place for place in layout.of_kind(ObjectKind.PORTAL) if place.spec.is_open]
+    ramps, skies = layout.of_kind(ObjectKind.RAMP), layout.of_kind(ObjectKind.SKY)
+    assert len(doors) == len(ramps) == len(skies) == len(layout.of_kind(ObjectKind.BARRIER))
+    for door, ramp, sky in zip(doors, ramps, skies, strict=True):
+        assert (ramp.position_m, ramp.yaw_rad) == (door.position_m, door.yaw_rad) == (sky.position_m, sky.yaw_rad)
+        assert footprint(ramp).intersection(ground_of(layout)).area < 1e-6
+        assert footprint(ramp).distance(footprint(door)) < 1e-6
+
+
+@pytest.mark.parametrize(("ceiling_m", "clear_m"), [(3.2, 2.2), (2.4, 2.2), (4.5, 2.4)])
+def test_a_ramp_keeps_the_standard_s_slopes_and_the_clear_height(ceiling_m, clear_m):
+    layout = laid_out(OPEN, ceiling_height_m=ceiling_m, clear_height_m=clear_m)
+    spec = layout.of_kind(ObjectKind.RAMP)[0].spec
+    slopes = [(r1 - r0, (y1 - y0) / (r1 - r0)) for (r0, y0), (r1, y1) in itertools.pairwise(spec.profile)]
+    assert [slope for _, slope in slopes] == pytest.approx([0, 0.075, 0.15, 0.075, 0], abs=1e-6)
+    assert min(slopes[1][0], slopes[3][0]) >= 3.6 - 1e-6
+    assert spec.profile[-1][1] == pytest.approx(ceiling_m + 0.3)
+    runs, heights = zip(*spec.profile, strict=True)
+    if ceiling_m > 2.4:
+        assert spec.cover_height_m - np.interp(spec.cover_end_m, runs, heights) >= clear_m - 1e-6
+
+
+def test_a_door_without_room_for_a_ramp_stays_closed():
+    layout = laid_out(POCKET)
+    closed = [place for place in layout.of_kind(ObjectKind.PORTAL) if not place.spec.is_open]
+    assert [place.spec.is_entrance for place in closed] == [False]
+    assert len(layout.of_kind(ObjectKind.RAMP)) == 1
+    assert "Door" in {part.name for part in asset_of(closed[0].spec).parts}
+
+
+def test_gates_stand_beside_the_opening_and_raised_arms_above_the_clear_height():
+    layout = laid_out(OPEN, ceiling_height_m=2.4)
+    gates = layout.of_kind(ObjectKind.BARRIER)
+    assert [gate.spec.is_raised for gate in gates] == [True, False]
+    for gate, door in zip(gates, layout.of_kind(ObjectKind.PORTAL), strict=True):
+        half = door.spec.door_width_m / 2 - 0.08
+        lane = shapely.box(-100, door.position_m[2] - half, 200, door.position_m[2] + half)
+        assert footprint(gate).intersection(lane).area < 1e-6
+        assert footprint(gate).within(ground_of(layout))
+        # the driver keeps the gate on the left: entering to +X on the -Z side, leaving to +X as well
+        assert gate.position_m[2] < door.position_m[2]
+    points = np.concatenate([part.points for part in asset_of(gates[0].spec).parts if part.name.startswith("Red")])
+    over_lane = points[points[:, 0] < -0.35]
+    assert over_lane[:, 1].min() >= 2.2
+    assert over_lane[:, 1].max() < 2.4
+
+
+def test_ramps_and_gates_can_be_left_out():
+    counts = laid_out(OPEN, barriers=False).counts()
+    assert (counts["ramp"], counts["barrier"]) == (2, 0)
+    counts = laid_out(OPEN, ramps=False).counts()
+    assert (counts["ramp"], counts["sky"], counts["barrier"]) == (0, 0, 0)

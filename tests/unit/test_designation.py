@@ -1,0 +1,118 @@
+import numpy as np
+import pytest
+import shapely
+from footprints import footprint
+
+from garage2usd import assets
+from garage2usd.config import GarageConfig
+from garage2usd.grid import Structure, cells_from_text
+from garage2usd.lanes import build_lane_graph
+from garage2usd.layout import ObjectKind, StallUse, lay_out
+from garage2usd.layout.designation import use_symbol
+from garage2usd.layout.markings import zebra
+
+CORE = """
+.........
+E=======X
+.=#=...#.
+.=======.
+.=.....=.
+"""
+
+
+def laid_out(text=CORE, **settings):
+    config = GarageConfig(**settings)
+    structure = Structure.from_arrays(cells_from_text(text, field="S"), 8.1, 8.1)
+    return lay_out(structure, build_lane_graph(structure, config.bay), config)
+
+
+def of_use(layout, use):
+    return [stall for stall in layout.stalls if stall.use is use]
+
+
+def test_accessible_and_charging_stalls_lie_nearest_to_the_core_doors():
+    layout = laid_out()
+    count = len(layout.stalls)
+    assert count >= 25
+    accessible, charging = of_use(layout, StallUse.ACCESSIBLE), of_use(layout, StallUse.EV)
+    assert len(accessible) == max(1, round(0.02 * count))
+    assert len(charging) == round(0.08 * count)
+    doors = [((2.5) * 8.1, 3.5 * 8.1), ((7.5) * 8.1, 3.5 * 8.1)]
+
+    def reach(stall):
+        return min(np.hypot(stall.centre_m[0] - x, stall.centre_m[1] - z) for x, z in doors)
+
+    farthest = [max(reach(stall) for stall in stalls) for stalls in (accessible, charging)]
+    assert farthest[0] <= min(reach(stall) for stall in charging) + 1e-6
+    assert farthest[1] <= min(reach(stall) for stall in of_use(layout, StallUse.STANDARD)) + 1e-6
+
+
+def test_shares_of_zero_leave_every_stall_standard():
+    layout = laid_out(parking={"ev_share": 0, "accessible_share": 0})
+    assert {stall.use for stall in layout.stalls} == {StallUse.STANDARD}
+    assert not layout.of_kind(ObjectKind.CHARGER)
+
+
+def test_chargers_stand_in_their_stall_behind_the_cars():
+    layout = laid_out(parking={"ev_share": 1, "occupancy": 1})
+    panels = {place.name: footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    cars = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.CAR)])
+    posts = layout.of_kind(ObjectKind.CHARGER)
+    assert len(posts) == len(of_use(layout, StallUse.EV)) > 0
+    for post in posts:
+        assert footprint(post).within(panels[post.name.replace("Charger", "Stall")])
+        assert footprint(post).intersection(cars).area < 1e-6
+
+
+def test_numbers_are_painted_at_the_mouth_of_their_stall_from_ten_digits():
+    layout = laid_out()
+    panels = {place.name: place for place in layout.of_kind(ObjectKind.STALL)}
+    digits = layout.of_kind(ObjectKind.STALL_NUMBER)
+    assert len(digits) == 3 * len(layout.stalls)
+    assert len({place.spec for place in digits}) <= 10
+    marked = {
+        spec: shapely.union_all([shapely.Polygon(marking.polygon) for marking in spec.markings])
+        for spec in {panel.spec for panel in panels.values()}
+    }
+    for place in digits:
+        panel = panels[place.name.replace("StallNumber", "Stall").rsplit("_", 1)[0]]
+        x, _, z = panel.position_m
+        paint = shapely.transform(marked[panel.spec], _turned(panel.yaw_rad, x, z))
+        assert footprint(place).within(footprint(panel))
+        assert footprint(place).intersection(paint).area < 1e-9
+
+
+def _turned(yaw, x, z):
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    return lambda points: points @ np.array([[cos, -sin], [sin, cos]]) + (x, z)
+
+
+@pytest.mark.parametrize("use", [StallUse.EV, StallUse.ACCESSIBLE])
+def test_symbols_are_clean_polygons_between_wheel_stop_and_number(use):
+    shapes = [shapely.Polygon(marking.polygon) for marking in use_symbol(use)]
+    assert all(shape.is_valid and shape.area > 0.02 for shape in shapes)
+    whole = shapely.union_all(shapes)
+    assert whole.area == pytest.approx(sum(shape.area for shape in shapes))
+    x0, z0, x1, z1 = whole.bounds
+    assert min(x0, -x1) > -0.7
+    assert z0 > -5.3 / 2 + 0.8
+    assert z1 < 5.3 / 2 - 0.8
+
+
+def test_digits_differ_and_keep_their_size():
+    areas = set()
+    for digit in range(10):
+        (part,) = assets.floor_digit(digit, 0.45).parts
+        low, high = part.points.min(axis=0), part.points.max(axis=0)
+        assert (high - low)[2] == pytest.approx(0.45, abs=1e-3)
+        assert (high - low)[0] <= 0.56 * 0.45 + 1e-3
+        assert part.points[:, 1] == pytest.approx(0.003)
+        areas.add(tuple(np.round(part.points.sum(axis=0), 4)))
+    assert len(areas) == 10
+
+
+def test_a_zebra_crossing_lies_before_a_core_s_door():
+    bars = {marking.polygon for marking in zebra(4.05, 4.05, 0.35, along_x=True)}
+    floors = {place.square: place.spec for place in laid_out().of_kind(ObjectKind.FLOOR)}
+    crossed = {square for square, spec in floors.items() if bars <= {marking.polygon for marking in spec.markings}}
+    assert crossed == {(3, 2)}  # the other core's door opens onto a junction
