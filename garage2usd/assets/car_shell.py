@@ -18,6 +18,7 @@ _MIN_STATION_STEP_M = 0.008
 _END_INSET_M = 0.012
 """Room for plates and lamps between the shell's ends and the footprint."""
 _BONNET_CROWN_M = 0.045
+_END_DEPTH_M = 0.32
 _BED_FLOOR_M = 0.82
 # points of a ring, see `Shell._ring`: faces below the sill are floor pan, one band is side window
 _SILL, _BELT, _ROOF_EDGE = 4, 10, 12
@@ -191,8 +192,10 @@ class Shell:
     def z_at(self, s: float, x: float) -> float:
         """Z of the point `s` metres from the nose and `x` off the middle: the ends bow outwards."""
         length, (front, rear) = self.body.length_m, self.shape.bow_m
-        knots = [0.0, 0.12 * length, self.cowl, self.roof_front, self.roof_rear, self.deck, 0.9 * length, length]
-        bow = np.interp(s, np.maximum.accumulate(knots), [front, 0.06, 0.07, 0.05, -0.03, -0.03, -0.02, -rear])
+        first, last = front + _END_INSET_M, length - rear - _END_INSET_M
+        back = [min(self.roof_rear, 0.86 * length), min(self.deck, 0.88 * length), 0.9 * length, last]
+        knots = [first, 0.12 * length, self.cowl, self.roof_front, *back]
+        bow = np.interp(s, knots, [front, 0.06, 0.07, 0.05, -0.03, -0.03, -0.02, -rear])
         return float(s - length / 2 - bow * (1 - (2 * x / self.body.width_m) ** 2))
 
     def side_x(self, s: float, y: float) -> float:
@@ -212,6 +215,12 @@ class Shell:
                 return self.z_at(before + (float(s) - before) * min(max(share, 0.0), 1.0), x)
             before, reach = float(s), half
         return self.z_at(before, x)
+
+    def end_reach(self, y: float, *, rear: bool) -> float:
+        """Half width at a height within `_END_DEPTH_M` of the nose or the tail."""
+        from_end = self.stations[-1] - self.stations if rear else self.stations - self.stations[0]
+        rings = self.rings[from_end < _END_DEPTH_M, _SILL:]
+        return max(float(np.interp(y, ring[:, 1], ring[:, 0], left=0.0, right=0.0)) for ring in rings)
 
     def _make_stations(self) -> NDArray[np.float64]:
         """Distances from the nose, close together at the ends, around wheel arches and windows."""

@@ -78,7 +78,8 @@ def _end_patch(
     outer = np.empty((len(edge), columns, 3))
     inner = np.empty_like(outer)
     for row, (y, x0, x1) in enumerate(edge):
-        for column, x in enumerate(np.linspace(x0, x1, columns).tolist()):
+        reach = 0.985 * shell.end_reach(y, rear=rear)
+        for column, x in enumerate(np.linspace(max(x0, -reach), min(x1, reach), columns).tolist()):
             z = shell.end_z(x, y, rear=rear)
             outer[row, column] = (x + np.sign(x) * skin_m * 0.5, y, z + sign * skin_m)
             inner[row, column] = (x, y, z - sign * 0.02)
@@ -88,7 +89,7 @@ def _end_patch(
 
 
 def _side_ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *, along: bool) -> list[Face]:
-    """A thin strip on both sides through points (metres from the nose, height); wide in Y if it runs `along` the car."""
+    """A thin strip on both sides through (metres from the nose, height); wide in Y if it runs `along` the car."""
     grids = []
     for skin in (0.0025, -0.012):
         rows = []
@@ -102,7 +103,6 @@ def _side_ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: flo
         grids.append(np.array(rows))
     if along:
         grids = [grid[:, ::-1] for grid in grids]
-        grids = [grid[::-1] for grid in grids]
     return _both_sides(_slab(grids[0], grids[1]))
 
 
