@@ -78,7 +78,7 @@ def _end_patch(
     outer = np.empty((len(edge), columns, 3))
     inner = np.empty_like(outer)
     for row, (y, x0, x1) in enumerate(edge):
-        reach = 0.985 * shell.end_reach(y, rear=rear)
+        reach = 0.965 * shell.end_reach(y, rear=rear)
         for column, x in enumerate(np.linspace(max(x0, -reach), min(x1, reach), columns).tolist()):
             z = shell.end_z(x, y, rear=rear)
             outer[row, column] = (x + np.sign(x) * skin_m * 0.5, y, z + sign * skin_m)
