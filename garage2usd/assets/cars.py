@@ -1,269 +1,218 @@
-"""Car bodies: a lofted shell with glass, lamps and plates, on four wheels."""
+"""Car bodies: a lofted shell with glass, lamps, trim and plates, on four wheels."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
+from garage2usd.assets.car_shell import SHAPES, Shell
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part, moved
 from garage2usd.config.vehicles import PAINTS, CarBody
 
 __all__ = ["car"]
 
-_GROUND_CLEARANCE_M = 0.17
-_ARCH_GAP_M = 0.045
 _TYRE_WIDTH_M = 0.21
-_PLATE_M = (0.46, 0.12)
-_HALF_PILLAR_M = 0.05
-_MIN_STATION_STEP_M = 0.008
-# shares of the length, and bands of faces between ring points, see `_Shell._ring`
-_HEAD_LAMPS, _HEAD_LAMP_BAND = (0.004, 0.075), (6, 7)
-_TAIL_LAMPS, _TAIL_LAMP_BAND = (0.955, 0.999), (5, 6, 7)
-_SILL, _WINDOW, _ROOF_EDGE = 1, 8, 10
-
-
-@dataclass(frozen=True)
-class _Shape:
-    """Side view of a body as shares of its length (from the nose) and height.
-
-    Attributes
-    ----------
-    shoulder
-        (share of length, share of height) of bonnet, belt line and boot lid.
-    roof
-        The same of windscreen foot, roof front, roof rear, rear window foot.
-    tumblehome
-        How much narrower the roof is than the belt, as a share of the half width.
-    nose, tail
-        Half width at the ends as a share of the largest.
-    """
-
-    shoulder: tuple[tuple[float, float], ...]
-    roof: tuple[tuple[float, float], ...]
-    tumblehome: float
-    nose: float
-    tail: float
-
-
-_SHAPES = {
-    "hatchback": _Shape(
-        shoulder=(
-            (0.0, 0.44),
-            (0.02, 0.505),
-            (0.12, 0.575),
-            (0.27, 0.635),
-            (0.6, 0.65),
-            (0.9, 0.66),
-            (0.985, 0.64),
-            (1.0, 0.56),
-        ),
-        roof=((0.26, 0.0), (0.44, 1.0), (0.82, 0.965), (0.965, 0.0)),
-        tumblehome=0.24,
-        nose=0.80,
-        tail=0.87,
-    ),
-    "saloon": _Shape(
-        shoulder=(
-            (0.0, 0.43),
-            (0.02, 0.50),
-            (0.12, 0.575),
-            (0.28, 0.635),
-            (0.6, 0.655),
-            (0.85, 0.69),
-            (0.985, 0.675),
-            (1.0, 0.57),
-        ),
-        roof=((0.275, 0.0), (0.44, 1.0), (0.66, 0.985), (0.845, 0.0)),
-        tumblehome=0.26,
-        nose=0.80,
-        tail=0.84,
-    ),
-    "suv": _Shape(
-        shoulder=(
-            (0.0, 0.44),
-            (0.015, 0.52),
-            (0.10, 0.60),
-            (0.25, 0.635),
-            (0.6, 0.65),
-            (0.9, 0.66),
-            (0.985, 0.64),
-            (1.0, 0.54),
-        ),
-        roof=((0.245, 0.0), (0.40, 1.0), (0.86, 0.975), (0.985, 0.0)),
-        tumblehome=0.20,
-        nose=0.84,
-        tail=0.90,
-    ),
-}
+_PLATE_M = (0.50, 0.11)
+_SKIN_M = 0.004
+_ARCH_LIP_M = 0.03
+_SEAM_M = 0.007
 
 
 def car(body: CarBody) -> Asset:
     """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
-    shell = _Shell(body, _SHAPES[body.name])
+    shell = Shell(body, SHAPES[body.name])
     regions = shell.regions()
     parts = [
-        make_part("Body", regions["body"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=38),
+        make_part("Body", regions["body"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
+        make_part("Cabin", regions["cabin"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
         make_part("Glass", regions["glass"], "glass", crease_deg=38),
         make_part("Underbody", regions["under"], "trim_black"),
-        make_part("HeadLamps", regions["lamp_front"], "lamp_front", crease_deg=50),
-        make_part("TailLamps", regions["lamp_rear"], "lamp_rear", crease_deg=50),
-        make_part("Trim", shell.trim(), "trim_black"),
-        make_part("Mirrors", shell.mirrors(), "car_paint", crease_deg=50),
-        make_part("Plates", shell.plates(), "number_plate"),
+        make_part("HeadLamps", _head_lamps(shell), "lamp_front", crease_deg=50),
+        make_part("TailLamps", _tail_lamps(shell), "lamp_rear", crease_deg=50),
+        make_part("Trim", _end_trim(shell), "trim_black"),
+        make_part("Arches", _arch_lips(shell), "trim_black", crease_deg=50),
+        make_part("Seams", _seams(shell), "trim_black"),
+        make_part("Handles", _handles(shell), "car_paint"),
+        make_part("Mirrors", _mirrors(shell), "car_paint", crease_deg=50),
+        make_part("Plates", _plates(shell), "number_plate"),
         *_wheels(body),
     ]
     return Asset("car", tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
-class _Shell:
-    """The body as rings of points along the car, each from the middle of the floor pan over the side to the roof."""
+def _both_sides(faces: list[Face]) -> list[Face]:
+    return faces + moved(faces, (0.0, 0.0, 0.0), mirror_x=True)
 
-    def __init__(self, body: CarBody, shape: _Shape) -> None:
-        self.body = body
-        length, height = body.length_m, body.height_m
-        self._shoulder = PchipInterpolator(
-            [s * length for s, _ in shape.shoulder], [h * height for _, h in shape.shoulder]
-        )
-        self.cowl, self.roof_front, self.roof_rear, self.deck = (share * length for share, _ in shape.roof)
-        low, high = (self._shoulder(self.cowl), self._shoulder(self.deck))
-        middle = (self.roof_front + self.roof_rear) / 2
-        self._roof = PchipInterpolator(
-            [self.cowl, self.roof_front - 0.12, self.roof_front + 0.12, middle, self.roof_rear, self.deck],
-            [low, shape.roof[1][1] * height - 0.075, height - 0.025, height, shape.roof[2][1] * height - 0.01, high],
-        )
-        half = body.width_m / 2
-        self._width = PchipInterpolator(
-            np.array([0.0, 0.02, 0.12, 0.3, 0.7, 0.93, 0.985, 1.0]) * length,
-            np.array([shape.nose * 0.93, shape.nose, 0.955, 1.0, 1.0, 0.965, shape.tail, shape.tail * 0.95]) * half,
-        )
-        self.tumblehome = shape.tumblehome
-        self.axles = (body.front_overhang_m, body.front_overhang_m + body.wheelbase_m)
-        self.stations = self._make_stations()
-        self.rings = np.array([self._ring(s) for s in self.stations])
 
-    def _make_stations(self) -> NDArray[np.float64]:
-        """Distances from the nose, close together around wheel arches and windows."""
-        length = self.body.length_m
-        fixed = [0.0, 0.02 * length, 0.06 * length, length * 0.94, length * 0.98, length]
-        fixed += [self.cowl, self.roof_front - 0.12, self.roof_front + 0.12, self.roof_rear, self.deck]
-        reach = self.body.wheel_radius_m + _ARCH_GAP_M
-        for axle in self.axles:
-            angles = np.linspace(0, np.pi, 15)
-            fixed += (axle - (reach + 0.001) * np.cos(angles)).tolist()
-            fixed += [axle - reach - 0.012, axle + reach + 0.012]
-        regular = np.linspace(0, length, 34)
-        stations = np.unique(np.round(np.concatenate([fixed, regular]), 4))
-        apart: NDArray[np.float64] = stations[np.concatenate(([True], np.diff(stations) > _MIN_STATION_STEP_M))]
-        return apart
+def _slab(outer: Face, inner: Face) -> list[Face]:
+    """A closed slab between two grids of points, shapes (rows, columns, 3); the outer one is seen counter-clockwise."""
+    faces: list[Face] = []
+    rows, columns = outer.shape[:2]
+    for r in range(rows - 1):
+        for c in range(columns - 1):
+            for grid, order in ((outer, 1), (inner, -1)):
+                quad = np.array([grid[r, c], grid[r, c + 1], grid[r + 1, c + 1], grid[r + 1, c]])
+                faces += [quad[[0, 1, 2]][::order], quad[[0, 2, 3]][::order]]
+    rim = [(0, c) for c in range(columns)] + [(r, columns - 1) for r in range(1, rows)]
+    rim += [(rows - 1, c) for c in range(columns - 2, -1, -1)] + [(r, 0) for r in range(rows - 2, -1, -1)]
+    for first, second in pairwise(rim):
+        quad = np.array([outer[second], outer[first], inner[first], inner[second]])
+        faces += [quad[[0, 1, 2]], quad[[0, 2, 3]]]
+    return faces
 
-    def _bottom(self, s: float) -> float:
-        """Height of the sill: the floor pan, raised over the wheels."""
-        length = self.body.length_m
-        lift = 0.05 * max(0.0, 1 - s / (0.08 * length)) + 0.09 * max(0.0, 1 - (length - s) / (0.07 * length))
-        level = _GROUND_CLEARANCE_M + lift
-        reach = self.body.wheel_radius_m + _ARCH_GAP_M
-        for axle in self.axles:
-            inside = reach**2 - (s - axle) ** 2
-            if inside > 0:
-                level = max(level, self.body.wheel_radius_m + float(np.sqrt(inside)))
-        return level
 
-    def _ring(self, s: float) -> NDArray[np.float64]:
-        """Half of a cross-section as (x, y), x >= 0: 0-2 pan and sill, 3-7 side, 8-9 window, 10-13 roof."""
-        width, shoulder, bottom = float(self._width(s)), float(self._shoulder(s)), self._bottom(s)
-        inside_cabin = self.cowl < s < self.deck
-        roof = max(float(self._roof(s)), shoulder + 0.012) if inside_cabin else shoulder + 0.012
-        share = np.clip((roof - shoulder) / (self.body.height_m * 0.34), 0.0, 1.0)
-        top = width * (0.93 - (self.tumblehome - 0.03) * share)
-        side = shoulder - bottom
-        return np.array(
-            [
-                (0.0, bottom + 0.02),
-                (width * 0.80, bottom + 0.02),
-                (width * 0.955, bottom),
-                (width * 0.975, bottom + side * 0.12),
-                (width * 0.992, bottom + side * 0.35),
-                (width, bottom + side * 0.58),
-                (width * 0.985, bottom + side * 0.82),
-                (width * 0.955, bottom + side * 0.95),
-                (width * 0.925, shoulder),
-                (top * 0.985, shoulder + (roof - shoulder) * 0.80),
-                (top * 0.945, shoulder + (roof - shoulder) * 0.91),
-                (top * 0.84, shoulder + (roof - shoulder) * 0.972),
-                (top * 0.50, shoulder + (roof - shoulder) * 0.996),
-                (0.0, roof),
-            ]
-        )
+def _end_patch(
+    shell: Shell, edge: Sequence[tuple[float, float, float]], *, rear: bool, columns: int = 7, skin_m: float = _SKIN_M
+) -> list[Face]:
+    """A slab that follows nose or tail: for each row, upwards, its height and its range in X."""
+    sign = 1.0 if rear else -1.0
+    outer = np.empty((len(edge), columns, 3))
+    inner = np.empty_like(outer)
+    for row, (y, x0, x1) in enumerate(edge):
+        reach = 0.965 * shell.end_reach(y, rear=rear)
+        for column, x in enumerate(np.linspace(max(x0, -reach), min(x1, reach), columns).tolist()):
+            z = shell.end_z(x, y, rear=rear)
+            outer[row, column] = (x + np.sign(x) * skin_m * 0.5, y, z + sign * skin_m)
+            inner[row, column] = (x, y, z - sign * 0.02)
+    if not rear:
+        outer, inner = outer[:, ::-1], inner[:, ::-1]
+    return _slab(outer, inner)
 
-    def regions(self) -> dict[str, list[Face]]:
-        """The faces of the shell by what they are made of, both sides."""
-        found: dict[str, list[Face]] = {name: [] for name in ("body", "glass", "under", "lamp_front", "lamp_rear")}
-        z = self.stations - self.body.length_m / 2
-        for i in range(len(z) - 1):
-            for j in range(self.rings.shape[1] - 1):
-                (x0, y0), (x1, y1) = self.rings[i, j], self.rings[i, j + 1]
-                (x2, y2), (x3, y3) = self.rings[i + 1, j + 1], self.rings[i + 1, j]
-                quad = np.array([(x0, y0, z[i]), (x1, y1, z[i]), (x2, y2, z[i + 1]), (x3, y3, z[i + 1])])
-                self._add(found[self._region(i, j)], quad)
-        for index, forward in ((0, True), (-1, False)):
-            ring, at = self.rings[index], z[index]
-            upper = np.array([(x, y, at) for x, y in ring])
-            mirrored = upper[-2:0:-1] * (-1.0, 1.0, 1.0)
-            cap = np.concatenate([upper, mirrored])
-            found["body"].append(cap[::-1] if forward else cap)
-        return found
 
-    @staticmethod
-    def _add(faces: list[Face], quad: Face) -> None:
-        """A quad of the right side and its mirror image, as triangles, which stay flat."""
-        for triangle in (quad[[0, 1, 2]], quad[[0, 2, 3]]):
-            faces.append(triangle)
-            faces.append((triangle * (-1.0, 1.0, 1.0))[::-1])
+def _side_ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *, along: bool) -> list[Face]:
+    """A thin strip on both sides through (metres from the nose, height); wide in Y if it runs `along` the car."""
+    grids = []
+    for skin in (0.0025, -0.012):
+        rows = []
+        for s, y in line:
+            ds, dy = (0.0, width_m / 2) if along else (width_m / 2, 0.0)
+            ends = []
+            for sign in (1, -1):
+                x = shell.side_x(s + sign * ds, y + sign * dy)
+                ends.append((x + skin, y + sign * dy, shell.z_at(s + sign * ds, x)))
+            rows.append(ends)
+        grids.append(np.array(rows))
+    if along:
+        grids = [grid[:, ::-1] for grid in grids]
+    return _both_sides(_slab(grids[0], grids[1]))
 
-    def _region(self, i: int, j: int) -> str:
-        """What the face between stations i and i + 1 and ring points j and j + 1 is made of."""
-        s = (self.stations[i] + self.stations[i + 1]) / 2
-        share = s / self.body.length_m
-        if j <= _SILL:
-            return "under"
-        if _HEAD_LAMPS[0] < share < _HEAD_LAMPS[1] and j in _HEAD_LAMP_BAND:
-            return "lamp_front"
-        if _TAIL_LAMPS[0] < share < _TAIL_LAMPS[1] and j in _TAIL_LAMP_BAND:
-            return "lamp_rear"
-        windscreen = self.cowl + 0.03 < s < self.roof_front + 0.02
-        rear_window = self.roof_rear + 0.04 < s < self.deck - 0.05
-        pillar_b = self.roof_front + 0.42 * (self.roof_rear - self.roof_front)
-        side_window = self.cowl + 0.42 < s < self.deck - 0.30 and abs(s - pillar_b) > _HALF_PILLAR_M
-        glass = (j >= _ROOF_EDGE and (windscreen or rear_window)) or (j == _WINDOW and side_window)
-        return "glass" if glass else "body"
 
-    def trim(self) -> list[Face]:
-        """Grille, lower intake, and strips under both bumpers."""
-        nose, tail = -self.body.length_m / 2, self.body.length_m / 2
-        width = float(self._width(0.0))
-        faces = box_faces((-width * 0.55, 0.42, nose - 0.006), (width * 0.55, 0.52, nose + 0.05))
-        faces += box_faces((-width * 0.75, 0.24, nose - 0.006), (width * 0.75, 0.34, nose + 0.05))
-        faces += box_faces((-width * 0.75, 0.28, tail - 0.05), (width * 0.75, 0.37, tail + 0.006))
-        return faces
+def _nose_m(shell: Shell) -> tuple[float, float]:
+    """Half width of the fascia and the height of the bonnet edge over it."""
+    return shell.body.width_m / 2, shell.shoulder(shell.stations[0])
 
-    def plates(self) -> list[Face]:
-        """Number plates in front and behind."""
-        half, high = _PLATE_M[0] / 2, _PLATE_M[1]
-        nose, tail = -self.body.length_m / 2, self.body.length_m / 2
-        faces = box_faces((-half, 0.35, nose - 0.012), (half, 0.35 + high, nose + 0.02))
-        faces += box_faces((-half, 0.50, tail - 0.02), (half, 0.50 + high, tail + 0.012))
-        return faces
 
-    def mirrors(self) -> list[Face]:
-        """Two rounded mirrors on short arms."""
-        s = self.cowl + 0.36
-        z, y = s - self.body.length_m / 2, float(self._shoulder(s)) + 0.07
-        inner, outer = float(self._width(s)) * 0.90, self.body.overall_width_m / 2
-        profile = [(0.0, 0.0), (0.02, 0.055), (0.06, 0.075), (outer - inner - 0.03, 0.07), (outer - inner, 0.03)]
-        faces = lathe_faces([*profile, (outer - inner, 0.0)], segments=12)
-        right = moved(faces, (inner, y, z))
-        return right + [(face * (-1.0, 1.0, 1.0))[::-1] for face in right]
+def _head_lamps(shell: Shell) -> list[Face]:
+    """Head lamps around the corners of the nose."""
+    half, top = _nose_m(shell)
+    rows = [
+        (top - 0.16, 0.58 * half, 0.88 * half),
+        (top - 0.125, 0.52 * half, 0.93 * half),
+        (top - 0.07, 0.50 * half, 0.945 * half),
+        (top - 0.035, 0.56 * half, 0.92 * half),
+    ]
+    return _both_sides(_end_patch(shell, rows, rear=False, columns=10, skin_m=0.008))
+
+
+def _tail_lamps(shell: Shell) -> list[Face]:
+    """Tail lamps: tall ones on upright tails, wide ones under a boot lid."""
+    half, top = shell.body.width_m / 2, shell.shoulder(shell.stations[-1])
+    tall = shell.body.name in {"van", "pickup", "suv"}
+    height, inner = (0.34, 0.74) if tall else (0.15, 0.50)
+    rows = [(top - 0.03 - height * (1 - u), inner * half, 0.945 * half) for u in (0.0, 0.3, 0.7, 1.0)]
+    rows[0] = (rows[0][0], (inner + 0.05) * half, 0.92 * half)
+    return _both_sides(_end_patch(shell, rows, rear=True, columns=10, skin_m=0.008))
+
+
+def _end_trim(shell: Shell) -> list[Face]:
+    """Grille, lower intake, lines of bonnet and boot lid, plate recess and rear bumper insert."""
+    half, top = _nose_m(shell)
+    faces: list[Face] = []
+    if not shell.shape.closed_nose:
+        rows = [(top - 0.20, -0.38 * half, 0.38 * half), (top - 0.06, -0.46 * half, 0.46 * half)]
+        faces += _end_patch(shell, rows, rear=False, columns=11)
+    intake = [(0.275, -0.66 * half, 0.66 * half), (0.37, -0.58 * half, 0.58 * half)]
+    faces += _end_patch(shell, intake, rear=False, columns=13)
+    rear_top = shell.shoulder(shell.stations[-1])
+    recess = [(rear_top - 0.33, -0.33 * half, 0.33 * half), (rear_top - 0.17, -0.36 * half, 0.36 * half)]
+    faces += _end_patch(shell, recess, rear=True, columns=9, skin_m=0.003)
+    faces += _end_patch(shell, [(0.31, -0.70 * half, 0.70 * half), (0.40, -0.74 * half, 0.74 * half)], rear=True)
+    bumper = max(rear_top - 0.42, 0.46)
+    seam = [(bumper, -0.80 * half, 0.80 * half), (bumper + 0.012, -0.80 * half, 0.80 * half)]
+    return faces + _end_patch(shell, seam, rear=True, columns=13, skin_m=0.003)
+
+
+def _arch_lips(shell: Shell) -> list[Face]:
+    """Lips around the four wheel arches, which follow the side."""
+    faces: list[Face] = []
+    for axle in shell.axles:
+        grids = []
+        for skin in (0.006, -0.03):
+            rows = []
+            for angle in np.linspace(0.02, np.pi - 0.02, 25):
+                ends = []
+                for radius in (shell.arch_radius_m - 0.004, shell.arch_radius_m + _ARCH_LIP_M):
+                    s = axle - radius * np.cos(angle)
+                    y = shell.body.wheel_radius_m + radius * np.sin(angle)
+                    x = shell.side_x(s, y)
+                    ends.append((x + skin, y, shell.z_at(s, x)))
+                rows.append(ends)
+            grids.append(np.array(rows))
+        faces += _slab(grids[0], grids[1])
+    return _both_sides(faces)
+
+
+def _door_lines(shell: Shell) -> list[float]:
+    """Where doors end, in metres from the nose."""
+    length = shell.body.length_m
+    front = max(shell.cowl + 0.30, shell.axles[0] + shell.arch_radius_m + 0.10)
+    rear = shell.axles[1] - shell.arch_radius_m - 0.04
+    return [front, shell.shape.pillars[0] * length, rear]
+
+
+def _seams(shell: Shell) -> list[Face]:
+    """Shut lines of the doors, and the line of the sills between the arches."""
+    faces: list[Face] = []
+    for s in _door_lines(shell):
+        heights = np.linspace(0.30, shell.shoulder(s) - 0.03, 8)
+        faces += _side_ribbon(shell, [(s, float(y)) for y in heights], _SEAM_M, along=False)
+    first, second = (
+        axle + sign * (shell.arch_radius_m + 0.05) for axle, sign in zip(shell.axles, (1, -1), strict=True)
+    )
+    sill = [(float(s), 0.25) for s in np.linspace(first, second, 10)]
+    return faces + _side_ribbon(shell, sill, 0.05, along=True)
+
+
+def _handles(shell: Shell) -> list[Face]:
+    """A handle at the rear end of each door."""
+    faces: list[Face] = []
+    for s in _door_lines(shell)[1:]:
+        middle, y = s - 0.17, shell.shoulder(s) - 0.12
+        x, z = shell.side_x(middle, y), shell.z_at(middle, shell.side_x(middle, y))
+        faces += box_faces((x - 0.02, y - 0.016, z - 0.09), (x + 0.018, y + 0.016, z + 0.09))
+    return _both_sides(faces)
+
+
+def _plates(shell: Shell) -> list[Face]:
+    """Number plates in front and behind."""
+    half, high = _PLATE_M[0] / 2, _PLATE_M[1]
+    front, rear = 0.39, shell.shoulder(shell.stations[-1]) - 0.305
+    nose = min(shell.end_z(x, front + y, rear=False) for x in (0.0, half) for y in (0.0, high))
+    tail = max(shell.end_z(x, rear + y, rear=True) for x in (0.0, half) for y in (0.0, high))
+    faces = box_faces((-half, front, nose - 0.009), (half, front + high, nose + 0.03))
+    return faces + box_faces((-half, rear, tail - 0.03), (half, rear + high, tail + 0.009))
+
+
+def _mirrors(shell: Shell) -> list[Face]:
+    """Two rounded mirrors on short arms."""
+    s = shell.cowl + 0.40
+    y = shell.shoulder(s) + 0.075
+    inner, outer = shell.side_x(s, shell.shoulder(s)) - 0.04, shell.body.overall_width_m / 2
+    span = outer - inner
+    profile = [(0.0, 0.0), (0.02, 0.03), (0.06, 0.05), (0.09, 0.08), (span - 0.03, 0.078), (span - 0.008, 0.05)]
+    faces = lathe_faces([*profile, (span, 0.0)], segments=14)
+    faces = [face * (1.0, 0.9, 0.75) for face in faces]
+    return _both_sides(moved(faces, (inner, y, s - shell.body.length_m / 2)))
 
 
 def _wheels(body: CarBody) -> list[Part]:

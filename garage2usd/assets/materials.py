@@ -54,7 +54,11 @@ _PAINT_RGB: dict[str, Rgb] = {
     "grey": (0.11, 0.12, 0.13),
     "blue": (0.025, 0.07, 0.22),
     "red": (0.30, 0.018, 0.016),
+    "green": (0.012, 0.055, 0.035),
+    "champagne": (0.40, 0.33, 0.24),
+    "orange": (0.52, 0.13, 0.015),
 }
+_METALLIC_PAINTS = {"silver": 0.3, "grey": 0.2, "blue": 0.2, "green": 0.2, "champagne": 0.3}
 
 VARYING = frozenset({"car_paint"})
 """Materials whose colour, roughness and metallic are one of their asset's choices."""
@@ -121,7 +125,7 @@ MATERIALS: dict[str, Material] = {
     "car_paint": Material(roughness=0.32, clearcoat=1.0),
     **{
         f"car_paint_{paint}": Material(
-            colour_rgb=_PAINT_RGB[paint], roughness=0.32, metallic=0.3 if paint == "silver" else 0.0, clearcoat=1.0
+            colour_rgb=_PAINT_RGB[paint], roughness=0.32, metallic=_METALLIC_PAINTS.get(paint, 0.0), clearcoat=1.0
         )
         for paint in PAINTS
     },

@@ -37,6 +37,19 @@ CAR_BODIES: tuple[CarBody, ...] = (
     CarBody("hatchback", 4.05, 1.74, 1.47, 1.96, 2.55, 0.80, 0.31),
     CarBody("saloon", 4.70, 1.82, 1.44, 2.04, 2.80, 0.86, 0.33),
     CarBody("suv", 4.55, 1.86, 1.68, 2.08, 2.68, 0.88, 0.36),
+    CarBody("van", 4.75, 1.85, 1.83, 2.10, 2.98, 0.88, 0.33),
+    CarBody("pickup", 5.00, 1.87, 1.80, 2.14, 3.05, 0.88, 0.37),
+    CarBody("compact_ev", 3.85, 1.75, 1.54, 1.95, 2.53, 0.72, 0.32),
 )
 
-PAINTS: tuple[str, ...] = ("white", "silver", "black", "grey", "blue", "red")
+PAINTS: tuple[str, ...] = (
+    "white",
+    "silver",
+    "black",
+    "grey",
+    "blue",
+    "red",
+    "green",
+    "champagne",
+    "orange",
+)
