@@ -34,6 +34,9 @@ class ObjectKind(StrEnum):
     BARRIER = "barrier"
     STALL_NUMBER = "stall_number"
     CHARGER = "charger"
+    SPRINKLER = "sprinkler"
+    EXIT_SIGN = "exit_sign"
+    MIRROR = "mirror"
 
 
 class StallUse(StrEnum):

@@ -39,6 +39,9 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.BARRIER: "barrier",
     ObjectKind.STALL_NUMBER: "stall_number",
     ObjectKind.CHARGER: "charger",
+    ObjectKind.SPRINKLER: "sprinkler",
+    ObjectKind.EXIT_SIGN: "exit_sign",
+    ObjectKind.MIRROR: "mirror",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 
