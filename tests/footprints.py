@@ -49,6 +49,12 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(body.overall_width_m, body.length_m)
         case s.DigitSpec():
             return _centred(0.56 * spec.height_m, spec.height_m)
+        case s.SprinklerSpec():
+            return _centred(2 * spec.radius_m, spec.length_m)
+        case s.ExitSignSpec():
+            return _centred(0.8, 0.05)
+        case s.MirrorSpec():
+            return _centred(2 * spec.radius_m, 0.2)
         case s.ChargerSpec():
             return _centred(0.32, 0.1)
         case s.NoParkingSignSpec():

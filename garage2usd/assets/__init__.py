@@ -8,6 +8,7 @@ from garage2usd.assets.floor import Marking, floor_panel
 from garage2usd.assets.glyphs import floor_digit
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
+from garage2usd.assets.overhead import exit_sign, mirror, sprinkler
 from garage2usd.assets.textures import bake_textures, texture_folder
 
 __all__ = [
@@ -26,14 +27,17 @@ __all__ = [
     "charger",
     "column",
     "duct",
+    "exit_sign",
     "floor_digit",
     "floor_panel",
+    "mirror",
     "no_parking_sign",
     "obstacle_block",
     "portal_wall",
     "ramp",
     "sky",
     "speed_bump",
+    "sprinkler",
     "texture_folder",
     "tube_light",
     "wall_panel",

@@ -30,6 +30,12 @@ class FittingsConfig(Settings):
     """The same on the stalls."""
     ducts: bool = True
     """Ventilation ducts along the aisles."""
+    sprinklers: bool = True
+    """Sprinkler pipes along the aisles."""
+    exit_signs: bool = True
+    """Lit signs at junctions, where the ceiling leaves room over the clear height."""
+    mirrors: bool = True
+    """A convex mirror on a column at each junction."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)
     """Share of straight lane squares that carry a speed bump."""
     wheel_stops: bool = True

@@ -9,6 +9,7 @@ from garage2usd.layout.building import columns, core_doors, ground_inside, obsta
 from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
+from garage2usd.layout.overhead import exit_signs, mirrors, sprinklers
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.specs import Point
@@ -56,10 +57,14 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
+    pillars = columns(structure, bay, fittings)
     overhead = [
         *(ceiling_panel(tile, fittings) for tile in grid),
         *tubes,
         *ducts(structure, grid, fittings),
+        *sprinklers(structure, grid, fittings),
+        *exit_signs(grid, graph, fittings),
+        *mirrors(grid, graph, pillars, bay.column_size_m, fittings),
     ]
     on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
     walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
@@ -67,7 +72,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *walls,
         *barriers(walls, fittings),
         *obstacles(structure, fittings),
-        *columns(structure, bay, fittings),
+        *pillars,
     ]
     by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
     return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m, illuminance)

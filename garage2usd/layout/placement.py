@@ -38,6 +38,9 @@ class ObjectKind(StrEnum):
     BARRIER = "barrier"
     STALL_NUMBER = "stall_number"
     CHARGER = "charger"
+    SPRINKLER = "sprinkler"
+    EXIT_SIGN = "exit_sign"
+    MIRROR = "mirror"
 
 
 class StallUse(StrEnum):

@@ -11,7 +11,9 @@ __all__ = [
     "ColumnSpec",
     "DigitSpec",
     "DuctSpec",
+    "ExitSignSpec",
     "Marking",
+    "MirrorSpec",
     "NoParkingSignSpec",
     "ObstacleSpec",
     "PanelSpec",
@@ -22,8 +24,10 @@ __all__ = [
     "SkySpec",
     "Spec",
     "SpeedBumpSpec",
+    "SprinklerSpec",
     "Surface",
     "TubeLightSpec",
+    "Turn",
     "WallPostSpec",
     "WallSpec",
     "WheelStopSpec",
@@ -247,6 +251,40 @@ class ChargerSpec:
     """A slim charging post that looks to +Z; origin in the middle of its foot."""
 
 
+class Turn(StrEnum):
+    """Where a sign's arrow sends who reads it."""
+
+    LEFT = "left"
+    AHEAD = "ahead"
+    RIGHT = "right"
+
+
+@dataclass(frozen=True)
+class SprinklerSpec:
+    """A sprinkler pipe, long along Z; origin over its middle, on the ceiling; `drop_m` down to the pipe's middle."""
+
+    length_m: float
+    radius_m: float
+    drop_m: float
+    heads: int
+
+
+@dataclass(frozen=True)
+class ExitSignSpec:
+    """A lit exit sign that looks to +Z; origin on the ceiling over its middle, its top `top_m` below that."""
+
+    turn: Turn
+    top_m: float
+    height_m: float
+
+
+@dataclass(frozen=True)
+class MirrorSpec:
+    """A convex traffic mirror that looks to +Z; origin in the middle of its rim."""
+
+    radius_m: float
+
+
 @dataclass(frozen=True)
 class CarSpec:
     """A parked car; origin in the middle of its footprint, nose to -Z."""
@@ -274,6 +312,9 @@ Spec = (
     | CarSpec
     | DigitSpec
     | ChargerSpec
+    | SprinklerSpec
+    | ExitSignSpec
+    | MirrorSpec
 )
 
 

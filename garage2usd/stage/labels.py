@@ -32,6 +32,9 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.BARRIER: "barrier",
     ObjectKind.STALL_NUMBER: "stall_number",
     ObjectKind.CHARGER: "charger",
+    ObjectKind.SPRINKLER: "sprinkler",
+    ObjectKind.EXIT_SIGN: "exit_sign",
+    ObjectKind.MIRROR: "mirror",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 
@@ -54,6 +57,9 @@ CITYSCAPES: dict[str, str] = {
     "barrier": "guard rail",
     "stall_number": "parking",
     "charger": "static",
+    "sprinkler": "static",
+    "exit_sign": "traffic sign",
+    "mirror": "static",
 }
 """Name of the nearest Cityscapes class of each class."""
 

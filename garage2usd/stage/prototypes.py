@@ -201,3 +201,21 @@ def _(spec: s.DigitSpec) -> Asset:
 @_make.register
 def _(_spec: s.ChargerSpec) -> Asset:
     return assets.charger()
+
+
+_ARROW_DEG = {s.Turn.LEFT: -90.0, s.Turn.AHEAD: 0.0, s.Turn.RIGHT: 90.0}
+
+
+@_make.register
+def _(spec: s.SprinklerSpec) -> Asset:
+    return assets.sprinkler(spec.length_m, spec.radius_m, spec.drop_m, heads=spec.heads)
+
+
+@_make.register
+def _(spec: s.ExitSignSpec) -> Asset:
+    return assets.exit_sign(_ARROW_DEG[spec.turn], spec.top_m, spec.height_m)
+
+
+@_make.register
+def _(spec: s.MirrorSpec) -> Asset:
+    return assets.mirror(spec.radius_m)

@@ -12,7 +12,7 @@ __all__ = ["POWER_SET", "author_variants"]
 POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
 
-_OVERHEAD = (ObjectKind.CEILING, ObjectKind.DUCT)
+_OVERHEAD = (ObjectKind.CEILING, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN)
 
 
 def author_variants(root: Sdf.PrimSpec, layout: Layout, paths: Mapping[int, str]) -> None:

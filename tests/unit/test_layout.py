@@ -164,6 +164,9 @@ def test_settings_decide_what_is_there():
                 "no_parking_sign_rate": 0,
                 "tubes_per_cell": 0,
                 "ramps": False,
+                "sprinklers": False,
+                "exit_signs": False,
+                "mirrors": False,
                 "stall_numbers": False,
             },
             parking={"occupancy": 0, "ev_share": 0},
@@ -182,6 +185,7 @@ def test_settings_decide_what_is_there():
         "stall_number",
         "charger",
     }
+    empty |= {"sprinkler", "exit_sign", "mirror"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 
