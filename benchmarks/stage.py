@@ -99,6 +99,7 @@ def _measure(step: str, rows: int, cols: int, folder: Path) -> dict[str, float]:
                 asset_folder="assets",
                 metadata={},
                 setback_m=config.bay.carriageway_setback_m,
+                last_frame=0,
                 path=path,
             )
         else:

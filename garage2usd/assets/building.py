@@ -25,7 +25,7 @@ def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
     parts = []
     for name, material, low, high in levels:
         face = box_faces((-half, low, -thickness_m), (half, high, 0), without="lrbtn")
-        parts.append(make_part(name, face, material, collider=Collider.BOX))
+        parts.append(make_part(name, face, material))
     top = _BAND_TOP_M + _STRIPE_M
     faces += box_faces((-half, top, -thickness_m), (half, height_m, 0), without="lrbtn")
     faces += box_faces((-half, 0, -thickness_m), (half, height_m, 0), without="f")

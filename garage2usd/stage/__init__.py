@@ -11,6 +11,7 @@ from garage2usd.config.stage import StageConfig, StageForm
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
+from garage2usd.stage.cameras import DRIVE_NAME, write_drive
 from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import prim_paths, write_garage_layer
 from garage2usd.stage.labels import label_table
@@ -101,6 +102,7 @@ def write_stage(
         asset_folder=folder.name,
         metadata=metadata,
         setback_m=setback_m,
+        last_frame=write_drive(folder / f"{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
     )
     if config.form is StageForm.FLAT:

@@ -3,12 +3,20 @@
 import math
 from collections.abc import Iterable
 
-from pxr import Gf, Sdf, Vt
+from pxr import Gf, Sdf, UsdGeom, UsdPhysics, Vt
 
-__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "over", "place"]
+__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "over", "place", "set_units"]
 
 LABEL_TAXONOMY = "class"
 """Instance name of the semantic labels: ``semantics:labels:class``."""
+
+
+def set_units(layer: Sdf.Layer) -> None:
+    """Metres, kilograms, Y up."""
+    pseudo_root = layer.pseudoRoot
+    pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.Tokens.y)
+    pseudo_root.SetInfo(UsdGeom.Tokens.metersPerUnit, 1.0)
+    pseudo_root.SetInfo(UsdPhysics.Tokens.kilogramsPerUnit, 1.0)
 
 
 def define(

@@ -2,6 +2,7 @@
 
 import math
 from itertools import pairwise
+from pathlib import Path
 
 import networkx as nx
 import numpy as np
@@ -11,9 +12,9 @@ from pxr import Gf, Sdf
 from garage2usd.grid import Cell
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.stage.authoring import attribute, define, operation, order_operations
+from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 
-__all__ = ["FRAMES_PER_SECOND", "author_cameras"]
+__all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
 
 FRAMES_PER_SECOND = 24.0
 _EYE_M = 1.5
@@ -23,14 +24,37 @@ _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
 
 
-def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> int:
-    """Author all cameras; returns the last frame of the drive, the first being 0.
+DRIVE_NAME = "Drive"
+"""Name of the camera that drives, and of its asset."""
+
+
+def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
+    """Write the driving camera as a layer of its own, as text is slow with many samples; returns its last frame.
 
     Notes
     -----
-    The drive takes the shortest way from the first entrance to the exit nearest to it at 2.7 m/s, with rounded corners,
-    looking 4 m ahead.
+    It takes the shortest way from the first entrance to the exit nearest to it at 2.7 m/s, with rounded corners,
+    looking 4 m ahead; its first frame is 0.
     """
+    layer = Sdf.Layer.CreateNew(str(path))
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = DRIVE_NAME
+        camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
+        last_frame = _drive(camera, layer, _way(layout, graph))
+        set_frames(layer, last_frame)
+    layer.Save()
+    return last_frame
+
+
+def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
+    """Say which frames a layer has, from 0 on."""
+    layer.framesPerSecond = layer.timeCodesPerSecond = FRAMES_PER_SECOND
+    layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
+
+
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, asset_folder: str) -> None:
+    """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
     entrance = layout.structure.where(Cell.ENTRANCE)[0]
     nodes = graph.graph.nodes
@@ -42,7 +66,9 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     width, depth = layout.structure.column_edges_m[-1], layout.structure.row_edges_m[-1]
     height = 1.15 * max(width * 20 / 36, depth * 20 / 20.25) + layout.ceiling_height_m
     _fixed(_camera(layer, path.AppendChild("Above")), (width / 2, height, depth / 2), pitch_deg=-90.0)
-    return _drive(_camera(layer, path.AppendChild("Drive")), layer, _way(layout, graph))
+    drive = define(layer, path.AppendChild(DRIVE_NAME), "Camera")
+    reference = Sdf.Reference(f"./{asset_folder}/{DRIVE_NAME}.usdc")
+    drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
 
 
 def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:

@@ -6,14 +6,14 @@ Authored as Sdf specs inside one change block with no stage open, so that nothin
 from collections.abc import Mapping
 from pathlib import Path
 
-from pxr import Gf, Kind, Sdf, UsdGeom, UsdPhysics, Vt
+from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Placement, Stall
 from garage2usd.layout.specs import Spec
-from garage2usd.stage.authoring import attribute, define, place
-from garage2usd.stage.cameras import FRAMES_PER_SECOND, author_cameras
+from garage2usd.stage.authoring import attribute, define, place, set_units
+from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import author_lane_graph, square_name
 from garage2usd.stage.prototypes import Prototype
@@ -48,6 +48,7 @@ def write_garage_layer(
     asset_folder: str,
     metadata: Mapping[str, str | int],
     setback_m: float,
+    last_frame: int,
     path: Path,
 ) -> None:
     """Author the layer that places every prototype.
@@ -64,6 +65,8 @@ def write_garage_layer(
         Written into the root's customData beside S, R and C.
     setback_m
         How far the carriageway stays from squares that are no lane.
+    last_frame
+        Last frame of the driving camera, whose asset stands beside the others.
     path
         The file; ``.usda`` or ``.usdc``.
     """
@@ -71,10 +74,8 @@ def write_garage_layer(
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
     with Sdf.ChangeBlock():
         layer.defaultPrim = ROOT_NAME
-        pseudo_root = layer.pseudoRoot
-        pseudo_root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.Tokens.y)
-        pseudo_root.SetInfo(UsdGeom.Tokens.metersPerUnit, 1.0)
-        pseudo_root.SetInfo(UsdPhysics.Tokens.kilogramsPerUnit, 1.0)
+        set_units(layer)
+        set_frames(layer, last_frame)
         root = define(layer, root_path, "Xform", kind=Kind.Tokens.assembly)
         root.SetInfo("customData", {**metadata, **_matrices(layout.structure)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
@@ -83,9 +84,7 @@ def write_garage_layer(
             define(layer, root_path.AppendChild(group), "Xform", kind=Kind.Tokens.group)
         _author_instances(layer, layout, prototypes, asset_folder)
         author_lane_graph(layer, root_path.AppendChild("LaneGraph"), layout.structure, graph, setback_m=setback_m)
-        last_frame = author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph)
-        layer.framesPerSecond = layer.timeCodesPerSecond = FRAMES_PER_SECOND
-        layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
         author_variants(root, layout, prim_paths(layout))
     layer.Save()
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
 from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight
@@ -145,11 +146,13 @@ def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShad
     mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(part.face_indices))
     mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
     mesh.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(points))
-    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(part.normals))
-    mesh.SetNormalsInterpolation(UsdGeom.Tokens.faceVarying)
-    coordinates = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(
-        "st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying
-    )
+    primvars = UsdGeom.PrimvarsAPI(mesh)
+    # the attribute of the schema takes no indices, with which a car is half as large
+    normals, normal_indices = np.unique(np.round(part.normals, 4) + 0.0, axis=0, return_inverse=True)
+    shading = primvars.CreatePrimvar("normals", Sdf.ValueTypeNames.Normal3fArray, UsdGeom.Tokens.faceVarying)
+    shading.Set(Vt.Vec3fArray.FromNumpy(normals.astype(np.float32)))
+    shading.SetIndices(Vt.IntArray.FromNumpy(normal_indices.ravel().astype(np.int32)))
+    coordinates = primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
     coordinates.Set(Vt.Vec2fArray.FromNumpy(part.st))
     coordinates.SetIndices(Vt.IntArray.FromNumpy(part.st_indices))
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
