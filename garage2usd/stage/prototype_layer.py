@@ -15,7 +15,7 @@ from garage2usd.stage.variants import POWER_SET
 
 __all__ = ["NITS_PER_INTENSITY", "write_prototype"]
 
-NITS_PER_INTENSITY = 40.0
+NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
 
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
