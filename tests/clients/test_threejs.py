@@ -10,13 +10,14 @@ import pytest
 from browser import THREE_VERSION, find_browser, find_three, load_in_three
 from pictures import coarse, difference, read_png, store, stored
 from PIL import Image, ImageOps
-from places import assert_same_places
+from places import MILLIMETRE, assert_same_places
 from pxr import Usd
-from sample_files import REPOSITORY, each_sample
+from sample_files import REPOSITORY, SAMPLES
 from stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
 from garage2usd.layout import ObjectKind
+from garage2usd.stage.garage_layer import prim_paths
 from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
@@ -49,15 +50,12 @@ def uses_of_textures(layout):
     )
 
 
-def outermost(objects, names):
-    """Places of the objects with one of these names that stand in no other such object."""
-    for item in objects:
-        *above, name = item["path"].split("/")
-        if name in names and names.isdisjoint(above):
-            yield item["place"]
+# three.js shares nothing between references, and asks for each texture of each instance at once: of the 20x30 garage's
+# the browser refuses 1294 for want of resources
+SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
 
 
-@each_sample
+@pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
 def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     build = builds(sample, "usdz")
     layout = build.garage.layout
@@ -67,11 +65,9 @@ def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     assert scene["failed"] == []
     assert scene["revision"] == THREE_VERSION.split(".")[1]
 
-    for kind in ObjectKind:
-        placements = layout.of_kind(kind)
-        names = {placement.name for placement in placements}
-        found = list(outermost(scene["objects"], names))
-        assert_same_places(found, [placement.position_m for placement in placements])
+    places = {item["path"]: item["place"] for item in scene["objects"]}
+    found = [places[path] for path in prim_paths(layout).values()]
+    assert np.allclose(found, [placement.position_m for placement in layout.placements], atol=MILLIMETRE)
     meshes = sum(item["mesh"] for item in scene["objects"])
     assert meshes == sum(len(asset_of(placement.spec).parts) for placement in layout.placements)
 
