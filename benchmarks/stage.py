@@ -1,6 +1,6 @@
 """Authoring, opening and traversing stages of growing size, beside naive authoring and the floor of a plain export.
 
-Usage: python benchmarks/stage.py STEP ROWS COLS FOLDER   (one measurement, in a process of its own)
+Usage: python benchmarks/stage.py STEP ROWS COLS FORM FOLDER   (one measurement, in a process of its own)
 """
 
 import json
@@ -19,111 +19,135 @@ from garage2usd.config import GarageConfig
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
-from garage2usd.stage.garage_layer import prim_paths, write_garage_layer
+from garage2usd.stage import write_stage
+from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import name_prototypes
+from garage2usd.stage.tile_prototypes import TILES_FILE
 
 __all__ = ["stages"]
 
-SIZES = ((7, 9), (40, 60), (200, 300))
-ROUNDS = {7: 5, 40: 3, 200: 1}
-STEPS = ("naive", "author", "export", "open", "traverse")
+ASSETS = "garage_assets"
+
+FORMS = ((7, 9, "instanced"), (40, 60, "instanced"), (40, 60, "nested"), (200, 300, "nested"))
+ROUNDS = {7: 5, 40: 3, 200: 3}
+STEPS = ("naive", "author", "export", "open", "traverse", "blender")
+_HUGE_ROWS = 200
+"""From here on the naive way is measured once and Blender, which makes an object of each instance, not at all."""
 
 
 def stages() -> str:
-    """A table of seconds and peak memory for each size and step."""
+    """A table of seconds and peak memory for each size and form."""
     rows = [
         "## Stages",
         "",
         (
-            "The garage's own layer (`.usdc`, assets apart) of combs of aisles, 60 % of the stalls with a car. Naive: "
-            "the same prims by `UsdGeom` on an open stage, without lane graph, stall attributes and variants. Floor: "
-            "`Layer.Export` of the authored layer. Peak memory over that of the same process before the step; medians."
+            "The garage's own layers (`.usdc`, assets apart) of combs of aisles, 60 % of the stalls with a car. Naive: "
+            "the same objects by `UsdGeom` on an open stage, instanced, without lane graph, stall attributes and "
+            "variants. Floor: `Layer.Export` of the authored layers. Open: `Usd.Stage.Open` with all assets. Blender: "
+            "`usd_import` of the whole stage. Peak memory of the whole process, the layout in it; medians."
         ),
         "",
-        "| squares | objects | file | naive | authored | ratio | floor | open | traverse | peak: naive / authored |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        (
+            "| squares | form | objects | file | naive | authored | naive / authored | floor | authored / floor "
+            "| peak: naive / authored | open | peak | traverse | Blender |"
+        ),
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
-    rows += [_row(rows_, cols) for rows_, cols in SIZES]
+    rows += [_row(*form) for form in FORMS]
     return "\n".join(rows)
 
 
-def _row(rows: int, cols: int) -> str:
-    figures: dict[str, dict[str, float]] = {}
+def _row(rows: int, cols: int, form: str) -> str:
+    figures: dict[str, dict[str, list[float]]] = {step: {} for step in STEPS}
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(ROUNDS[rows]):
+        for round_ in range(ROUNDS[rows]):
             for step in STEPS:
-                command = [sys.executable, __file__, step, str(rows), str(cols), folder]
+                if rows >= _HUGE_ROWS and (step == "blender" or (step == "naive" and round_)):
+                    continue
+                command = [sys.executable, __file__, step, str(rows), str(cols), form, folder]
                 run = subprocess.run(command, check=True, capture_output=True)  # noqa: S603
-                for name, value in json.loads(run.stdout).items():
-                    figures.setdefault(step, {}).setdefault(name, []).append(value)  # type: ignore[attr-defined]
-    middle = {step: {name: statistics.median(values) for name, values in of.items()} for step, of in figures.items()}  # type: ignore[call-overload]
-    seconds = {step: middle[step]["seconds"] for step in STEPS}
+                # Blender talks on the same stream
+                for name, value in json.loads(run.stdout.splitlines()[-1]).items():
+                    figures[step].setdefault(name, []).append(value)
+    middle = {step: {name: statistics.median(values) for name, values in of.items()} for step, of in figures.items()}
+    seconds = {step: of["seconds"] for step, of in middle.items() if of}
+    blender = f"{seconds['blender']:.2f} s" if "blender" in seconds else "-"
     return (
-        f"| {rows} x {cols} | {middle['author']['objects']:,.0f} | {middle['author']['megabytes']:.2f} MB "
+        f"| {rows} x {cols} | {form} | {middle['author']['objects']:,.0f} | {middle['author']['megabytes']:.2f} MB "
         f"| {seconds['naive']:.2f} s | {seconds['author']:.2f} s | {seconds['naive'] / seconds['author']:.1f} "
-        f"| {seconds['export']:.3f} s | {seconds['open']:.2f} s | {seconds['traverse']:.2f} s "
-        f"| {middle['naive']['peak_mb']:.0f} / {middle['author']['peak_mb']:.0f} MB |"
+        f"| {seconds['export']:.2f} s | {seconds['author'] / seconds['export']:.2f} "
+        f"| {middle['naive']['peak_mb']:.0f} / {middle['author']['peak_mb']:.0f} MB "
+        f"| {seconds['open']:.2f} s | {middle['open']['peak_mb']:.0f} MB | {seconds['traverse']:.2f} s | {blender} |"
     )
 
 
-def _garage(rows: int, cols: int) -> tuple[Layout, LaneGraph, GarageConfig]:
+def _garage(rows: int, cols: int, form: str) -> tuple[Layout, LaneGraph, GarageConfig]:
     cells = np.full((rows, cols), Cell.FREE, dtype=np.int8)
     cells[:-1, 1::3] = Cell.LANE
     cells[-2, 1:-1] = Cell.LANE
     cells[-1, 1], cells[-1, cols - 2] = Cell.ENTRANCE, Cell.EXIT
     structure = Structure.from_arrays(cells, 8.1, 8.1)
-    config = GarageConfig()
+    config = GarageConfig(stage={"form": form})
     graph = build_lane_graph(structure, config.bay)
     return lay_out(structure, graph, config), graph, config
 
 
-def _measure(step: str, rows: int, cols: int, folder: Path) -> dict[str, float]:
+def _measure(step: str, rows: int, cols: int, form: str, folder: Path) -> dict[str, float]:
     path, naive = folder / "garage.usdc", folder / "naive.usdc"
-    if step in {"author", "naive"}:
-        (path if step == "author" else naive).unlink(missing_ok=True)
-        layout, graph, config = _garage(rows, cols)
-        prototypes = name_prototypes(layout.placements)
-        for prototype in prototypes.values():  # what is referred to, but empty
-            asset = folder / "assets" / f"{prototype.name}.usdc"
-            if not asset.exists():
-                asset.parent.mkdir(exist_ok=True)
-                _empty_asset(asset)
-        before = _peak_mb()
+    if step == "naive":
+        naive.unlink(missing_ok=True)
+        layout, _, _ = _garage(rows, cols, form)
+        prototypes = name_prototypes(layout)
         start = time.perf_counter()
-        if step == "author":
-            write_garage_layer(
-                layout,
-                graph,
-                prototypes=prototypes,
-                asset_folder="assets",
-                metadata={},
-                setback_m=config.bay.carriageway_setback_m,
-                last_frame=0,
-                path=path,
-            )
-        else:
-            _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, naive)
-        seconds = time.perf_counter() - start
-        size = (path if step == "author" else naive).stat().st_size / 1e6
-        return {
-            "seconds": seconds,
-            "peak_mb": _peak_mb() - before,
-            "objects": len(layout.placements),
-            "megabytes": size,
-        }
+        _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, naive)
+        return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb()}
+    if step == "author":
+        return _author(rows, cols, form, path)
     if step == "export":
-        layer = Sdf.Layer.FindOrOpen(str(path))
+        files = [file for file in (path, path.parent / ASSETS / TILES_FILE) if file.exists()]
+        layers = [Sdf.Layer.FindOrOpen(str(file)) for file in files]
         start = time.perf_counter()
-        layer.Export(str(folder / "exported.usdc"))
+        for layer in layers:
+            layer.Export(str(folder / "exported.usdc"))
         return {"seconds": time.perf_counter() - start}
+    if step == "blender":
+        import bpy  # noqa: PLC0415 - it brings a USD of its own, and is needed by this step alone
+
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        start = time.perf_counter()
+        bpy.ops.wm.usd_import(filepath=str(path))
+        return {"seconds": time.perf_counter() - start, "objects": len(bpy.data.objects)}
     start = time.perf_counter()
     stage = Usd.Stage.Open(str(path))
     opened = time.perf_counter()
     if step == "open":
-        return {"seconds": opened - start}
+        return {"seconds": opened - start, "peak_mb": _peak_mb()}
     count = sum(1 for _ in stage.Traverse())
     return {"seconds": time.perf_counter() - opened, "prims": count}
+
+
+def _author(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
+    layout, graph, config = _garage(rows, cols, form)
+    if not path.exists():  # the assets, once
+        write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
+    start = time.perf_counter()
+    write_garage_layer(
+        layout,
+        graph,
+        arrangement=arrange(layout, nested=form == "nested"),
+        prototypes=name_prototypes(layout),
+        asset_folder=ASSETS,
+        metadata={},
+        setback_m=config.bay.carriageway_setback_m,
+        last_frame=0,
+        path=path,
+    )
+    seconds = time.perf_counter() - start
+    files = [path, path.parent / ASSETS / TILES_FILE]
+    size = sum(file.stat().st_size for file in files if file.exists()) / 1e6
+    return {"seconds": seconds, "peak_mb": _peak_mb(), "objects": len(layout.placements), "megabytes": size}
 
 
 def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> None:
@@ -133,11 +157,11 @@ def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> Non
     root = UsdGeom.Xform.Define(stage, "/Garage")
     stage.SetDefaultPrim(root.GetPrim())
     Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
-    paths = prim_paths(layout)
-    for index, placement in enumerate(layout.placements):
-        xform = UsdGeom.Xform.Define(stage, paths[index])
+    paths = arrange(layout, nested=False).paths()
+    for prim_path, placement in zip(paths, layout.placements, strict=True):
+        xform = UsdGeom.Xform.Define(stage, prim_path)
         prim = xform.GetPrim()
-        prim.GetReferences().AddReference(f"./assets/{names[placement.spec]}.usdc")
+        prim.GetReferences().AddReference(f"./{ASSETS}/{names[placement.spec]}.usdc")
         prim.SetInstanceable(True)
         UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([OBJECT_LABELS[placement.kind]])
         xform.AddTranslateOp(UsdGeom.XformOp.PrecisionFloat).Set(Gf.Vec3f(*placement.position_m))
@@ -146,17 +170,10 @@ def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> Non
     stage.GetRootLayer().Save()
 
 
-def _empty_asset(path: Path) -> None:
-    layer = Sdf.Layer.CreateNew(str(path))
-    Sdf.CreatePrimInLayer(layer, f"/{path.stem}").specifier = Sdf.SpecifierDef
-    layer.defaultPrim = path.stem
-    layer.Save()
-
-
 def _peak_mb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
 if __name__ == "__main__":
-    step, rows, cols, folder = sys.argv[1:]
-    print(json.dumps(_measure(step, int(rows), int(cols), Path(folder))))
+    step, rows, cols, form, folder = sys.argv[1:]
+    print(json.dumps(_measure(step, int(rows), int(cols), form, Path(folder))))

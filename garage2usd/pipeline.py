@@ -161,7 +161,7 @@ def build(
             progress=progress,
         )
         labels = staging / f"{path.stem}_labels.json"
-        write_labels(garage.layout, labels)
+        write_labels(garage.layout, labels, garage.config.stage)
         pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
         drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
         for picture, image in zip(drawn, pictures.values(), strict=True):

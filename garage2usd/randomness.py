@@ -18,6 +18,7 @@ class Step(IntEnum):
     CARS = 5
     SIGNS = 6
     SPEED_BUMPS = 7
+    ARRANGEMENTS = 20
 
 
 def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:

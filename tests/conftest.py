@@ -22,14 +22,18 @@ def pytest_runtest_makereport(item, call):
 
 @pytest.fixture(scope="session")
 def builds(tmp_path_factory):
-    """Build a sample in a format, once in each worker."""
+    """Build a sample in a format and perhaps another form than its own, once in each worker."""
     made = {}
 
-    def build(sample, extension):
-        key = sample.stem, extension
+    def build(sample, extension, form=None):
+        key = sample.stem, extension, form
         if key not in made:
-            folder = tmp_path_factory.mktemp(f"{sample.stem}_{extension}")
-            made[key] = garage2usd.build(garage2usd.load_config(sample), folder / f"{sample.stem}.{extension}")
+            folder = tmp_path_factory.mktemp("_".join(filter(None, key)))
+            config = garage2usd.load_config(sample)
+            if form is not None:
+                stage = {**config.stage.model_dump(), "form": form}
+                config = garage2usd.GarageConfig(**{**config.model_dump(), "stage": stage})
+            made[key] = garage2usd.build(config, folder / f"{sample.stem}.{extension}")
         return made[key]
 
     return build

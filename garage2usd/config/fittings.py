@@ -1,6 +1,6 @@
 """Settings of what stands, hangs and parks in the garage."""
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from garage2usd.config.base import Settings
 
@@ -49,6 +49,10 @@ class ParkingConfig(Settings):
 
     occupancy: float = Field(0.6, ge=0, le=1)
     """Share of the stalls that hold a car."""
+    occupied_stalls: tuple[str, ...] | None = None
+    """Ids of the stalls that hold a car, as ``Stall_r03_c07_2``; all others are free then, whatever the occupancy."""
+    empty_stalls: tuple[str, ...] = ()
+    """Ids of stalls that are free, whatever the occupancy."""
     ev_share: float = Field(0.08, ge=0, le=1)
     """Share of the stalls that have a charger."""
     accessible_share: float = Field(0.02, ge=0, le=1)
@@ -57,3 +61,10 @@ class ParkingConfig(Settings):
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)
     """Largest angle between a parked car and its stall."""
+
+    @model_validator(mode="after")
+    def _no_stall_both_ways(self) -> "ParkingConfig":
+        both = sorted(set(self.occupied_stalls or ()) & set(self.empty_stalls))
+        if both:
+            raise ValueError(f"no stall that occupied_stalls and empty_stalls both name ({', '.join(both)})")
+        return self

@@ -1,5 +1,9 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
+from dataclasses import dataclass
+
+import numpy as np
+
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds
 from garage2usd.grid import Cell, Structure
@@ -7,16 +11,52 @@ from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
 from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
+from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
 from garage2usd.layout.overhead import exit_signs, mirrors, sprinklers
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
-from garage2usd.layout.placement import Layout, ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.specs import Point
+from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.planning import dead_ends
 
-__all__ = ["Illuminance", "Layout", "ObjectKind", "Placement", "Stall", "StallUse", "lay_out"]
+__all__ = ["Illuminance", "Layout", "ObjectKind", "ObjectTable", "Placement", "Stall", "StallUse", "lay_out"]
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Every object of a garage with its place.
+
+    Attributes
+    ----------
+    structure
+        The plan that it was laid out from.
+    placements
+        All objects: tiles in reading order, then the building's.
+    stalls
+        All stalls in reading order, as their placements are.
+    ceiling_height_m
+        Height of the ceiling's underside.
+    illuminance
+        How bright its floor is.
+    """
+
+    structure: Structure
+    placements: ObjectTable
+    stalls: tuple[Stall, ...]
+    ceiling_height_m: float
+    illuminance: Illuminance
+
+    def counts(self) -> dict[str, int]:
+        """Number of objects of each kind."""
+        counts = np.bincount(self.placements.kind, minlength=len(KINDS)).tolist()
+        return {str(kind): count for kind, count in zip(KINDS, counts, strict=True)}
+
+    def of_kind(self, kind: ObjectKind) -> tuple[Placement, ...]:
+        """All objects of one kind."""
+        return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
 def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Layout:
@@ -38,6 +78,8 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     """
     bay, fittings, seed = config.bay, config.fittings, config.seed
     grid = TileGrid(structure, graph, bay)
+    shares = config.stage.is_nested(len(grid.tiles))
+    draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
     # what lies on the lanes decides what is painted there
     bumps = speed_bumps(grid, graph, fittings, seed=seed)
@@ -53,7 +95,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, tips)
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
-    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, seed=seed)]
+    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
     parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
@@ -75,7 +117,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *pillars,
     ]
     by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
-    return Layout(structure, (*by_square, *shell), stalls, fittings.ceiling_height_m, illuminance)
+    return Layout(structure, ObjectTable((*by_square, *shell)), stalls, fittings.ceiling_height_m, illuminance)
 
 
 def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:

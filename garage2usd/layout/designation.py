@@ -81,7 +81,7 @@ def stall_numbers(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[P
             x, z = to_world((across, along), stall.centre_m, stall.yaw_rad)
             numbers.append(
                 Placement(
-                    f"{stall.name.replace('Stall', 'StallNumber')}_{index + 1}",
+                    f"{stall.named('StallNumber')}_{index + 1}",
                     ObjectKind.STALL_NUMBER,
                     DigitSpec(int(digit), _DIGIT_HEIGHT_M),
                     (round(x, 6), 0.0, round(z, 6)),
@@ -98,7 +98,7 @@ def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
     for stall in stalls:
         if stall.use is StallUse.EV:
             x, z = to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
-            name = stall.name.replace("Stall", "Charger")
+            name = stall.named("Charger")
             position = (round(x, 6), 0.0, round(z, 6))
             posts.append(Placement(name, ObjectKind.CHARGER, ChargerSpec(), position, stall.yaw_rad, stall.square))
     return posts

@@ -1,22 +1,26 @@
 """Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
 
 import math
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.spatial import KDTree
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.errors import ConfigError
 from garage2usd.grid import NEIGHBOUR_STEPS
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
+from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
-from garage2usd.layout.specs import CarSpec, Marking, PanelSpec, Surface, WheelStopSpec
+from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
-from garage2usd.randomness import Step, generator
+from garage2usd.randomness import Step
 
 __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
 
@@ -27,6 +31,7 @@ _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
 _REAR_CLEARANCE_M = 0.12
+_DRAWS_A_CAR = 7
 _COATINGS = {StallUse.EV: Surface.STALL_EV, StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE}
 
 
@@ -73,9 +78,9 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     """The floor of each stall with its lines."""
     return [
         Placement(
-            stall.name,
+            stall.named("Stall"),
             ObjectKind.STALL,
-            PanelSpec(stall.width_m, stall.length_m, _COATINGS.get(stall.use, Surface.STALL), _stall_markings(stall)),
+            _stall_panel(stall.width_m, stall.length_m, stall.use),
             (stall.centre_m[0], 0.0, stall.centre_m[1]),
             stall.yaw_rad,
             stall.square,
@@ -84,11 +89,12 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     ]
 
 
-def _stall_markings(stall: Stall) -> tuple[Marking, ...]:
-    lines = stall_lines(stall.width_m, stall.length_m)
-    if stall.use is StallUse.TURNING:
-        lines += hatching(stall.width_m / 2, stall.length_m / 2, margin_m=_HATCH_MARGIN_M)
-    return (*lines, *use_symbol(stall.use))
+@lru_cache
+def _stall_panel(width_m: float, length_m: float, use: StallUse) -> PanelSpec:
+    lines = stall_lines(width_m, length_m)
+    if use is StallUse.TURNING:
+        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M)
+    return PanelSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
 def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
@@ -100,14 +106,14 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
         if stall.use is StallUse.TURNING:
             continue
         x, z = to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
-        name = stall.name.replace("Stall", "WheelStop")
+        name = stall.named("WheelStop")
         spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
         position = (round(x, 6), 0.0, round(z, 6))
         placements.append(Placement(name, ObjectKind.WHEEL_STOP, spec, position, stall.yaw_rad, stall.square))
     return placements
 
 
-def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int) -> list[Placement]:
+def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: SquareDraws) -> list[Placement]:
     """Random cars, each inside its stall by construction.
 
     Notes
@@ -115,12 +121,16 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int)
     A car is drawn among the bodies that fit, then its yaw, then its offset from what the turned footprint leaves
     between the lines. Every stall draws the same number of times, so that the occupancy moves no other car.
     """
-    rng = generator(seed, Step.CARS)
+    most = max(Counter(stall.square for stall in stalls).values(), default=0)
+    numbers = draws.of_step(Step.CARS, most, _DRAWS_A_CAR)
+    holds_car = _occupancy(stalls, parking)
+    place_on_square: Counter[Square] = Counter()
     placements = []
     for stall in stalls:
-        occupied, reverse, yaw_share, side_share, along_share = rng.random(5).tolist()
-        body_index, paint_index = rng.random(2).tolist()
-        if occupied >= parking.occupancy or stall.use is StallUse.TURNING:
+        drawn = numbers[stall.square][place_on_square[stall.square]].tolist()
+        place_on_square[stall.square] += 1
+        occupied, reverse, yaw_share, side_share, along_share, body_index, paint_index = drawn
+        if not holds_car.get(stall.name, occupied < parking.occupancy) or stall.use is StallUse.TURNING:
             continue
         room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
         bodies = [
@@ -129,6 +139,9 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int)
             if body.length_m <= room_m and body.overall_width_m <= stall.width_m - 2 * _LINE_CLEARANCE_M
         ]
         if not bodies:
+            if holds_car.get(stall.name):
+                least = min(body.length_m for body in CAR_BODIES)
+                raise ConfigError("parking.occupied_stalls", stall.name, f"stalls that a car of {least} m fits into")
             continue
         body = bodies[int(body_index * len(bodies))]
         limit = math.radians(parking.max_yaw_deg)
@@ -142,7 +155,7 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int)
         turned = stall.yaw_rad + yaw + (math.pi if reverse < parking.reversed_share else 0.0)
         placements.append(
             Placement(
-                stall.name.replace("Stall", "Car"),
+                stall.named("Car"),
                 ObjectKind.CAR,
                 CarSpec(body.name, PAINTS[int(paint_index * len(PAINTS))]),
                 (round(x, 6), 0.0, round(z, 6)),
@@ -151,6 +164,22 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, *, seed: int)
             )
         )
     return placements
+
+
+def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, bool]:
+    """Whether a car stands in each stall that the configuration names."""
+    uses = {stall.name: stall.use for stall in stalls}
+    named = {}
+    for field, holds_car in (("occupied_stalls", True), ("empty_stalls", False)):
+        for name in getattr(parking, field) or ():
+            if name not in uses:
+                raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
+            if holds_car and uses[name] is StallUse.TURNING:
+                raise ConfigError(f"parking.{field}", name, "stalls that are not kept free for turning")
+            named[name] = holds_car
+    if parking.occupied_stalls is not None:
+        return dict.fromkeys(uses, False) | named
+    return named
 
 
 def _fitting_yaw(yaw_rad: float, length_m: float, width_m: float, stall: Stall) -> float:

@@ -1,20 +1,14 @@
 """What stands where: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
 
 import math
-from collections import Counter
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
-from garage2usd.grid import Structure
 from garage2usd.lanes import Square, StallType
 from garage2usd.layout.specs import Spec
 from garage2usd.stalls import Edge
 
-if TYPE_CHECKING:
-    from garage2usd.layout.lighting import Illuminance
-
-__all__ = ["Layout", "ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "to_world"]
+__all__ = ["ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "to_world"]
 
 
 class ObjectKind(StrEnum):
@@ -55,14 +49,15 @@ class StallUse(StrEnum):
     """For people with a disability."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Placement:
     """One object in the world.
 
     Attributes
     ----------
     name
-        Prim name, PascalCase, unique within its square or, without a square, within its kind.
+        Prim name, PascalCase, unique within its square or, without a square, within its kind. On squares that hold
+        the same, the same.
     kind
         What it is.
     spec
@@ -83,7 +78,7 @@ class Placement:
     square: Square | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Stall:
     """One parking stall.
 
@@ -120,45 +115,15 @@ class Stall:
     length_m: float
     use: StallUse = StallUse.STANDARD
 
+    def named(self, kind: str) -> str:
+        """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""
+        return f"{kind}_{self.name.rpartition('_')[2]}"
+
     def corners_m(self) -> tuple[tuple[float, float], ...]:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
         half_width, half_length = self.width_m / 2, self.length_m / 2
         local = (-half_width, half_length), (half_width, half_length), (half_width, -half_length)
         return tuple(to_world(point, self.centre_m, self.yaw_rad) for point in (*local, (-half_width, -half_length)))
-
-
-@dataclass(frozen=True, eq=False)
-class Layout:
-    """Every object of a garage with its place.
-
-    Attributes
-    ----------
-    structure
-        The plan that it was laid out from.
-    placements
-        All objects: tiles in reading order, then the building's.
-    stalls
-        All stalls in reading order; each has a placement of the same name.
-    ceiling_height_m
-        Height of the ceiling's underside.
-    illuminance
-        How bright its floor is.
-    """
-
-    structure: Structure
-    placements: tuple[Placement, ...]
-    stalls: tuple[Stall, ...]
-    ceiling_height_m: float
-    illuminance: "Illuminance"
-
-    def counts(self) -> dict[str, int]:
-        """Number of objects of each kind."""
-        counts = Counter(placement.kind for placement in self.placements)
-        return {str(kind): counts[kind] for kind in ObjectKind}
-
-    def of_kind(self, kind: ObjectKind) -> tuple[Placement, ...]:
-        """All objects of one kind."""
-        return tuple(placement for placement in self.placements if placement.kind is kind)
 
 
 def edge_yaw_rad(edge: Edge) -> float:

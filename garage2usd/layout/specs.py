@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 __all__ = [
     "BarrierSpec",
@@ -79,6 +80,14 @@ class PanelSpec:
     surface: Surface
     markings: tuple[Marking, ...] = ()
     openings: tuple[Polygon, ...] = ()
+
+    def __hash__(self) -> int:
+        """As of any frozen value, but kept: the polygons are many and every object is looked up by its spec."""
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.width_m, self.depth_m, self.surface, self.markings, self.openings))
 
 
 @dataclass(frozen=True)

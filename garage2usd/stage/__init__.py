@@ -8,12 +8,14 @@ from pathlib import Path
 
 from garage2usd.assets import MATERIALS, texture_folder
 from garage2usd.config.stage import StageConfig, StageForm
+from garage2usd.grid import Cell
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
+from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
 from garage2usd.stage.flat import flatten_stage
-from garage2usd.stage.garage_layer import prim_paths, write_garage_layer
+from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.prototype_layer import write_prototype
@@ -37,9 +39,10 @@ def asset_folder_name(stage_path: Path) -> str:
     return f"{stage_path.stem}_assets"
 
 
-def write_labels(layout: Layout, path: Path) -> None:
+def write_labels(layout: Layout, path: Path, config: StageConfig | None = None) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.stage.labels.label_table`)."""
-    table = label_table(layout, prim_paths(layout))
+    arrangement = arrange(layout, nested=_is_nested(layout, config))
+    table = label_table(layout, arrangement.paths())
     lists = (f' "{name}": [\n  ' + ",\n  ".join(map(json.dumps, entries)) + "\n ]" for name, entries in table.items())
     path.write_text("{\n" + ",\n".join(lists) + "\n}\n", encoding="utf-8")
 
@@ -81,7 +84,7 @@ def write_stage(
     folder = path.parent / ("assets" if packed else asset_folder_name(path))
     textures = folder / TEXTURE_FOLDER
     textures.mkdir(parents=True)
-    prototypes = name_prototypes(layout.placements)
+    prototypes = name_prototypes(layout)
     used: set[str] = set()
     shapes = {prototype.name: spec for spec, prototype in reversed(prototypes.items())}
     for done, (name, spec) in enumerate(sorted(shapes.items())):
@@ -98,6 +101,7 @@ def write_stage(
     write_garage_layer(
         layout,
         graph,
+        arrangement=arrange(layout, nested=_is_nested(layout, config)),
         prototypes=prototypes,
         asset_folder=folder.name,
         metadata=metadata,
@@ -114,6 +118,10 @@ def write_stage(
     shutil.rmtree(folder)
     layer_path.unlink()
     return (path,)
+
+
+def _is_nested(layout: Layout, config: StageConfig | None) -> bool:
+    return (config or StageConfig()).is_nested(int((layout.structure.cells != Cell.OBSTACLE).sum()))
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:

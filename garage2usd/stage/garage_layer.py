@@ -1,49 +1,42 @@
 """The garage's own layer: tiles, building, lane graph and cameras over instances of the prototypes.
 
-Authored as Sdf specs inside one change block with no stage open, so that nothing is composed while writing.
+The many instances are written as text, which USD parses faster than Python can author them; the rest as Sdf specs
+inside one change block. No stage is open, so that nothing is composed while writing.
 """
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from pxr import Gf, Kind, Sdf, Vt
+from pxr import Sdf, Vt
 
-from garage2usd.grid import Cell, Structure
+from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout, ObjectKind, Placement, Stall
+from garage2usd.layout import Layout
 from garage2usd.layout.specs import Spec
-from garage2usd.stage.authoring import attribute, define, place, set_units
+from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
+from garage2usd.stage.authoring import define, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
-from garage2usd.stage.labels import OBJECT_LABELS
-from garage2usd.stage.lane_curves import author_lane_graph, square_name
+from garage2usd.stage.instances import InstanceWriter
+from garage2usd.stage.lane_curves import author_lane_graph
+from garage2usd.stage.prim_text import group_text, moved_text, place_text, reference_text, rounded_m
 from garage2usd.stage.prototypes import Prototype
-from garage2usd.stage.variants import author_variants
+from garage2usd.stage.scatter import author_instancer
+from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
+from garage2usd.stage.variants import SWITCHES, variant_texts
 
-__all__ = ["ROOT_NAME", "prim_paths", "write_garage_layer"]
+__all__ = ["write_garage_layer"]
 
-ROOT_NAME = "Garage"
-
-_BUILDING_GROUPS = {
-    ObjectKind.WALL: "Walls",
-    ObjectKind.PORTAL: "Walls",
-    ObjectKind.OBSTACLE: "Obstacles",
-    ObjectKind.COLUMN: "Columns",
-    ObjectKind.RAMP: "Ramps",
-    ObjectKind.SKY: "Ramps",
-    ObjectKind.BARRIER: "Ramps",
-}
-"""Group of each kind of object that belongs to the building, not to a tile."""
-
-
-def prim_paths(layout: Layout) -> dict[int, str]:
-    """Prim path of each placement by its index in ``layout.placements``."""
-    return {index: str(_path(placement)) for index, placement in enumerate(layout.placements)}
+_CLASSES = "Classes"
+"""Scope of the classes that all objects of a variant set, and all shared tiles, inherit from."""
+_TILE_CLASS = "Tile"
 
 
 def write_garage_layer(
     layout: Layout,
     graph: LaneGraph,
     *,
+    arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
     asset_folder: str,
     metadata: Mapping[str, str | int],
@@ -51,16 +44,18 @@ def write_garage_layer(
     last_frame: int,
     path: Path,
 ) -> None:
-    """Author the layer that places every prototype.
+    """Author the layer that places every prototype, and the prototypes of tiles where those are shared.
 
     Parameters
     ----------
     layout, graph
         What to place, and the kinds of the lane squares.
+    arrangement
+        Which prim each object is.
     prototypes
         Asset and look of every spec in the layout.
     asset_folder
-        Folder of the assets, relative to `path`.
+        Folder of the assets beside `path`; the prototypes of tiles go there too.
     metadata
         Written into the root's customData beside S, R and C.
     setback_m
@@ -70,92 +65,80 @@ def write_garage_layer(
     path
         The file; ``.usda`` or ``.usdc``.
     """
-    layer = Sdf.Layer.CreateNew(str(path))
+    writer = InstanceWriter(
+        layout,
+        arrangement,
+        prototypes,
+        f"./{asset_folder}",
+        classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
+        describe_stalls=True,
+    )
+    labels = _tile_labels(graph, arrangement.squares)
+    class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
+    if arrangement.nested:
+        inner = InstanceWriter(layout, arrangement, prototypes, ".", classes={}, describe_stalls=False)
+        shared = share_tiles(layout, arrangement, labels, inner)
+        write_tile_prototypes(shared, path.parent / asset_folder / TILES_FILE)
+        tiles = _shared_tiles(arrangement, shared, asset_folder)
+        variants = variant_texts(class_names, groups=[_TILE_CLASS], within=_CLASSES)
+    else:
+        tiles = _tiles(arrangement, labels, writer)
+        variants = variant_texts(class_names, within=_CLASSES)
+    groups = "".join(group_text(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
+    names = [switch.class_name for switch in class_names] + [_TILE_CLASS] * arrangement.nested
+    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    layer.ImportFromString(
+        f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
+        f'class "{_CLASSES}"\n{{\n{classes}}}\n{tiles}{groups}}}\n'
+    )
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
     with Sdf.ChangeBlock():
         layer.defaultPrim = ROOT_NAME
         set_units(layer)
         set_frames(layer, last_frame)
-        root = define(layer, root_path, "Xform", kind=Kind.Tokens.assembly)
-        root.SetInfo("customData", {**metadata, **_matrices(layout.structure)})
+        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout.structure)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        _author_tiles(layer, root_path.AppendChild("Tiles"), layout, graph)
-        for group in dict.fromkeys(_BUILDING_GROUPS[p.kind] for p in layout.placements if p.square is None):
-            define(layer, root_path.AppendChild(group), "Xform", kind=Kind.Tokens.group)
-        _author_instances(layer, layout, prototypes, asset_folder)
-        author_lane_graph(layer, root_path.AppendChild("LaneGraph"), layout.structure, graph, setback_m=setback_m)
+        for name, rows in arrangement.scattered.items():
+            author_instancer(layer, root_path.AppendChild(name), layout.placements, rows, prototypes, asset_folder)
+        author_lane_graph(layer, root_path.AppendChild("LaneGraph"), layout, graph, setback_m=setback_m)
         author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
-        author_variants(root, layout, prim_paths(layout))
-    layer.Save()
+    layer.Export(str(path))
 
 
-def _path(placement: Placement) -> Sdf.Path:
-    root = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
-    if placement.square is None:
-        return root.AppendChild(_BUILDING_GROUPS[placement.kind]).AppendChild(placement.name)
-    return _tile_path(placement.square).AppendChild(placement.name)
+def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
+    """Semantic class of each tile: the kind of its lane square, or the type of its stalls."""
+    stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
+    kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
+    return [kinds.get(square) or stalls[square] for square in squares]
 
 
-def _tile_path(square: Square) -> Sdf.Path:
-    return Sdf.Path(f"/{ROOT_NAME}/Tiles/Row_r{square[0]:02d}/Tile_{square_name(square)}")
-
-
-def _author_tiles(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> None:
+def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> str:
     """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
-    define(layer, path, "Xform", kind=Kind.Tokens.group)
-    for floor in layout.of_kind(ObjectKind.FLOOR):
-        if floor.square is None:  # pragma: no cover - a floor lies on a square
-            continue
-        tile_path = _tile_path(floor.square)
-        if layer.GetPrimAtPath(tile_path.GetParentPath()) is None:
-            define(layer, tile_path.GetParentPath(), "Xform", kind=Kind.Tokens.group)
-        label = _tile_label(layout.structure, graph, floor.square)
-        place(define(layer, tile_path, "Xform", kind=Kind.Tokens.group, label=label), floor.position_m)
+    rows: dict[int, list[str]] = defaultdict(list)
+    for square, (x, z), objects, label in zip(
+        arrangement.squares, rounded_m(arrangement.origins_m), arrangement.on_tiles(), labels, strict=True
+    ):
+        place, children = place_text(x, 0.0, z), writer.texts(objects, (x, z))
+        rows[square[0]].append(group_text(tile_name(square), children, label=label, place=place))
+    return _in_rows(rows)
 
 
-def _author_instances(
-    layer: Sdf.Layer, layout: Layout, prototypes: Mapping[Spec, Prototype], asset_folder: str
-) -> None:
-    """One instanceable reference for each placement, relative to its tile's origin."""
-    references = {
-        prototype.name: Sdf.ReferenceListOp.Create(
-            prependedItems=[Sdf.Reference(f"./{asset_folder}/{prototype.name}.usdc")]
-        )
-        for prototype in prototypes.values()
-    }
-    origins = {floor.square: floor.position_m for floor in layout.of_kind(ObjectKind.FLOOR)}
-    stalls = {stall.name: stall for stall in layout.stalls}
-    for placement in layout.placements:
-        prototype = prototypes[placement.spec]
-        prim = define(layer, _path(placement), "Xform", label=OBJECT_LABELS[placement.kind])
-        prim.SetInfo("references", references[prototype.name])
-        prim.instanceable = True
-        for name, choice in prototype.look:
-            prim.variantSelections[name] = choice
-        x, y, z = placement.position_m
-        origin_x, _, origin_z = origins.get(placement.square, (0.0, 0.0, 0.0)) if placement.square else (0.0, 0.0, 0.0)
-        place(prim, (x - origin_x, y, z - origin_z), placement.yaw_rad)
-        if placement.kind is ObjectKind.STALL:
-            _describe_stall(prim, stalls[placement.name])
+def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder: str) -> str:
+    """Row groups, and an instance of a prototype for each tile.
+
+    What all instances have in common stands in the prototypes, whose layer is so much smaller.
+    """
+    asset, base = f"./{asset_folder}/{TILES_FILE}", f"/{ROOT_NAME}/{_CLASSES}/{_TILE_CLASS}"
+    headers = {name: reference_text(asset, prim=f"/{name}", base=base) for name in shared.texts}
+    rows: dict[int, list[str]] = defaultdict(list)
+    for square, (x, z), name in zip(arrangement.squares, rounded_m(arrangement.origins_m), shared.name_of, strict=True):
+        rows[square[0]].append(f'def "{tile_name(square)}" (\n{headers[name]})\n{{\n{moved_text(x, z)}}}\n')
+    return _in_rows(rows)
 
 
-def _describe_stall(prim: Sdf.PrimSpec, stall: Stall) -> None:
-    """Id, type, use, lane, mouth and corners (x, z in the world) of a stall as attributes of its prim."""
-    types = Sdf.ValueTypeNames
-    attribute(prim, "garage:stall:id", types.String, stall.name)
-    attribute(prim, "garage:stall:type", types.Token, stall.stall_type.value)
-    attribute(prim, "garage:stall:use", types.Token, stall.use.value)
-    attribute(prim, "garage:stall:square", types.Int2, Gf.Vec2i(*stall.square))
-    attribute(prim, "garage:stall:accessSquare", types.Int2, Gf.Vec2i(*stall.access_square))
-    attribute(prim, "garage:stall:entryEdge", types.Token, stall.edge.name.lower())
-    corners = Vt.Vec2fArray([Gf.Vec2f(*corner) for corner in stall.corners_m()])
-    attribute(prim, "garage:stall:corners", types.Float2Array, corners)
-
-
-def _tile_label(structure: Structure, graph: LaneGraph, square: Square) -> str:
-    if structure.cells[square] == Cell.FREE:
-        return f"stall_{graph.stall_types[square].value}"
-    return graph.kind(square).value
+def _in_rows(rows: Mapping[int, list[str]]) -> str:
+    return group_text("Tiles", (group_text(row_name(row), tiles) for row, tiles in rows.items()))
 
 
 def _matrices(structure: Structure) -> dict[str, object]:

@@ -1,6 +1,6 @@
 """Semantic classes, and the table of every labelled object: prim path, instance id, class, world bounds."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -11,7 +11,7 @@ from garage2usd.layout import Layout, ObjectKind, Placement
 from garage2usd.layout.specs import Spec
 from garage2usd.stage.prototypes import asset_of
 
-__all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table"]
+__all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table", "points_of"]
 
 OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.FLOOR: "floor",
@@ -64,7 +64,7 @@ CITYSCAPES: dict[str, str] = {
 """Name of the nearest Cityscapes class of each class."""
 
 
-def label_table(layout: Layout, paths: Mapping[int, str]) -> dict[str, list[dict[str, Any]]]:
+def label_table(layout: Layout, paths: Sequence[str]) -> dict[str, list[dict[str, Any]]]:
     """Classes and objects as plain values for JSON.
 
     Parameters
@@ -106,14 +106,14 @@ def _bounds_m(placement: Placement) -> tuple[NDArray[np.float64], NDArray[np.flo
 @lru_cache(maxsize=65536)
 def _turned_bounds_m(spec: Spec, yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Bounds of an asset's points, turned about +Y."""
-    points = _points(spec)
+    points = points_of(spec)
     cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
     turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
     return turned.min(axis=0), turned.max(axis=0)
 
 
 @lru_cache(maxsize=4096)
-def _points(spec: Spec) -> NDArray[np.float64]:
+def points_of(spec: Spec) -> NDArray[np.float64]:
     """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3)."""
     asset = asset_of(spec)
     points = [part.points.astype(np.float64) for part in asset.parts]

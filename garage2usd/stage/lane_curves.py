@@ -1,63 +1,95 @@
-"""The lane graph as guide curves, so that a program can drive on the stage alone."""
+"""The lane graph and the stalls as guide curves, so that a program can drive on the stage alone."""
 
 import math
+from collections.abc import Sequence
 
-from pxr import Gf, Kind, Sdf, UsdGeom, Vt
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Kind, Sdf, UsdGeom, Vt
 
-from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph, Square
+from garage2usd.layout import Layout, Stall
 from garage2usd.stage.authoring import attribute, define
+from garage2usd.stalls import Edge
 
-__all__ = ["author_lane_graph", "square_name"]
+__all__ = ["author_lane_graph"]
 
 _LIFT_M = 0.05
 _NODE_RADIUS_M = 0.4
 _NODE_CORNERS = 8
 _LINE_WIDTH_M = 0.1
+_TYPES = Sdf.ValueTypeNames
+_EDGE_NAMES = {edge: edge.name.lower() for edge in Edge}
 
 
-def square_name(square: Square) -> str:
-    """Part of a prim name that tells the square: ``r03_c07``."""
-    return f"r{square[0]:02d}_c{square[1]:02d}"
-
-
-def author_lane_graph(
-    layer: Sdf.Layer, path: Sdf.Path, structure: Structure, graph: LaneGraph, *, setback_m: float
-) -> None:
-    """Author a node curve for each lane square and portal, and an edge curve between those that join.
+def author_lane_graph(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, setback_m: float) -> None:
+    """Author the curves ``Nodes``, ``Edges`` and ``Stalls``, all of the purpose guide.
 
     Notes
     -----
-    A node is a ring with ``garage:lane:kind``, ``:square`` and ``:widths`` (metres across X and Z); an edge leads from
-    middle to middle with ``garage:lane:from`` and ``:to`` (squares), ``:length``, ``:width`` (metres of carriageway)
-    and ``:direction`` (``both``, or ``forward`` from an entrance and into an exit). All are of the purpose guide.
+    Each attribute holds one value a curve. ``Nodes`` has a ring for each lane square and portal, with
+    ``garage:lane:kind``, ``:square`` (row, col) and ``:widths`` (metres of carriageway across X and Z). ``Edges`` has a
+    line from middle to middle for each pair that joins, with ``garage:lane:from`` and ``:to`` (squares), ``:length``,
+    ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an entrance and into an exit). ``Stalls`` has
+    the outline of each stall, mouth left, mouth right, rear right, rear left, with ``garage:stall:id``, ``:type``,
+    ``:use``, ``:square``, ``:accessSquare`` and ``:entryEdge``.
     """
     group = define(layer, path, "Xform", kind=Kind.Tokens.group)
-    attribute(group, "purpose", Sdf.ValueTypeNames.Token, UsdGeom.Tokens.guide, uniform=True)
-    nodes, edges = path.AppendChild("Nodes"), path.AppendChild("Edges")
-    define(layer, nodes, "Scope")
-    define(layer, edges, "Scope")
-    graph_nodes = graph.graph.nodes
-    for square in sorted(graph_nodes):
-        prim = _curve(
-            layer, nodes.AppendChild(f"Node_{square_name(square)}"), _ring(*_middle(graph, square)), closed=True
-        )
-        attribute(prim, "garage:lane:kind", Sdf.ValueTypeNames.Token, graph.kind(square).value)
-        attribute(prim, "garage:lane:square", Sdf.ValueTypeNames.Int2, Gf.Vec2i(*square))
-        widths = Gf.Vec2f(*(side - setback_m * 2 for side in _sides_m(structure, square)))
-        attribute(prim, "garage:lane:widths", Sdf.ValueTypeNames.Float2, widths)
-    for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
-        start, end, direction = _directed(graph, *pair)
-        name = f"Edge_{square_name(start)}_{square_name(end)}"
-        prim = _curve(layer, edges.AppendChild(name), [_middle(graph, start), _middle(graph, end)], closed=False)
-        attribute(prim, "garage:lane:from", Sdf.ValueTypeNames.Int2, Gf.Vec2i(*start))
-        attribute(prim, "garage:lane:to", Sdf.ValueTypeNames.Int2, Gf.Vec2i(*end))
-        attribute(prim, "garage:lane:direction", Sdf.ValueTypeNames.Token, direction)
-        length = graph.graph.edges[start, end]["length_m"]
-        attribute(prim, "garage:lane:length", Sdf.ValueTypeNames.Float, length)
-        across = 1 if start[1] == end[1] else 0
-        width = min(_sides_m(structure, square)[1 - across] for square in (start, end)) - 2 * setback_m
-        attribute(prim, "garage:lane:width", Sdf.ValueTypeNames.Float, width)
+    attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
+    _author_nodes(layer, path.AppendChild("Nodes"), layout, graph, setback_m)
+    _author_edges(layer, path.AppendChild("Edges"), layout, graph, setback_m)
+    _author_stalls(layer, path.AppendChild("Stalls"), layout.stalls)
+
+
+def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, setback_m: float) -> None:
+    squares = sorted(graph.graph.nodes)
+    angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
+    ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    prim = _author_curves(layer, path, _middles(graph, squares)[:, None] + ring, closed=True)
+    kinds = [graph.kind(square).value for square in squares]
+    attribute(prim, "garage:lane:kind", _TYPES.TokenArray, Vt.TokenArray(kinds))
+    attribute(prim, "garage:lane:square", _TYPES.Int2Array, _squares(squares))
+    widths = (_sides_m(layout, squares) - 2 * setback_m).astype(np.float32)
+    attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths))
+
+
+def _author_edges(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, setback_m: float) -> None:
+    edges = [_directed(graph, *pair) for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges)]
+    starts, ends = [edge[0] for edge in edges], [edge[1] for edge in edges]
+    ways = np.stack([_middles(graph, starts), _middles(graph, ends)], axis=1)
+    prim = _author_curves(layer, path, ways, closed=False)
+    attribute(prim, "garage:lane:from", _TYPES.Int2Array, _squares(starts))
+    attribute(prim, "garage:lane:to", _TYPES.Int2Array, _squares(ends))
+    attribute(prim, "garage:lane:direction", _TYPES.TokenArray, Vt.TokenArray([edge[2] for edge in edges]))
+    lengths = np.linalg.norm(ways[:, 1] - ways[:, 0], axis=1).astype(np.float32)
+    attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
+    across = np.array([int(start[1] == end[1]) for start, end in zip(starts, ends, strict=True)])
+    sides = np.minimum(_sides_m(layout, starts), _sides_m(layout, ends))
+    widths = (sides[np.arange(len(edges)), 1 - across] - 2 * setback_m).astype(np.float32)
+    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(widths))
+
+
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: Sequence[Stall]) -> None:
+    prim = _author_curves(layer, path, _outlines(stalls), closed=True)
+    attribute(prim, "garage:stall:id", _TYPES.StringArray, Vt.StringArray([stall.name for stall in stalls]))
+    words = {
+        "type": [str(stall.stall_type) for stall in stalls],
+        "use": [str(stall.use) for stall in stalls],
+        "entryEdge": [_EDGE_NAMES[stall.edge] for stall in stalls],
+    }
+    for name, values in words.items():
+        attribute(prim, f"garage:stall:{name}", _TYPES.TokenArray, Vt.TokenArray(values))
+    attribute(prim, "garage:stall:square", _TYPES.Int2Array, _squares([stall.square for stall in stalls]))
+    attribute(prim, "garage:stall:accessSquare", _TYPES.Int2Array, _squares([stall.access_square for stall in stalls]))
+
+
+def _outlines(stalls: Sequence[Stall]) -> NDArray[np.float64]:
+    """Corners (x, z) of stalls as `Stall.corners_m` has them; float64, shape (stalls, 4, 2)."""
+    measures = np.array([(*s.centre_m, s.yaw_rad, s.width_m / 2, s.length_m / 2) for s in stalls]).T
+    x, z, yaw, half_width, half_length = measures[:, :, None]
+    across, along = np.array([-1, 1, 1, -1]) * half_width, np.array([1, 1, -1, -1]) * half_length
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
 
 def _directed(graph: LaneGraph, one: Square, other: Square) -> tuple[Square, Square, str]:
@@ -68,32 +100,39 @@ def _directed(graph: LaneGraph, one: Square, other: Square) -> tuple[Square, Squ
     return one, other, "forward" if "entrance" in kinds or "exit" in kinds else "both"
 
 
-def _middle(graph: LaneGraph, square: Square) -> tuple[float, float]:
-    node = graph.graph.nodes[square]
-    return node["x_m"], node["z_m"]
+def _middles(graph: LaneGraph, squares: Sequence[Square]) -> NDArray[np.float64]:
+    nodes = graph.graph.nodes
+    return np.array([(nodes[square]["x_m"], nodes[square]["z_m"]) for square in squares])
 
 
-def _sides_m(structure: Structure, square: Square) -> tuple[float, float]:
-    """Extent of a square along X and Z."""
-    return float(structure.column_widths_mm[square[1]]) / 1000, float(structure.row_depths_mm[square[0]]) / 1000
+def _sides_m(layout: Layout, squares: Sequence[Square]) -> NDArray[np.float64]:
+    """Extent of squares along X and Z; float64, shape (n, 2)."""
+    rows, cols = np.array(squares).T
+    structure = layout.structure
+    sides: NDArray[np.float64] = (
+        np.stack([structure.column_widths_mm[cols], structure.row_depths_mm[rows]], axis=1) / 1000
+    )
+    return sides
 
 
-def _ring(x: float, z: float) -> list[tuple[float, float]]:
-    angles = [index * math.tau / _NODE_CORNERS for index in range(_NODE_CORNERS)]
-    return [(x + _NODE_RADIUS_M * math.cos(angle), z + _NODE_RADIUS_M * math.sin(angle)) for angle in angles]
+def _squares(squares: Sequence[Square]) -> Vt.Vec2iArray:
+    return Vt.Vec2iArray.FromNumpy(np.array(squares, dtype=np.int32))
 
 
-def _curve(layer: Sdf.Layer, path: Sdf.Path, points: list[tuple[float, float]], *, closed: bool) -> Sdf.PrimSpec:
+def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:
+    """Curves over the floor through (x, z) points, shape (curves, points, 2)."""
+    count, corners, _ = lines.shape
+    points = np.full((count * corners, 3), _LIFT_M, dtype=np.float32)
+    points[:, [0, 2]] = lines.reshape(-1, 2)
     prim = define(layer, path, "BasisCurves")
-    types = Sdf.ValueTypeNames
-    attribute(prim, "type", types.Token, UsdGeom.Tokens.linear, uniform=True)
+    attribute(prim, "type", _TYPES.Token, UsdGeom.Tokens.linear, uniform=True)
     wrap = UsdGeom.Tokens.periodic if closed else UsdGeom.Tokens.nonperiodic
-    attribute(prim, "wrap", types.Token, wrap, uniform=True)
-    attribute(prim, "curveVertexCounts", types.IntArray, Vt.IntArray([len(points)]))
-    corners = [Gf.Vec3f(x, _LIFT_M, z) for x, z in points]
-    attribute(prim, "points", types.Point3fArray, Vt.Vec3fArray(corners))
-    width = attribute(prim, "widths", types.FloatArray, Vt.FloatArray([_LINE_WIDTH_M]))
+    attribute(prim, "wrap", _TYPES.Token, wrap, uniform=True)
+    counts = np.full(count, corners, dtype=np.int32)
+    attribute(prim, "curveVertexCounts", _TYPES.IntArray, Vt.IntArray.FromNumpy(counts))
+    attribute(prim, "points", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
+    width = attribute(prim, "widths", _TYPES.FloatArray, Vt.FloatArray([_LINE_WIDTH_M]))
     width.SetInfo("interpolation", UsdGeom.Tokens.constant)
-    extent = UsdGeom.Curves.ComputeExtent(Vt.Vec3fArray(corners), Vt.FloatArray([_LINE_WIDTH_M]))
-    attribute(prim, "extent", types.Float3Array, extent)
+    extent = UsdGeom.Curves.ComputeExtent(Vt.Vec3fArray.FromNumpy(points), Vt.FloatArray([_LINE_WIDTH_M]))
+    attribute(prim, "extent", _TYPES.Float3Array, extent)
     return prim

@@ -1,16 +1,18 @@
 """Which asset stands for which spec: one prototype for each distinct shape of a layout."""
 
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import replace
 from functools import lru_cache, singledispatch
 from typing import NamedTuple
 
+import numpy as np
+
 from garage2usd import assets
 from garage2usd.assets import Asset
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
-from garage2usd.layout import Placement
+from garage2usd.layout import Layout
 from garage2usd.layout import specs as s
+from garage2usd.layout.table import KINDS
 
 __all__ = ["Prototype", "asset_of", "name_prototypes"]
 
@@ -33,7 +35,7 @@ class Prototype(NamedTuple):
     look: tuple[tuple[str, str], ...] = ()
 
 
-def name_prototypes(placements: Iterable[Placement]) -> dict[s.Spec, Prototype]:
+def name_prototypes(layout: Layout) -> dict[s.Spec, Prototype]:
     """Name the distinct shapes of a layout, numbered by kind in the order of their first place.
 
     Returns
@@ -41,16 +43,18 @@ def name_prototypes(placements: Iterable[Placement]) -> dict[s.Spec, Prototype]:
     dict
         Spec to prototype, whose asset's name is PascalCase: ``Floor_03``, ``Column_01``, ``Car_02``.
     """
+    objects = layout.placements
+    _, first = np.unique(objects.spec, return_index=True)
     names: dict[s.Spec, str] = {}
     prototypes: dict[s.Spec, Prototype] = {}
     counts: Counter[str] = Counter()
-    for placement in placements:
-        shape, look = _shape_and_look(placement.spec)
+    for spec, row in zip(objects.specs, first.tolist(), strict=True):
+        shape, look = _shape_and_look(spec)
         if shape not in names:
-            kind = "".join(word.capitalize() for word in placement.kind.value.split("_"))
+            kind = "".join(word.capitalize() for word in KINDS[objects.kind[row]].value.split("_"))
             counts[kind] += 1
             names[shape] = f"{kind}_{counts[kind]:02d}"
-        prototypes[placement.spec] = Prototype(names[shape], look)
+        prototypes[spec] = Prototype(names[shape], look)
     return prototypes
 
 

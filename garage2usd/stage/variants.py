@@ -1,52 +1,91 @@
 """Variant sets of a garage: parked cars, lights, and what hangs overhead."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
-from pxr import Sdf
+from garage2usd.layout import ObjectKind
 
-from garage2usd.layout import Layout, ObjectKind
-from garage2usd.stage.authoring import attribute, over
-
-__all__ = ["POWER_SET", "author_variants"]
+__all__ = ["POWER_SET", "SWITCHES", "Switch", "VariantTexts", "variant_texts"]
 
 POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
 
-_OVERHEAD = (ObjectKind.CEILING, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN)
+
+class Switch(NamedTuple):
+    """What a variant set of the garage does to objects.
+
+    Attributes
+    ----------
+    variant_set
+        Its name.
+    usual, other
+        Its choices; the first is selected.
+    metadata, attribute
+        What the second choice says of each object, as USDA text.
+    class_name
+        Name of the class of all objects that follow it.
+    """
+
+    variant_set: str
+    usual: str
+    other: str
+    metadata: str
+    attribute: str
+    class_name: str
 
 
-def author_variants(root: Sdf.PrimSpec, layout: Layout, paths: Mapping[int, str]) -> None:
-    """Author the sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
+_CARS = Switch("occupancy", "parked", "empty", "active = false\n", "", "Car")
+_LIGHTS = Switch("lights", "on", "off", f'variants = {{\nstring {POWER_SET} = "off"\n}}\n', "", "Light")
+_OVERHEAD = Switch("ceiling", "shown", "hidden", "", 'token visibility = "invisible"\n', "Overhead")
+
+SWITCHES: Mapping[ObjectKind, Switch] = {
+    ObjectKind.CAR: _CARS,
+    ObjectKind.LIGHT: _LIGHTS,
+    **dict.fromkeys(
+        (ObjectKind.CEILING, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN),
+        _OVERHEAD,
+    ),
+}
+"""Which variant set each kind of object follows; the others follow none."""
+
+
+class VariantTexts(NamedTuple):
+    """USDA text of the variant sets of one prim: what stands in its metadata and in its body."""
+
+    metadata: str
+    body: str
+
+
+def variant_texts(
+    followers: Mapping[Switch, Iterable[str]], groups: Iterable[str] = (), within: str = ""
+) -> VariantTexts:
+    """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
     Parameters
     ----------
-    root
-        The garage's prim.
-    layout
-        Its objects.
-    paths
-        Prim path of each placement by its index in ``layout.placements``.
+    followers
+        Names of the prims that follow each.
+    groups
+        Names of prims that have the same variant sets themselves, to which the choice is handed on.
+    within
+        Name of the child that holds all these prims; empty where the prim itself does.
     """
-    by_kind: dict[ObjectKind, list[Sdf.Path]] = {}
-    for index, placement in enumerate(layout.placements):
-        by_kind.setdefault(placement.kind, []).append(Sdf.Path(paths[index]).MakeRelativePath(root.path))
+    switches = dict.fromkeys(SWITCHES.values())
+    groups = list(groups)
+    bodies = []
+    for switch in switches:
+        overs = [_over(name, switch.metadata, switch.attribute) for name in followers.get(switch, ())]
+        handed_on = f'variants = {{\nstring {switch.variant_set} = "{switch.other}"\n}}\n'
+        overs += [_over(name, handed_on, "") for name in groups]
+        inner = "".join(overs)
+        if within and inner:
+            inner = _over(within, "", inner)
+        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{inner}}}\n'
+        bodies.append(f'variantSet "{switch.variant_set}" = {{\n{choices}}}\n')
+    selections = "".join(f'string {switch.variant_set} = "{switch.usual}"\n' for switch in switches)
+    names = ", ".join(f'"{switch.variant_set}"' for switch in switches)
+    return VariantTexts(f"variants = {{\n{selections}}}\nprepend variantSets = [{names}]\n", "".join(bodies))
 
-    empty = _choices(root, "occupancy", "parked", "empty")
-    for path in by_kind.get(ObjectKind.CAR, []):
-        over(empty, path).active = False
-    off = _choices(root, "lights", "on", "off")
-    for path in by_kind.get(ObjectKind.LIGHT, []):
-        over(off, path).variantSelections[POWER_SET] = "off"
-    hidden = _choices(root, "ceiling", "shown", "hidden")
-    for kind in _OVERHEAD:
-        for path in by_kind.get(kind, []):
-            attribute(over(hidden, path), "visibility", Sdf.ValueTypeNames.Token, "invisible")
 
-
-def _choices(root: Sdf.PrimSpec, name: str, usual: str, other: str) -> Sdf.PrimSpec:
-    """A variant set with two choices, the first selected; returns the prim spec of the second."""
-    variants = Sdf.VariantSetSpec(root, name)
-    root.variantSetNameList.prependedItems.append(name)
-    root.variantSelections[name] = usual
-    Sdf.VariantSpec(variants, usual)
-    return Sdf.VariantSpec(variants, other).primSpec
+def _over(name: str, metadata: str, body: str) -> str:
+    return f'over "{name}" (\n{metadata})\n{{\n{body}}}\n'

@@ -50,10 +50,10 @@ def draw_plan(layout: Layout) -> Image.Image:
         return _MARGIN_PX + x * scale, _MARGIN_PX + z * scale
 
     _draw_squares(draw, structure, layout, pixel)
-    occupied = {place.name.replace("Car", "Stall") for place in layout.of_kind(ObjectKind.CAR)}
+    occupied = {(place.square, place.name) for place in layout.of_kind(ObjectKind.CAR)}
     for stall in layout.stalls:
         corners = [pixel(x, z) for x, z in stall.corners_m()]
-        colour = _OCCUPIED_COLOUR if stall.name in occupied else _STALL_COLOUR
+        colour = _OCCUPIED_COLOUR if (stall.square, stall.named("Car")) in occupied else _STALL_COLOUR
         draw.polygon(corners, fill=colour)
         draw.line([corners[0], corners[3], corners[2], corners[1]], fill=_PAPER, width=max(1, round(scale * 0.12)))
     _draw_columns(draw, layout.of_kind(ObjectKind.COLUMN), pixel)

@@ -15,6 +15,7 @@ from sample_files import REPOSITORY, each_format, each_sample
 from stage_textures import texture_names
 
 from garage2usd.layout import ObjectKind
+from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
     pytest.mark.client,
@@ -62,6 +63,20 @@ def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
         width, height = image["size"]
         assert image["read"]
         assert image["values"] == width * height * 4 > 0
+
+
+def test_blender_draws_every_mesh_of_tiles_that_share_prototypes(builds, imported):
+    build = builds(REPOSITORY / "samples" / "irregular.toml", "usdc", "nested")
+    expected, found = {}, {}
+    for placement in build.garage.layout.placements:
+        for part in asset_of(placement.spec).parts:
+            expected.setdefault(part.name, []).append(placement.position_m)
+    for item in imported(build.stage)["drawn"]:
+        if item["type"] == "MESH":
+            found.setdefault(item["name"], []).append(item["place"])
+    assert found.keys() == expected.keys()
+    for name, places in expected.items():
+        assert_same_places(found[name], places)
 
 
 # In greys of 255, measured: Cycles' own noise 0.7 to 1.5 from run to run, 2.2 to a picture of 64 samples, 10.1 to the

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from places import MILLIMETRE, assert_same_places
-from sample_files import each_sample
+from sample_files import REPOSITORY, SAMPLES
 
 from garage2usd.assets import Collider
 from garage2usd.layout.placement import to_world
@@ -96,9 +96,13 @@ def assert_same_sizes(shapes, expected):
             assert any(fits), shape
 
 
-@each_sample
-def test_newton_agrees_with_the_layout(sample, builds, tmp_path):
-    build = builds(sample, "usdc")
+@pytest.mark.parametrize(
+    ("sample", "form"),
+    [*((sample, None) for sample in SAMPLES), (REPOSITORY / "samples" / "irregular.toml", "nested")],
+    ids=[*(sample.stem for sample in SAMPLES), "irregular_nested"],
+)
+def test_newton_agrees_with_the_layout(sample, form, builds, tmp_path):
+    build = builds(sample, "usdc", form)
     scene = load_in_newton(build.stage, tmp_path)
     expected = list(colliders(build.garage.layout))
     assert expected

@@ -17,7 +17,7 @@ from stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
 from garage2usd.layout import ObjectKind
-from garage2usd.stage.garage_layer import prim_paths
+from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
@@ -66,7 +66,7 @@ def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     assert scene["revision"] == THREE_VERSION.split(".")[1]
 
     places = {item["path"]: item["place"] for item in scene["objects"]}
-    found = [places[path] for path in prim_paths(layout).values()]
+    found = [places[path] for path in arrange(layout, nested=False).paths()]
     assert np.allclose(found, [placement.position_m for placement in layout.placements], atol=MILLIMETRE)
     meshes = sum(item["mesh"] for item in scene["objects"])
     assert meshes == sum(len(asset_of(placement.spec).parts) for placement in layout.placements)

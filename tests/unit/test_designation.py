@@ -55,18 +55,18 @@ def test_shares_of_zero_leave_every_stall_standard():
 
 def test_chargers_stand_in_their_stall_behind_the_cars():
     layout = laid_out(parking={"ev_share": 1, "occupancy": 1})
-    panels = {place.name: footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
     cars = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.CAR)])
     posts = layout.of_kind(ObjectKind.CHARGER)
     assert len(posts) == len(of_use(layout, StallUse.EV)) > 0
     for post in posts:
-        assert footprint(post).within(panels[post.name.replace("Charger", "Stall")])
+        assert footprint(post).within(panels[post.square, post.name.replace("Charger", "Stall")])
         assert footprint(post).intersection(cars).area < 1e-6
 
 
 def test_numbers_are_painted_at_the_mouth_of_their_stall_from_ten_digits():
     layout = laid_out()
-    panels = {place.name: place for place in layout.of_kind(ObjectKind.STALL)}
+    panels = {(place.square, place.name): place for place in layout.of_kind(ObjectKind.STALL)}
     digits = layout.of_kind(ObjectKind.STALL_NUMBER)
     assert len(digits) == 3 * sum(stall.use is not StallUse.TURNING for stall in layout.stalls)
     assert len({place.spec for place in digits}) <= 10
@@ -75,7 +75,7 @@ def test_numbers_are_painted_at_the_mouth_of_their_stall_from_ten_digits():
         for spec in {panel.spec for panel in panels.values()}
     }
     for place in digits:
-        panel = panels[place.name.replace("StallNumber", "Stall").rsplit("_", 1)[0]]
+        panel = panels[place.square, place.name.replace("StallNumber", "Stall").rsplit("_", 1)[0]]
         x, _, z = panel.position_m
         paint = shapely.transform(marked[panel.spec], _turned(panel.yaw_rad, x, z))
         assert footprint(place).within(footprint(panel))

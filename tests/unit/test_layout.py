@@ -7,6 +7,7 @@ from footprints import footprint
 from sample_files import each_sample
 
 from garage2usd.config import GarageConfig
+from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, StallUse, lay_out
@@ -114,14 +115,17 @@ def test_stalls_match_the_score_and_cars_stand_inside_their_lines(layout):
     assert len(layout.stalls) == square_capacity(layout.structure, GarageConfig().bay).sum()
     names = [stall.name for stall in layout.stalls]
     assert len(set(names)) == len(names)
-    panels = {place.name: footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
-    assert set(panels) == set(names)
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    assert set(panels) == {(stall.square, stall.named("Stall")) for stall in layout.stalls}
     for stall in layout.stalls:
-        assert shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.name]).area < 1e-6
+        assert (
+            shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.square, stall.named("Stall")]).area
+            < 1e-6
+        )
     cars = layout.of_kind(ObjectKind.CAR)
     assert len(cars) == len(names)
     for car in cars:
-        lines = panels[car.name.replace("Car", "Stall")]
+        lines = panels[car.square, car.name.replace("Car", "Stall")]
         assert lines.buffer(-0.06).contains(footprint(car)), car
 
 
@@ -223,6 +227,48 @@ def test_a_long_dead_end_keeps_a_turning_stall():
     assert len(free.of_kind(ObjectKind.CAR)) == len(free.of_kind(ObjectKind.WHEEL_STOP)) == len(free.stalls) - 1
     allowed = laid_out(text, GarageConfig(parking={"occupancy": 1.0}, plan={"dead_ends": "allow"}))
     assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind(ObjectKind.CAR))
-    hatched = {place.spec for place in free.of_kind(ObjectKind.STALL) if place.name == turning[0].name}
-    plain = {place.spec for place in free.of_kind(ObjectKind.STALL) if place.name != turning[0].name}
+
+    def is_turning(place):
+        return (place.square, place.name) == (turning[0].square, turning[0].named("Stall"))
+
+    hatched = {place.spec for place in free.of_kind(ObjectKind.STALL) if is_turning(place)}
+    plain = {place.spec for place in free.of_kind(ObjectKind.STALL) if not is_turning(place)}
     assert hatched.isdisjoint(plain)
+
+
+def stall_under(layout, car):
+    return next(s for s in layout.stalls if (s.square, s.named("Car")) == (car.square, car.name)).name
+
+
+def test_occupancy_is_told_stall_by_stall():
+    text = "....\n====\nE..X"
+    names = [stall.name for stall in laid_out(text, GarageConfig()).stalls]
+    wanted = names[1:6:2]
+    only = laid_out(text, GarageConfig(parking={"occupied_stalls": wanted}))
+    assert [stall_under(only, car) for car in only.of_kind(ObjectKind.CAR)] == wanted
+    most = laid_out(text, GarageConfig(parking={"occupancy": 1.0, "empty_stalls": wanted}))
+    assert [stall_under(most, car) for car in most.of_kind(ObjectKind.CAR)] == [n for n in names if n not in wanted]
+
+
+@pytest.mark.parametrize(
+    ("parking", "message"),
+    [
+        ({"occupied_stalls": ["Stall_r99_c00_1"]}, r"parking.occupied_stalls.*'Stall_r99_c00_1'.*Stall_r00_c00_1"),
+        ({"empty_stalls": ["no such"]}, r"parking.empty_stalls.*'no such'"),
+    ],
+)
+def test_unknown_stalls_are_named(parking, message):
+    with pytest.raises(ConfigError, match=message):
+        laid_out("....\n====\nE..X", GarageConfig(parking=parking))
+
+
+def test_a_stall_is_not_both_occupied_and_empty():
+    with pytest.raises(ConfigError, match="Stall_r00_c00_1"):
+        GarageConfig(parking={"occupied_stalls": ["Stall_r00_c00_1"], "empty_stalls": ["Stall_r00_c00_1"]})
+
+
+def test_a_turning_stall_takes_no_car():
+    text = ".......\n=======\n=.X....\nE......"
+    turning = next(s.name for s in laid_out(text, GarageConfig()).stalls if s.use is StallUse.TURNING)
+    with pytest.raises(ConfigError, match=turning):
+        laid_out(text, GarageConfig(parking={"occupied_stalls": [turning]}))

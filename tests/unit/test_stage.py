@@ -36,23 +36,35 @@ def everything(stage):
     return list(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
 
 
+def curves(stage, name):
+    """The guide curves of one part of the lane graph as (x, z) points, and what they say of each."""
+    prim = stage.GetPrimAtPath(f"/Garage/LaneGraph/{name}")
+    lines = UsdGeom.BasisCurves(prim)
+    assert UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide
+    ends = np.cumsum(lines.GetCurveVertexCountsAttr().Get())
+    points = np.split(np.array(lines.GetPointsAttr().Get())[:, [0, 2]], ends[:-1])
+    attributes = {
+        attribute.GetName().rpartition(":")[2]: list(attribute.Get())
+        for attribute in prim.GetAttributes()
+        if attribute.GetName().startswith("garage:")
+    }
+    assert {len(values) for values in attributes.values()} == {len(points)}
+    return points, [dict(zip(attributes, values, strict=True)) for values in zip(*attributes.values(), strict=True)]
+
+
 def test_a_program_can_drive_on_the_stage_alone(stage, made):
     roads = nx.Graph()
-    for prim in stage.GetPrimAtPath("/Garage/LaneGraph/Nodes").GetChildren():
-        square = tuple(prim.GetAttribute("garage:lane:square").Get())
-        middle = np.mean(UsdGeom.BasisCurves(prim).GetPointsAttr().Get(), axis=0)
-        roads.add_node(square, kind=prim.GetAttribute("garage:lane:kind").Get(), middle=middle[[0, 2]])
-    for prim in stage.GetPrimAtPath("/Garage/LaneGraph/Edges").GetChildren():
-        start, end = (tuple(prim.GetAttribute(f"garage:lane:{name}").Get()) for name in ("from", "to"))
-        points = np.array(UsdGeom.BasisCurves(prim).GetPointsAttr().Get())[:, [0, 2]]
+    for ring, node in zip(*curves(stage, "Nodes"), strict=True):
+        assert 5.0 < min(node["widths"]) <= max(node["widths"]) < 8.1
+        roads.add_node(tuple(node["square"]), kind=node["kind"], middle=ring.mean(axis=0))
+    for points, edge in zip(*curves(stage, "Edges"), strict=True):
+        start, end = tuple(edge["from"]), tuple(edge["to"])
         assert points == pytest.approx(np.array([roads.nodes[start]["middle"], roads.nodes[end]["middle"]]), abs=1e-4)
-        length = prim.GetAttribute("garage:lane:length").Get()
-        assert length == pytest.approx(np.linalg.norm(points[1] - points[0]), abs=1e-4)
-        assert 5.0 < prim.GetAttribute("garage:lane:width").Get() < 8.1
-        assert UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide
+        assert edge["length"] == pytest.approx(np.linalg.norm(points[1] - points[0]), abs=1e-4)
+        assert 5.0 < edge["width"] < 8.1
         kinds = {roads.nodes[start]["kind"], roads.nodes[end]["kind"]}
         portals = kinds & {"entrance", "exit"}
-        assert prim.GetAttribute("garage:lane:direction").Get() == ("forward" if portals else "both")
+        assert edge["direction"] == ("forward" if portals else "both")
         assert roads.nodes[end]["kind"] != "entrance"
         assert roads.nodes[start]["kind"] != "exit"
         roads.add_edge(start, end)
@@ -63,31 +75,83 @@ def test_a_program_can_drive_on_the_stage_alone(stage, made):
 
 def test_stalls_describe_themselves(stage, made):
     stalls = {stall.name: stall for stall in made.garage.layout.stalls}
+    outlines = {said["id"]: (outline, said) for outline, said in zip(*curves(stage, "Stalls"), strict=True)}
+    assert outlines.keys() == stalls.keys()
+    lanes = {tuple(node["square"]): ring.mean(axis=0) for ring, node in zip(*curves(stage, "Nodes"), strict=True)}
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
-    found = 0
+    found = []
     for prim in stage.Traverse():
         identity = prim.GetAttribute("garage:stall:id")
-        if not identity:
+        if not identity or prim.IsA(UsdGeom.BasisCurves):
             continue
         stall = stalls[identity.Get()]
-        found += 1
-        assert prim.GetName() == stall.name
-        assert prim.GetAttribute("garage:stall:type").Get() == stall.stall_type
-        assert prim.GetAttribute("garage:stall:use").Get() == stall.use
-        assert tuple(prim.GetAttribute("garage:stall:accessSquare").Get()) == stall.access_square
+        found.append(stall.name)
+        assert (prim.GetAttribute("garage:stall:type").Get(), prim.GetAttribute("garage:stall:use").Get()) == (
+            stall.stall_type,
+            stall.use,
+        )
+        assert tuple(prim.GetAttribute("garage:stall:square").Get()) == stall.square
+        access = tuple(prim.GetAttribute("garage:stall:accessSquare").Get())
+        assert access == stall.access_square
         corners = np.array(prim.GetAttribute("garage:stall:corners").Get())
         box = cache.ComputeWorldBound(prim).ComputeAlignedRange()
         low, high = np.array(box.GetMin())[[0, 2]], np.array(box.GetMax())[[0, 2]]
         assert corners.min(axis=0) == pytest.approx(low, abs=1e-4)
         assert corners.max(axis=0) == pytest.approx(high, abs=1e-4)
         # the mouth, the first two corners, lies on the edge to the lane that it names
-        lane = stage.GetPrimAtPath(
-            "/Garage/LaneGraph/Nodes/Node_r{:02d}_c{:02d}".format(*prim.GetAttribute("garage:stall:accessSquare").Get())
-        )
-        middle = np.mean(UsdGeom.BasisCurves(lane).GetPointsAttr().Get(), axis=0)[[0, 2]]
         mouth, rear = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
-        assert np.linalg.norm(mouth - middle) < np.linalg.norm(rear - middle)
-    assert found == len(stalls)
+        assert np.linalg.norm(mouth - lanes[access]) < np.linalg.norm(rear - lanes[access])
+        # the curve of the stall says the same
+        outline, said = outlines[stall.name]
+        assert outline == pytest.approx(corners, abs=1e-5)
+        for name, value in said.items():
+            assert prim.GetAttribute(f"garage:stall:{name}").Get() == value
+    assert sorted(found) == sorted(stalls)
+
+
+def world_box(stage, path, cache):
+    """World bounds of a prim, or of a point of an instancer: ``/Garage/StallNumbers[7]``."""
+    prim, _, point = path.rstrip("]").partition("[")
+    if not point:
+        return cache.ComputeWorldBound(stage.GetPrimAtPath(prim)).ComputeAlignedRange()
+    instancer = UsdGeom.PointInstancer(stage.GetPrimAtPath(prim))
+    return cache.ComputePointInstanceWorldBound(instancer, int(point)).ComputeAlignedRange()
+
+
+@pytest.fixture(scope="module")
+def nested(tmp_path_factory):
+    config = GarageConfig(**{**CONFIG.model_dump(), "stage": {"form": "nested", "arrangements": 5}})
+    return build(config, tmp_path_factory.mktemp("nested") / "garage.usdc")
+
+
+def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
+    stage = Usd.Stage.Open(str(nested.stage))
+    layout = nested.garage.layout
+    tiles = [prim for prim in stage.Traverse() if prim.GetName().startswith("Tile_")]
+    assert len(tiles) == (layout.structure.cells != Cell.OBSTACLE).sum()
+    assert all(tile.IsInstance() for tile in tiles)
+    assert len({tile.GetPrototype() for tile in tiles}) < len(tiles)
+    table = json.loads(nested.labels.read_text())["objects"]
+    assert len(table) == len(layout.placements)
+    assert len({entry["path"] for entry in table}) == len(table)
+    cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
+    for entry, placement in zip(table, layout.placements, strict=True):
+        prim = stage.GetPrimAtPath(entry["path"].partition("[")[0])
+        assert list(prim.GetAttribute("semantics:labels:class").Get()) == [entry["class"]]
+        box = world_box(stage, entry["path"], cache)
+        if placement.kind is ObjectKind.CAR:
+            assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
+            assert (np.array(entry["max_m"]) <= np.array(box.GetMax()) + 1e-3).all()
+        else:
+            assert entry["min_m"] == pytest.approx(list(box.GetMin()), abs=1e-3)
+            assert entry["max_m"] == pytest.approx(list(box.GetMax()), abs=1e-3)
+        if "[" not in entry["path"]:
+            place = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(Usd.TimeCode.Default())
+            assert list(place.ExtractTranslation()) == pytest.approx(placement.position_m, abs=1e-4)
+    # and nothing beside them
+    instances = [prim for prim in everything(stage) if prim.IsInstance() and not prim.GetName().startswith("Tile_")]
+    scattered = sum("[" in entry["path"] for entry in table)
+    assert len(instances) == len(table) - scattered
 
 
 def test_the_label_table_agrees_with_the_stage(stage, made):
@@ -103,8 +167,7 @@ def test_the_label_table_agrees_with_the_stage(stage, made):
     }
     assert {entry["path"]: [entry["class"]] for entry in table["objects"]} == labelled
     for entry in table["objects"]:
-        bound = cache.ComputeWorldBound(stage.GetPrimAtPath(entry["path"]))
-        box = bound.ComputeAlignedRange()
+        box = world_box(stage, entry["path"], cache)
         if entry["class"] == "car":  # turned by a few degrees: the cache bounds a turned box, the table the points
             assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
             assert (np.array(entry["max_m"]) <= np.array(box.GetMax()) + 1e-3).all()
@@ -128,8 +191,10 @@ def test_every_paint_is_a_variant(stage, made):
     assert len(set().union(*colours.values())) == len(colours)
 
 
-def test_occupancy_lights_and_ceiling_are_variants(stage, made):
-    layout = made.garage.layout
+@pytest.mark.parametrize("form", ["made", "nested"])
+def test_occupancy_lights_and_ceiling_are_variants(form, request):
+    built = request.getfixturevalue(form)
+    stage, layout = Usd.Stage.Open(str(built.stage)), built.garage.layout
 
     def state():
         prims = everything(stage)

@@ -1,0 +1,98 @@
+"""The instances of a layout as USDA text, each under its tile or its group."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.lanes import Square
+from garage2usd.layout import Layout, ObjectKind, Stall
+from garage2usd.layout.specs import Spec
+from garage2usd.layout.table import KINDS
+from garage2usd.stage.arrangement import Arrangement
+from garage2usd.stage.prim_text import header_text, instance_text, place_text, rounded_deg, rounded_m
+from garage2usd.stage.prototypes import Prototype
+from garage2usd.stage.variants import SWITCHES, Switch
+
+__all__ = ["InstanceWriter"]
+
+
+class InstanceWriter:
+    """Writes the instances of one layout.
+
+    Parameters
+    ----------
+    layout, arrangement
+        The objects, and which prim each one is.
+    prototypes
+        Asset and look of every spec in the layout.
+    asset_folder
+        Folder of the assets, relative to the layer that the text goes to.
+    classes
+        Path of the class that the objects of each switch inherit from; empty for none.
+    describe_stalls
+        Whether stalls carry what they are as attributes.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        arrangement: Arrangement,
+        prototypes: Mapping[Spec, Prototype],
+        asset_folder: str,
+        *,
+        classes: Mapping[Switch, str],
+        describe_stalls: bool,
+    ) -> None:
+        self._objects = layout.placements
+        self._arrangement = arrangement
+        self._prototypes = [prototypes[spec] for spec in self._objects.specs]
+        self._asset_folder = asset_folder
+        self._classes = classes
+        rows = self._objects.rows_of(ObjectKind.STALL).tolist() if describe_stalls else []
+        self._stalls = dict(zip(rows, layout.stalls, strict=bool(rows)))
+        self._headers: dict[tuple[int, int], str] = {}
+
+    def texts(self, rows: NDArray[np.intp], origin_m: tuple[float, float] = (0.0, 0.0)) -> Iterator[str]:
+        """The instances in some rows of the layout's objects, around an origin (x, z)."""
+        objects, names = self._objects, self._arrangement.names
+        columns = (
+            self._arrangement.name[rows],
+            objects.kind[rows],
+            objects.spec[rows],
+        )
+        positions = rounded_m(objects.position_m[rows] - (origin_m[0], 0.0, origin_m[1]))
+        yaws = rounded_deg(objects.yaw_rad[rows])
+        for row, name, kind, spec, (x, y, z), yaw in zip(
+            rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
+        ):
+            header = self._headers.get((kind, spec)) or self._header(kind, spec)
+            stall = self._stalls.get(row)
+            attributes = _stall_text(stall) if stall else ""
+            yield instance_text(names[name], header, place_text(x, y, z, yaw), attributes)
+
+    def _header(self, kind: int, spec: int) -> str:
+        prototype = self._prototypes[spec]
+        switch = SWITCHES.get(KINDS[kind])
+        base = self._classes.get(switch) if switch else None
+        header = header_text(f"{self._asset_folder}/{prototype.name}.usdc", look=prototype.look, base=base)
+        self._headers[kind, spec] = header
+        return header
+
+
+def _stall_text(stall: Stall) -> str:
+    """Id, type, use, square, lane, mouth and corners (x, z in the world) of a stall as attributes of its prim."""
+    corners = ", ".join(f"({x}, {z})" for x, z in stall.corners_m())
+    return (
+        f'custom string garage:stall:id = "{stall.name}"\n'
+        f'custom token garage:stall:type = "{stall.stall_type.value}"\n'
+        f'custom token garage:stall:use = "{stall.use.value}"\n'
+        f"custom int2 garage:stall:square = {_pair(stall.square)}\n"
+        f"custom int2 garage:stall:accessSquare = {_pair(stall.access_square)}\n"
+        f'custom token garage:stall:entryEdge = "{stall.edge.name.lower()}"\n'
+        f"custom float2[] garage:stall:corners = [{corners}]\n"
+    )
+
+
+def _pair(square: Square) -> str:
+    return f"({square[0]}, {square[1]})"

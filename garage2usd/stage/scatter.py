@@ -1,0 +1,80 @@
+"""Objects as the points of an instancer: many of them, of few shapes, that nothing can touch."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf, Sdf, Vt
+
+from garage2usd.layout import ObjectTable
+from garage2usd.layout.specs import Spec
+from garage2usd.layout.table import KINDS
+from garage2usd.stage.authoring import attribute, define
+from garage2usd.stage.labels import OBJECT_LABELS, points_of
+from garage2usd.stage.prototypes import Prototype
+
+__all__ = ["author_instancer"]
+
+_TYPES = Sdf.ValueTypeNames
+
+
+def author_instancer(
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    objects: ObjectTable,
+    rows: NDArray[np.intp],
+    prototypes: Mapping[Spec, Prototype],
+    asset_folder: str,
+) -> None:
+    """Author a point instancer with a point for each object in some rows, all of one kind.
+
+    Notes
+    -----
+    Point instancers lose colliders in physics engines, and browsers draw one copy only.
+    """
+    prim = define(layer, path, "PointInstancer", label=OBJECT_LABELS[KINDS[objects.kind[rows[0]]]])
+    shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
+    specs = [objects.specs[shape] for shape in shapes]
+    folder = path.AppendChild("Prototypes")
+    define(layer, folder, "Scope")
+    targets = []
+    for spec in specs:
+        name = prototypes[spec].name
+        child = define(layer, folder.AppendChild(name), "Xform")
+        reference = Sdf.Reference(f"./{asset_folder}/{name}.usdc")
+        child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
+        targets.append(child.path)
+    relationship = Sdf.RelationshipSpec(prim, "prototypes", custom=False)
+    relationship.targetPathList.explicitItems = targets
+
+    positions, yaws_rad = objects.position_m[rows], objects.yaw_rad[rows]
+    attribute(prim, "protoIndices", _TYPES.IntArray, Vt.IntArray.FromNumpy(indices.astype(np.int32)))
+    attribute(prim, "positions", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(positions.astype(np.float32)))
+    turns = {yaw: Gf.Quath(math.cos(yaw / 2), 0.0, math.sin(yaw / 2), 0.0) for yaw in set(yaws_rad.tolist())}
+    attribute(prim, "orientations", _TYPES.QuathArray, Vt.QuathArray([turns[yaw] for yaw in yaws_rad.tolist()]))
+    extent = _extent(specs, indices, positions, yaws_rad)
+    attribute(prim, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent.astype(np.float32)))
+
+
+def _extent(
+    specs: Sequence[Spec], indices: NDArray[np.intp], positions_m: NDArray[np.float64], yaws_rad: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Least and most corner over all points, each by the turned box of its shape; float64, shape (2, 3)."""
+    bounds = np.array([(points_of(spec).min(axis=0), points_of(spec).max(axis=0)) for spec in specs])
+    middles, halves = bounds.mean(axis=1)[indices], (bounds[:, 1] - bounds[:, 0])[indices] / 2
+    cos, sin = np.cos(yaws_rad), np.sin(yaws_rad)
+    centre = positions_m.copy()
+    centre[:, 0] += middles[:, 0] * cos + middles[:, 2] * sin
+    centre[:, 1] += middles[:, 1]
+    centre[:, 2] += middles[:, 2] * cos - middles[:, 0] * sin
+    reach = np.stack(
+        [
+            halves[:, 0] * abs(cos) + halves[:, 2] * abs(sin),
+            halves[:, 1],
+            halves[:, 2] * abs(cos) + halves[:, 0] * abs(sin),
+        ],
+        axis=1,
+    )
+    extent: NDArray[np.float64] = np.stack([(centre - reach).min(axis=0), (centre + reach).max(axis=0)])
+    return extent

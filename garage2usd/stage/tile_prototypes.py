@@ -1,0 +1,114 @@
+"""Prototypes of whole tiles: in a large garage equal tiles share one, in a layer beside the assets."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from pxr import Sdf
+
+from garage2usd.layout import Layout
+from garage2usd.layout.table import KINDS
+from garage2usd.stage.arrangement import Arrangement
+from garage2usd.stage.authoring import set_units
+from garage2usd.stage.instances import InstanceWriter
+from garage2usd.stage.prim_text import group_text, place_text
+from garage2usd.stage.variants import SWITCHES, Switch, variant_texts
+
+__all__ = ["TILES_FILE", "TilePrototypes", "share_tiles", "write_tile_prototypes"]
+
+TILES_FILE = "Tiles.usdc"
+"""Layer of the tile prototypes, beside the assets."""
+_SAME_PLACE_M = 1e-5
+_SAME_YAW_RAD = 1e-6
+
+
+@dataclass(frozen=True)
+class TilePrototypes:
+    """Which prototype each tile shares.
+
+    Attributes
+    ----------
+    name_of
+        Name of the prototype of each tile, in the arrangement's order.
+    texts
+        USDA text of each prototype by its name.
+    """
+
+    name_of: list[str]
+    texts: dict[str, str]
+
+
+def share_tiles(
+    layout: Layout, arrangement: Arrangement, labels: Sequence[str], writer: InstanceWriter
+) -> TilePrototypes:
+    """Find the tiles of the same class that hold the same objects at the same places.
+
+    Parameters
+    ----------
+    layout, arrangement
+        The objects, and which prim each object is.
+    labels
+        Semantic class of each tile.
+    writer
+        Of instances whose assets stand in the folder of the prototypes, without classes.
+    """
+    objects = layout.placements
+    borders = arrangement.borders
+    order = arrangement.order[borders[0] : borders[-1]]
+    origins = np.repeat(arrangement.origins_m, np.diff(borders), axis=0)
+    local = objects.position_m[order]
+    local[:, [0, 2]] -= origins
+    content = np.column_stack(
+        [
+            arrangement.name[order],
+            objects.kind[order],
+            objects.spec[order],
+            np.rint(local / _SAME_PLACE_M).astype(np.int64),
+            np.rint(objects.yaw_rad[order] / _SAME_YAW_RAD).astype(np.int64),
+        ]
+    )
+    names: dict[tuple[str, bytes], str] = {}
+    texts: dict[str, str] = {}
+    name_of: list[str] = []
+    spans = pairwise((borders - borders[0]).tolist())
+    for tile, (label, (start, end)) in enumerate(zip(labels, spans, strict=True)):
+        key = label, content[start:end].tobytes()
+        name = names.get(key)
+        if name is None:
+            name = names[key] = f"Tile_{len(names) + 1:04d}"
+            texts[name] = _prototype_text(name, tile, label, layout, arrangement, writer)
+        name_of.append(name)
+    return TilePrototypes(name_of, texts)
+
+
+def _prototype_text(
+    name: str, tile: int, label: str, layout: Layout, arrangement: Arrangement, writer: InstanceWriter
+) -> str:
+    rows = arrangement.on_tile(tile)
+    followers: dict[Switch, list[str]] = defaultdict(list)
+    for row in rows.tolist():
+        switch = SWITCHES.get(KINDS[layout.placements.kind[row]])
+        if switch is not None:
+            followers[switch].append(arrangement.names[arrangement.name[row]])
+    variants = variant_texts(followers)
+    x, z = arrangement.origins_m[tile].tolist()
+    return group_text(
+        name,
+        [variants.body, *writer.texts(rows, (x, z))],
+        label=label,
+        metadata=f"instanceable = true\n{variants.metadata}",
+        place=place_text(0, 0, 0),
+    )
+
+
+def write_tile_prototypes(shared: TilePrototypes, path: Path) -> None:
+    """Write the layer of the prototypes, each a root prim."""
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    layer.ImportFromString("#usda 1.0\n" + "".join(shared.texts.values()))
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = next(iter(shared.texts))
+    layer.Export(str(path))
