@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
-__all__ = ["FAR", "NO_VALUE", "Board", "clear", "dead_ends", "lay", "measure", "new_board", "value_now"]
+__all__ = ["FAR", "NO_VALUE", "Board", "clear", "dead_ends", "flip", "lay", "measure", "new_board", "value_now"]
 
 FAR = 1 << 28
 NO_VALUE = -1.0e9
@@ -124,6 +124,14 @@ def lay(ground: Ground, board: Board, square: int) -> None:
             elif cells[p] == 0 and near[p] > hops[q]:
                 tally[_TIME] -= ground.capacity[p, edges[p]] * (near[p] - hops[q])
                 near[p] = hops[q]
+
+
+@compiled
+def flip(cells: NDArray[np.int8], q: int, p: int) -> None:
+    """Exchange lane and free square on one square, or on two if they differ; keeps no tally."""
+    cells[q] = 1 - cells[q]
+    if p != q:
+        cells[p] = 1 - cells[p]
 
 
 @compiled

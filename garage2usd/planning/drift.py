@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
+from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -134,9 +134,7 @@ def drift(
                     if count > 0:
                         d_time += sign * count * (1 + near)
             if sign < 0:
-                for turn in range(1 if step == 0 else 2):
-                    x = q if turn == 0 else p
-                    cells[x] = 1 - cells[x]
+                flip(cells, q, p)
                 # the way to new lanes
                 possible = _reach(board, stride, q, p)
         accepted, whole = False, False
@@ -172,9 +170,7 @@ def drift(
                     else:
                         whole = True
         if not accepted:
-            for turn in range(1 if step == 0 else 2):
-                x = q if turn == 0 else p
-                cells[x] = 1 - cells[x]
+            flip(cells, q, p)
             if whole:  # the measurement took all distances with it
                 measure(ground, board)
             else:

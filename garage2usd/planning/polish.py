@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, measure
+from garage2usd.planning.board import NO_VALUE, Board, flip, measure
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -190,18 +190,14 @@ def climb(ground: Ground, board: Board, random: NDArray[np.uint64], passes: int)
                 p = q + step
                 if cells[p] != 0 and cells[p] != 1:
                     continue
-                if not (_beside_lane(ground, board, q) or (step != 0 and _beside_lane(ground, board, p))):
+                if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
                     continue
-                cells[q] = 1 - cells[q]
-                if step != 0:
-                    cells[p] = 1 - cells[p]
+                flip(cells, q, p)
                 tried = measure(ground, board)
                 if tried > value + 1e-9:
                     value, improved = tried, True
                 else:
-                    cells[q] = 1 - cells[q]
-                    if step != 0:
-                        cells[p] = 1 - cells[p]
+                    flip(cells, q, p)
         if not improved:
             break
     return value
@@ -225,11 +221,9 @@ def anneal(
         p = q + step
         if cells[p] != 0 and cells[p] != 1:
             continue
-        if not (_beside_lane(ground, board, q) or (step != 0 and _beside_lane(ground, board, p))):
+        if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
             continue
-        cells[q] = 1 - cells[q]
-        if step != 0:
-            cells[p] = 1 - cells[p]
+        flip(cells, q, p)
         tried = measure(ground, board)
         if tried > NO_VALUE and (tried >= value or uniform(random) < np.exp((tried - value) / heat)):
             value = tried
@@ -237,8 +231,6 @@ def anneal(
                 best = value
                 best_cells[:] = cells
         else:
-            cells[q] = 1 - cells[q]
-            if step != 0:
-                cells[p] = 1 - cells[p]
+            flip(cells, q, p)
     cells[:] = best_cells
     return measure(ground, board)
