@@ -9,7 +9,19 @@ from numpy.typing import NDArray
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
-__all__ = ["FAR", "NO_VALUE", "Board", "clear", "dead_ends", "flip", "lay", "measure", "new_board", "value_now"]
+__all__ = [
+    "FAR",
+    "NO_VALUE",
+    "Board",
+    "clear",
+    "dead_ends",
+    "flip",
+    "lay",
+    "mark_network",
+    "measure",
+    "new_board",
+    "value_now",
+]
 
 FAR = 1 << 28
 NO_VALUE = -1.0e9
@@ -220,7 +232,7 @@ def measure(ground: Ground, board: Board) -> float:
                 tail += 1
     if tail != lanes:
         return NO_VALUE
-    if starts > 1 and not _one_network(ground, board, lanes):
+    if starts > 1 and mark_network(ground, board, queue[0]) != lanes:
         return NO_VALUE
     stalls, time, unused = 0, 0, 0
     for q in ground.squares:
@@ -245,23 +257,20 @@ def measure(ground: Ground, board: Board) -> float:
 
 
 @compiled
-def _one_network(ground: Ground, board: Board, lanes: int) -> bool:
-    """Whether the lanes hang together; marks with `near`."""
-    cells, near, queue = board.cells, board.near, board.queue
-    first = np.int64(-1)
-    for q in ground.squares:
-        near[q] = 0
-        if cells[q] == 1:
-            first = q
-    queue[0], near[first] = first, 1
+def mark_network(ground: Ground, board: Board, first: int) -> int:
+    """Set `near` to 1 on all lanes and portals that hang together with a lane, to 0 elsewhere; how many lanes."""
+    cells, reached, queue = board.cells, board.near, board.queue
+    reached[:] = 0
+    queue[0], reached[first] = first, 1
     head, tail = 0, 1
     while head < tail:
         q = queue[head]
         head += 1
         for step in (-ground.stride, ground.stride, -1, 1):
             p = q + step
-            if cells[p] == 1 and near[p] == 0:
-                near[p] = 1
-                queue[tail] = p
-                tail += 1
-    return tail == lanes
+            if cells[p] >= 1 and reached[p] == 0:
+                reached[p] = 1
+                if cells[p] == 1:
+                    queue[tail] = p
+                    tail += 1
+    return tail

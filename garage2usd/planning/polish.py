@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, flip, measure
+from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -24,7 +24,7 @@ def connect(ground: Ground, board: Board) -> bool:
         return False
     cells[first] = 1
     while True:
-        _mark_network(ground, board, first)
+        mark_network(ground, board, first)
         if not _lay_way(ground, board):
             break
     for q in ground.squares:
@@ -47,25 +47,6 @@ def _lane_at(ground: Ground, board: Board, portal: int) -> int:
         if cells[q] == 0 and (free < 0 or _reaches_all(ground, board, q)):
             free = q
     return free
-
-
-@compiled
-def _mark_network(ground: Ground, board: Board, first: int) -> None:
-    """Set `near` to 1 on all lanes and portals that hang together with a lane, to 0 elsewhere."""
-    cells, reached, queue = board.cells, board.near, board.queue
-    reached[:] = 0
-    queue[0], reached[first] = first, 1
-    head, tail = 0, 1
-    while head < tail:
-        q = queue[head]
-        head += 1
-        for step in (-ground.stride, ground.stride, -1, 1):
-            p = q + step
-            if cells[p] >= 1 and reached[p] == 0:
-                reached[p] = 1
-                if cells[p] == 1:
-                    queue[tail] = p
-                    tail += 1
 
 
 @compiled
