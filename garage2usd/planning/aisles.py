@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
-from garage2usd.planning.board import NO_VALUE, Board, clear, measure
+from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.polish import connect
@@ -141,11 +141,7 @@ def _lay_run(ground: Ground, board: Board, first: int, last: int, along: int, ac
         for q in range(first - along, last + 2 * along, along):
             for p in (q - across, q, q + across):
                 if cells[p] == 0:
-                    edges = 0
-                    for way in range(4):
-                        if cells[p + (-ground.stride, ground.stride, -1, 1)[way]] == 1:
-                            edges |= 1 << way
-                    stalls = ground.capacity[p, edges]
+                    stalls, _ = stalls_at(ground, board, p)
                     gain += sign * (weights[0] * stalls + (weights[2] if stalls == 0 else 0.0))
         if sign < 0:
             for q in range(first, last + along, along):

@@ -20,6 +20,7 @@ __all__ = [
     "mark_network",
     "measure",
     "new_board",
+    "stalls_at",
     "value_now",
 ]
 
@@ -192,6 +193,18 @@ def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
 
 
 @compiled
+def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
+    """Stalls on a free square by the lanes beside it, and the least `hops` of these."""
+    edges, near = 0, FAR
+    for way in range(4):
+        p = square + (-ground.stride, ground.stride, -1, 1)[way]
+        if board.cells[p] == 1:
+            edges |= 1 << way
+            near = min(near, board.hops[p])
+    return ground.capacity[square, edges], near
+
+
+@compiled
 def measure(ground: Ground, board: Board) -> float:
     """Score y' less the cost of dead ends of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
@@ -238,13 +251,7 @@ def measure(ground: Ground, board: Board) -> float:
     for q in ground.squares:
         if cells[q] != 0:
             continue
-        edges, near = 0, FAR
-        for way in range(4):
-            p = q + (-stride, stride, -1, 1)[way]
-            if cells[p] == 1:
-                edges |= 1 << way
-                near = min(near, hops[p])
-        count = ground.capacity[q, edges]
+        count, near = stalls_at(ground, board, q)
         stalls += count
         time += count * (1 + near)
         unused += count == 0

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure
+from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -87,7 +87,7 @@ def drift(
     flips, by which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such
     measurements take no more than a share of the time.
     """
-    cells, hops, stride, weights = board.cells, board.hops, ground.stride, ground.weights
+    cells, stride, weights = board.cells, ground.stride, ground.weights
     measured = measure(ground, board)
     best, best_cells = measured, cells.copy()
     stalls, time, unused = board.tally[0], board.tally[1], board.tally[2]
@@ -122,13 +122,7 @@ def drift(
             for index in range(size):
                 x = around[index]
                 if cells[x] == 0:
-                    edges, near = 0, FAR
-                    for way in range(4):
-                        y = x + (-stride, stride, -1, 1)[way]
-                        if cells[y] == 1:
-                            edges |= 1 << way
-                            near = min(near, hops[y])
-                    count = ground.capacity[x, edges]
+                    count, near = stalls_at(ground, board, x)
                     d_stalls += sign * count
                     d_unused += sign * (count == 0)
                     if count > 0:
