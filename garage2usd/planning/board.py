@@ -1,5 +1,5 @@
 """A board of lanes with its score: laid square by square, or measured whole. Compiled."""
-# ruff: noqa: C901, PLR0912 - loops that call for each square would cost a third of the speed
+# ruff: noqa: C901, PLR0912 - a search or a walk is one loop over squares
 
 from typing import NamedTuple
 
@@ -43,7 +43,8 @@ class Board(NamedTuple):
     hops
         int32: squares driven from the nearest entrance to a lane.
     near
-        int32: least `hops` of the lanes beside a free square.
+        int32: least `hops` of the lanes beside a free square, 0 at a portal that touches a lane; `mark_network` takes
+        it for marks.
     queue
         int64: room for breadth-first searches.
     tally
@@ -207,6 +208,8 @@ def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
 @compiled
 def measure(ground: Ground, board: Board) -> float:
     """Score y' less the cost of dead ends of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
+
+    Unlike `lay` it keeps neither `edges` nor `near`.
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
     """

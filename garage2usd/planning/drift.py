@@ -1,5 +1,5 @@
 """Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. Compiled."""
-# ruff: noqa: C901, PLR0912, PLR0915 - a flip is one loop; calls would cost half the speed
+# ruff: noqa: C901, PLR0912, PLR0915 - a flip is judged in one loop over shared counters
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from garage2usd.planning.ground import Ground
 
 __all__ = ["drift"]
 
-_RING_BITS = 8
+_RING = 8
 _ENTRANCE = 2
 _WHOLE_SHARE = 30
 
@@ -30,11 +30,11 @@ def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
         square - stride - 1,
     )
     pieces = 0
-    for index in range(0, _RING_BITS, 2):
+    for index in range(0, _RING, 2):
         if cells[ring[index]] != 1:
             continue
         # a lane beside begins a piece unless the lane before it on the ring leads to it
-        before, corner = (index - 2) % _RING_BITS, (index - 1) % _RING_BITS
+        before, corner = (index - 2) % _RING, (index - 1) % _RING
         pieces += not (cells[ring[before]] == 1 and cells[ring[corner]] == 1)
     if pieces == 0:
         return True  # all four are joined in a circle, or there is none
