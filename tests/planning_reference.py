@@ -1,10 +1,13 @@
 """What the tests of the planner compare with: sites, and the score written once more in another way."""
 
 import numpy as np
+import pytest
 
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Structure, cells_from_text
+from garage2usd.planning.board import new_board
+from garage2usd.planning.ground import ground_of
 from garage2usd.site import make_site
 
 BAY = BayConfig()
@@ -24,23 +27,45 @@ G1, G2, G3 = gates((6, 2), (6, 6)), gates((6, 4), (0, 4)), gates((3, 0), (3, 8))
 OPTIMUM = {"G1": 76.4054, "G2": 76.6111, "G3": 74.1111}
 
 
-def random_site(seed, bay=BAY):
-    """A site of 6x6 to 16x18 squares with contour, obstacles and several portals; None if the rules find no place."""
+SMALL = {
+    "height_cells": (6, 17),
+    "width_cells": (6, 19),
+    "rectangles": (0, 5),
+    "entrances": (1, 3),
+    "exits": (1, 3),
+    "obstacles": (0, 3),
+}
+LARGE = {"height_cells": (20, 41), "width_cells": (20, 41), "rectangles": (1, 6), "obstacles": (0, 9)}
+
+
+def random_site(seed, bay=BAY, *, large=False):
+    """A site with contour, obstacles and several portals; None if the rules find no place.
+
+    Of 6x6 to 16x18 squares, if large of 20x20 to 40x40.
+    """
     rng = np.random.default_rng(seed)
-    site = SiteConfig(
-        height_cells=int(rng.integers(6, 17)),
-        width_cells=int(rng.integers(6, 19)),
-        rectangles=int(rng.integers(0, 5)),
-        min_fill=0.3,
-        entrances=int(rng.integers(1, 3)),
-        exits=int(rng.integers(1, 3)),
-        min_portal_distance_cells=2,
-        obstacles=int(rng.integers(0, 3)),
-    )
+    spans, fixed = SMALL, {"min_fill": 0.3, "min_portal_distance_cells": 2}
+    if large:
+        spans, fixed = LARGE, {"entrances": 2, "exits": 2}
+    site = SiteConfig(**fixed, **{name: int(rng.integers(*span)) for name, span in spans.items()})
     try:
         return make_site(site, bay=bay, seed=seed)
     except GenerationError:
         return None
+
+
+def sown(seed, plan, share=0.3):
+    """A random site, its ground, a board with lanes on a share of the squares (None: any), and these squares."""
+    site = random_site(seed)
+    if site is None:
+        pytest.skip("no such site")
+    ground = ground_of(site, bay=BAY, plan=plan)
+    board = new_board(ground)
+    rng = np.random.default_rng(seed)
+    lots = rng.random(len(ground.squares))
+    laid = ground.squares[lots < (rng.uniform(0, 0.6) if share is None else share)]
+    board.cells[laid] = 1
+    return site, ground, board, laid
 
 
 def hops(cells):

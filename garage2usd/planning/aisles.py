@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
-from garage2usd.planning.board import NO_VALUE, Board, clear, measure
+from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.polish import connect
@@ -102,7 +102,10 @@ def new_values() -> NDArray[np.float64]:
 
 @compiled
 def _profile(board: Board, square: int, across: int) -> int:
-    """What lies behind a square: 0 to 3 squares up to a wall, or 4 to 8 for 0 to 4 squares up to a lane."""
+    """What lies behind a square: 0 to 3 squares or more up to a wall, or 4 to 8 for 0 to 4 squares up to a lane.
+
+    More than four free squares count as a lane behind four.
+    """
     gap, q = 0, square - across
     while board.cells[q] == 0 and gap < 4:
         gap += 1
@@ -141,11 +144,7 @@ def _lay_run(ground: Ground, board: Board, first: int, last: int, along: int, ac
         for q in range(first - along, last + 2 * along, along):
             for p in (q - across, q, q + across):
                 if cells[p] == 0:
-                    edges = 0
-                    for way in range(4):
-                        if cells[p + (-ground.stride, ground.stride, -1, 1)[way]] == 1:
-                            edges |= 1 << way
-                    stalls = ground.capacity[p, edges]
+                    stalls, _ = stalls_at(ground, board, p)
                     gain += sign * (weights[0] * stalls + (weights[2] if stalls == 0 else 0.0))
         if sign < 0:
             for q in range(first, last + along, along):
@@ -164,20 +163,21 @@ def learn_aisles(
     archive: Archive,
     random: NDArray[np.uint64],
     curve: NDArray[np.float64],
-    course: NDArray[np.float64],
+    schedule: NDArray[np.float64],
     first: int,
     last: int,
 ) -> int:
-    """Run episodes `first` to `last`; returns how many decisions were taken.
+    """Run the episodes from `first` to below `last`; returns how many decisions were taken.
 
     Notes
     -----
+    `schedule` holds epsilon and alpha, each followed by its factor after an episode; both are moved on.
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` as over squares, with options for
     actions: what becomes of a run. Direction, and the run that joins the aisles across, take turns.
     The reward is the increment of ``k_1 N_S + k_3 U_S``, per square of the run. What stays apart is joined by
     repair.
     """
-    gamma, epsilon, alpha = parameters.gamma, course[0], course[2]
+    gamma, epsilon, alpha = parameters.gamma, schedule[0], schedule[2]
     states, options = np.zeros(len(runs.first), np.int64), np.zeros(len(runs.first), np.int64)
     rewards = np.zeros(len(runs.first))
     profiles = np.zeros(runs.length.max(), np.int64)
@@ -253,6 +253,6 @@ def learn_aisles(
                         laid[count] = q
                         count += 1
                 keep(ground, archive, laid[:count], value, tape, choice)
-        epsilon, alpha = epsilon * course[1], alpha * course[3]
-    course[0], course[2] = epsilon, alpha
+        epsilon, alpha = epsilon * schedule[1], alpha * schedule[3]
+    schedule[0], schedule[2] = epsilon, alpha
     return taken

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
-__all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "square_key", "uniform"]
+__all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "uniform"]
 
 
 class Archive(NamedTuple):
@@ -23,11 +23,12 @@ class Archive(NamedTuple):
     lanes
         bool, shape (size, squares).
     tapes
-        int8, shape (size, steps): actions from the entrance `starts`, `lengths` of them.
+        int8, shape (size, steps): actions from the square `starts`, `lengths` of them; of an agent over aisles what
+        became of each run, with the choice of direction and spine as `starts`.
     starts, lengths
         int64, shape (size,).
     in_use
-        int64, shape (2,): entries in use, and the one of least value.
+        int64, shape (2,): entries in use, and the one of least value once all are.
     """
 
     values: NDArray[np.float64]
@@ -59,34 +60,36 @@ def ranked_lanes(archive: Archive) -> tuple[tuple[float, NDArray[np.bool_]], ...
 
 
 @compiled
-def next_random(random: NDArray[np.uint64]) -> np.uint64:
-    """Draw by splitmix64: the same numbers on every machine."""
-    random[0] += np.uint64(0x9E3779B97F4A7C15)
-    z = random[0]
+def _mixed(z: np.uint64) -> np.uint64:
+    """The last steps of splitmix64, in which every bit of a number comes to touch every other."""
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return np.uint64(z ^ (z >> np.uint64(31)))
 
 
 @compiled
+def next_random(random: NDArray[np.uint64]) -> np.uint64:
+    """Draw by splitmix64: the same numbers on every machine."""
+    random[0] += np.uint64(0x9E3779B97F4A7C15)
+    return _mixed(random[0])
+
+
+@compiled
 def uniform(random: NDArray[np.uint64]) -> float:
-    """A number from 0 up to 1."""
+    """A number from 0 to below 1."""
     return float(next_random(random) >> np.uint64(11)) * (1.0 / 9007199254740992.0)
 
 
 @compiled
 def below(random: NDArray[np.uint64], count: int) -> int:
-    """A whole number from 0 up to `count`."""
+    """A whole number from 0 to below `count`."""
     return int(uniform(random) * count)
 
 
 @compiled
-def square_key(square: int) -> np.uint64:
+def _square_key(square: int) -> np.uint64:
     """Hash of one square; a set of squares has the exclusive or of its members'."""
-    z = np.uint64(square + 1) * np.uint64(0x9E3779B97F4A7C15)
-    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return np.uint64(z ^ (z >> np.uint64(31)))
+    return _mixed(np.uint64(square + 1) * np.uint64(0x9E3779B97F4A7C15))
 
 
 @compiled
@@ -112,7 +115,7 @@ def keep(
         return
     key = np.uint64(0)
     for q in laid:
-        key ^= square_key(q)
+        key ^= _square_key(q)
     for index in range(count[0]):
         if archive.keys[index] == key:
             return

@@ -1,5 +1,5 @@
 """A board of lanes with its score: laid square by square, or measured whole. Compiled."""
-# ruff: noqa: C901, PLR0912 - loops that call for each square would cost a third of the speed
+# ruff: noqa: C901, PLR0912 - a search or a walk is one loop over squares
 
 from typing import NamedTuple
 
@@ -9,7 +9,20 @@ from numpy.typing import NDArray
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
-__all__ = ["FAR", "NO_VALUE", "Board", "clear", "dead_ends", "lay", "measure", "new_board", "value_now"]
+__all__ = [
+    "FAR",
+    "NO_VALUE",
+    "Board",
+    "clear",
+    "dead_ends",
+    "flip",
+    "lay",
+    "mark_network",
+    "measure",
+    "new_board",
+    "stalls_at",
+    "value_now",
+]
 
 FAR = 1 << 28
 NO_VALUE = -1.0e9
@@ -30,7 +43,8 @@ class Board(NamedTuple):
     hops
         int32: squares driven from the nearest entrance to a lane.
     near
-        int32: least `hops` of the lanes beside a free square.
+        int32: least `hops` of the lanes beside a free square, 0 at a portal that touches a lane; `mark_network` takes
+        it for marks.
     queue
         int64: room for breadth-first searches.
     tally
@@ -127,6 +141,14 @@ def lay(ground: Ground, board: Board, square: int) -> None:
 
 
 @compiled
+def flip(cells: NDArray[np.int8], q: int, p: int) -> None:
+    """Exchange lane and free square on one square, or on two if they differ; keeps no tally."""
+    cells[q] = 1 - cells[q]
+    if p != q:
+        cells[p] = 1 - cells[p]
+
+
+@compiled
 def value_now(ground: Ground, board: Board) -> float:
     """Score y' of the board as its tally has it, whether or not all portals are touched."""
     stalls = board.tally[_STALLS]
@@ -172,8 +194,22 @@ def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
 
 
 @compiled
+def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
+    """Stalls on a free square by the lanes beside it, and the least `hops` of these."""
+    edges, near = 0, FAR
+    for way in range(4):
+        p = square + (-ground.stride, ground.stride, -1, 1)[way]
+        if board.cells[p] == 1:
+            edges |= 1 << way
+            near = min(near, board.hops[p])
+    return ground.capacity[square, edges], near
+
+
+@compiled
 def measure(ground: Ground, board: Board) -> float:
     """Score y' less the cost of dead ends of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
+
+    Unlike `lay` it keeps neither `edges` nor `near`.
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
     """
@@ -212,19 +248,13 @@ def measure(ground: Ground, board: Board) -> float:
                 tail += 1
     if tail != lanes:
         return NO_VALUE
-    if starts > 1 and not _one_network(ground, board, lanes):
+    if starts > 1 and mark_network(ground, board, queue[0]) != lanes:
         return NO_VALUE
     stalls, time, unused = 0, 0, 0
     for q in ground.squares:
         if cells[q] != 0:
             continue
-        edges, near = 0, FAR
-        for way in range(4):
-            p = q + (-stride, stride, -1, 1)[way]
-            if cells[p] == 1:
-                edges |= 1 << way
-                near = min(near, hops[p])
-        count = ground.capacity[q, edges]
+        count, near = stalls_at(ground, board, q)
         stalls += count
         time += count * (1 + near)
         unused += count == 0
@@ -237,23 +267,20 @@ def measure(ground: Ground, board: Board) -> float:
 
 
 @compiled
-def _one_network(ground: Ground, board: Board, lanes: int) -> bool:
-    """Whether the lanes hang together; marks with `near`."""
-    cells, near, queue = board.cells, board.near, board.queue
-    first = np.int64(-1)
-    for q in ground.squares:
-        near[q] = 0
-        if cells[q] == 1:
-            first = q
-    queue[0], near[first] = first, 1
+def mark_network(ground: Ground, board: Board, first: int) -> int:
+    """Set `near` to 1 on all lanes and portals that hang together with a lane, to 0 elsewhere; how many lanes."""
+    cells, reached, queue = board.cells, board.near, board.queue
+    reached[:] = 0
+    queue[0], reached[first] = first, 1
     head, tail = 0, 1
     while head < tail:
         q = queue[head]
         head += 1
         for step in (-ground.stride, ground.stride, -1, 1):
             p = q + step
-            if cells[p] == 1 and near[p] == 0:
-                near[p] = 1
-                queue[tail] = p
-                tail += 1
-    return tail == lanes
+            if cells[p] >= 1 and reached[p] == 0:
+                reached[p] = 1
+                if cells[p] == 1:
+                    queue[tail] = p
+                    tail += 1
+    return tail

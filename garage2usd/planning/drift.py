@@ -1,17 +1,17 @@
 """Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. Compiled."""
-# ruff: noqa: C901, PLR0912, PLR0915 - a flip is one loop; calls would cost half the speed
+# ruff: noqa: C901, PLR0912, PLR0915 - a flip is judged in one loop over shared counters
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
+from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = ["drift"]
 
-_RING_BITS = 8
+_RING = 8
 _ENTRANCE = 2
 _WHOLE_SHARE = 30
 
@@ -30,11 +30,11 @@ def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
         square - stride - 1,
     )
     pieces = 0
-    for index in range(0, _RING_BITS, 2):
+    for index in range(0, _RING, 2):
         if cells[ring[index]] != 1:
             continue
         # a lane beside begins a piece unless the lane before it on the ring leads to it
-        before, corner = (index - 2) % _RING_BITS, (index - 1) % _RING_BITS
+        before, corner = (index - 2) % _RING, (index - 1) % _RING
         pieces += not (cells[ring[before]] == 1 and cells[ring[corner]] == 1)
     if pieces == 0:
         return True  # all four are joined in a circle, or there is none
@@ -87,7 +87,7 @@ def drift(
     flips, by which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such
     measurements take no more than a share of the time.
     """
-    cells, hops, stride, weights = board.cells, board.hops, ground.stride, ground.weights
+    cells, stride, weights = board.cells, ground.stride, ground.weights
     measured = measure(ground, board)
     best, best_cells = measured, cells.copy()
     stalls, time, unused = board.tally[0], board.tally[1], board.tally[2]
@@ -122,21 +122,13 @@ def drift(
             for index in range(size):
                 x = around[index]
                 if cells[x] == 0:
-                    edges, near = 0, FAR
-                    for way in range(4):
-                        y = x + (-stride, stride, -1, 1)[way]
-                        if cells[y] == 1:
-                            edges |= 1 << way
-                            near = min(near, hops[y])
-                    count = ground.capacity[x, edges]
+                    count, near = stalls_at(ground, board, x)
                     d_stalls += sign * count
                     d_unused += sign * (count == 0)
                     if count > 0:
                         d_time += sign * count * (1 + near)
             if sign < 0:
-                for turn in range(1 if step == 0 else 2):
-                    x = q if turn == 0 else p
-                    cells[x] = 1 - cells[x]
+                flip(cells, q, p)
                 # the way to new lanes
                 possible = _reach(board, stride, q, p)
         accepted, whole = False, False
@@ -172,9 +164,7 @@ def drift(
                     else:
                         whole = True
         if not accepted:
-            for turn in range(1 if step == 0 else 2):
-                x = q if turn == 0 else p
-                cells[x] = 1 - cells[x]
+            flip(cells, q, p)
             if whole:  # the measurement took all distances with it
                 measure(ground, board)
             else:

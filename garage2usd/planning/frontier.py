@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
 from garage2usd.planning.compiled import compiled
-from garage2usd.planning.ground import Ground
+from garage2usd.planning.ground import PADDING, Ground
 
 __all__ = ["FORBIDDEN", "Sheet", "advance", "complete", "enumerate_layouts", "suffix_values"]
 
 FORBIDDEN = -1.0e18
 
 # codes of a column: 0 nothing to come, 1 to 5 a lane by its piece, 6 a portal that touches no lane yet,
-# 7 + edges a free square, edges being the sum of 1 up, 2 left, 4 right that are open
-_PORTAL, _FREE, _FINISHED = 6, 7, 1 << 60
+# 7 + edges a free square, edges being the sum of 1 up, 2 left, 4 right that are open; 15 a new piece within a step
+_PORTAL, _FREE, _NEW_PIECE, _FINISHED = 6, 7, 15, 1 << 60
 
 
 class Sheet(NamedTuple):
@@ -105,7 +105,6 @@ def _step(sheet: Sheet, index: int, key: int, lane: bool, codes: NDArray[np.int6
         codes[col - 1] = _settled(sheet, index - 1, edges)
     # this square
     if lane:
-        label = 5
         if up_lane:
             label = up
             if left_lane and left != up:
@@ -115,7 +114,7 @@ def _step(sheet: Sheet, index: int, key: int, lane: bool, codes: NDArray[np.int6
         elif left_lane:
             label = left
         else:
-            label = 15  # a new piece, numbered below
+            label = _NEW_PIECE  # numbered below
         codes[col] = label
     elif kind >= 2:
         codes[col] = 0 if up_lane or left_lane else _PORTAL
@@ -131,7 +130,7 @@ def _step(sheet: Sheet, index: int, key: int, lane: bool, codes: NDArray[np.int6
     names = np.zeros(16, np.int64)
     for c in range(cols):
         code = codes[c]
-        if 1 <= code <= 5 or code == 15:
+        if 1 <= code <= 5 or code == _NEW_PIECE:
             if names[code] == 0:
                 used += 1
                 names[code] = used
@@ -230,7 +229,7 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
     Squares from `depth` on may all still be lanes.
     """
     cells, hops, queue, stride = board.cells, board.hops, board.queue, ground.stride
-    border = 4 * stride + 4
+    border = PADDING * (stride + 1)
     first_open = border + (depth // cols) * stride + depth % cols
     for q in ground.squares:
         hops[q] = FAR
@@ -312,7 +311,7 @@ def enumerate_layouts(
     stack_keys, stack_values = np.zeros(total + 1, np.int64), np.zeros(total + 1)
     tried = np.zeros(total + 1, np.int64)
     stride = ground.stride
-    border = 4 * stride + 4
+    border = PADDING * (stride + 1)
     best, best_cells, scored, depth = floor, ground.cells.copy(), 0, 0
     board.cells[:] = ground.cells
     while depth >= 0:

@@ -10,10 +10,13 @@ from garage2usd.config.plan import DeadEnds
 from garage2usd.grid import Cell, CellArray, Structure
 from garage2usd.stalls import capacity_table
 
-__all__ = ["LANE_LIMIT_MM", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
+__all__ = ["LANE_LIMIT_MM", "PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
 
 LANE_LIMIT_MM = 26_000
 """A dead-end aisle longer than this keeps a turning stall free."""
+
+PADDING = 4
+"""Squares outside on each side of a site, as many as the widest window sees beyond one of its squares."""
 
 Lanes = NDArray[np.bool_]
 """bool, shape (squares,): which of `Ground.squares` are lanes."""
@@ -58,13 +61,12 @@ class Ground(NamedTuple):
 
 
 _DEAD_END_COST = {DeadEnds.ALLOW: 0.0, DeadEnds.FORBID: 1000.0, DeadEnds.STANDARD: 1.0}
-_PADDING = 4
 
 
 def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
     """Flatten a site; its lanes, if any, become free squares."""
     static = np.where(site.cells == Cell.LANE, Cell.FREE, site.cells).astype(np.int8)
-    cells = np.pad(static, _PADDING, constant_values=Cell.OBSTACLE)
+    cells = np.pad(static, PADDING, constant_values=Cell.OBSTACLE)
     flat = cells.ravel()
     depths = np.broadcast_to(site.row_depths_mm[:, None], site.shape)
     widths = np.broadcast_to(site.column_widths_mm, site.shape)
@@ -73,7 +75,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
         stride=cells.shape[1],
         cells=flat,
         capacity=_capacity_by_edges(site, bay),
-        sides_mm=np.stack([np.pad(side, _PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
+        sides_mm=np.stack([np.pad(side, PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
         squares=np.flatnonzero(flat == Cell.FREE),
         entrances=entrances,
         portals=np.concatenate((entrances, exits)),
@@ -86,7 +88,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
 
 def lanes_of(structure: Structure, ground: Ground) -> Lanes:
     """Which squares of the ground are lanes in a structure on the same site."""
-    flat = np.pad(structure.cells, _PADDING, constant_values=Cell.OBSTACLE).ravel()
+    flat = np.pad(structure.cells, PADDING, constant_values=Cell.OBSTACLE).ravel()
     lanes: Lanes = flat[ground.squares] == Cell.LANE
     return lanes
 
@@ -95,7 +97,7 @@ def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
     """The structure matrix with lanes on some of the ground's squares; int8, shape (rows, cols)."""
     padded = ground.cells.copy()
     padded[ground.squares[lanes]] = Cell.LANE
-    return padded.reshape(-1, ground.stride)[_PADDING:-_PADDING, _PADDING:-_PADDING].copy()
+    return padded.reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING].copy()
 
 
 def _capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
@@ -104,5 +106,5 @@ def _capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
     for edges in range(16):
         along_x = (0, table.along_x, table.along_x, table.along_x_double)[edges & 3]
         along_z = (0, table.along_z, table.along_z, table.along_z_double)[edges >> 2]
-        layers.append(np.pad(np.maximum(along_x, along_z) + np.zeros(site.shape, dtype=np.int64), _PADDING).ravel())
+        layers.append(np.pad(np.maximum(along_x, along_z) + np.zeros(site.shape, dtype=np.int64), PADDING).ravel())
     return np.ascontiguousarray(np.stack(layers, axis=1).astype(np.int32))

@@ -140,8 +140,8 @@ def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[tuple[float,
     _put(ground, board, lanes)
     if not connect(ground, board):
         return []
-    joined = board.cells[ground.squares] == Cell.LANE
-    return [(max(measure(ground, board), NO_VALUE), joined)]  # without stalls it has no value, but stands
+    value = max(measure(ground, board), NO_VALUE)  # without stalls it has no value, but stands
+    return [(value, _taken(ground, board))]
 
 
 def _polished(
@@ -157,7 +157,7 @@ def _polished(
         for _, lanes in _ranked(best.values())[:count]:
             _put(ground, board, lanes)
             value = polish()
-            improved = board.cells[ground.squares] == Cell.LANE
+            improved = _taken(ground, board)
             best.setdefault(improved.tobytes(), (value, improved))
 
     affordable = max(1, _CLIMB_SQUARES // (20 * squares**2))
@@ -180,7 +180,7 @@ def _drifted(
     for _, lanes in ranked[:_DRIFTED]:
         _put(ground, board, lanes)
         value = drift(ground, board, random, flips, hottest, _DRIFT_COLDEST, refresh)
-        improved = board.cells[ground.squares] == Cell.LANE
+        improved = _taken(ground, board)
         best.setdefault(improved.tobytes(), (value, improved))
     return _ranked(best.values())
 
@@ -194,7 +194,7 @@ def _without_dead_ends(ground: Ground, board: "Board", ranked: list[tuple[float,
     for _, lanes in ranked:
         _put(ground, board, lanes)
         close_dead_ends(ground, board)
-        kept = board.cells[ground.squares] == Cell.LANE
+        kept = _taken(ground, board)
         closed[kept.tobytes()] = (measure(ground, board), kept)
     return _ranked(closed.values())
 
@@ -204,7 +204,14 @@ def _ranked(plans: "Iterable[tuple[float, Lanes]]") -> list[tuple[float, Lanes]]
     return sorted(plans, key=lambda entry: (-entry[0], entry[1].tobytes()))
 
 
+def _taken(ground: Ground, board: "Board") -> Lanes:
+    """The lanes on the board."""
+    lanes: Lanes = board.cells[ground.squares] == Cell.LANE
+    return lanes
+
+
 def _put(ground: Ground, board: "Board", lanes: Lanes) -> None:
+    """Have these lanes on the board and no others; keeps no tally."""
     board.cells[:] = ground.cells
     board.cells[ground.squares[lanes]] = Cell.LANE
 

@@ -1,11 +1,11 @@
 """Repair and polish of lanes: joining what is apart, and flips of squares that raise the value. Compiled."""
-# ruff: noqa: C901 - loops that call for each square would cost a third of the speed
+# ruff: noqa: C901 - a search for ways is one loop over squares
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, measure
+from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure
 from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
@@ -24,7 +24,7 @@ def connect(ground: Ground, board: Board) -> bool:
         return False
     cells[first] = 1
     while True:
-        _mark_network(ground, board, first)
+        mark_network(ground, board, first)
         if not _lay_way(ground, board):
             break
     for q in ground.squares:
@@ -47,25 +47,6 @@ def _lane_at(ground: Ground, board: Board, portal: int) -> int:
         if cells[q] == 0 and (free < 0 or _reaches_all(ground, board, q)):
             free = q
     return free
-
-
-@compiled
-def _mark_network(ground: Ground, board: Board, first: int) -> None:
-    """Set `near` to 1 on all lanes and portals that hang together with a lane, to 0 elsewhere."""
-    cells, reached, queue = board.cells, board.near, board.queue
-    reached[:] = 0
-    queue[0], reached[first] = first, 1
-    head, tail = 0, 1
-    while head < tail:
-        q = queue[head]
-        head += 1
-        for step in (-ground.stride, ground.stride, -1, 1):
-            p = q + step
-            if cells[p] >= 1 and reached[p] == 0:
-                reached[p] = 1
-                if cells[p] == 1:
-                    queue[tail] = p
-                    tail += 1
 
 
 @compiled
@@ -190,18 +171,14 @@ def climb(ground: Ground, board: Board, random: NDArray[np.uint64], passes: int)
                 p = q + step
                 if cells[p] != 0 and cells[p] != 1:
                     continue
-                if not (_beside_lane(ground, board, q) or (step != 0 and _beside_lane(ground, board, p))):
+                if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
                     continue
-                cells[q] = 1 - cells[q]
-                if step != 0:
-                    cells[p] = 1 - cells[p]
+                flip(cells, q, p)
                 tried = measure(ground, board)
                 if tried > value + 1e-9:
                     value, improved = tried, True
                 else:
-                    cells[q] = 1 - cells[q]
-                    if step != 0:
-                        cells[p] = 1 - cells[p]
+                    flip(cells, q, p)
         if not improved:
             break
     return value
@@ -225,11 +202,9 @@ def anneal(
         p = q + step
         if cells[p] != 0 and cells[p] != 1:
             continue
-        if not (_beside_lane(ground, board, q) or (step != 0 and _beside_lane(ground, board, p))):
+        if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
             continue
-        cells[q] = 1 - cells[q]
-        if step != 0:
-            cells[p] = 1 - cells[p]
+        flip(cells, q, p)
         tried = measure(ground, board)
         if tried > NO_VALUE and (tried >= value or uniform(random) < np.exp((tried - value) / heat)):
             value = tried
@@ -237,8 +212,6 @@ def anneal(
                 best = value
                 best_cells[:] = cells
         else:
-            cells[q] = 1 - cells[q]
-            if step != 0:
-                cells[p] = 1 - cells[p]
+            flip(cells, q, p)
     cells[:] = best_cells
     return measure(ground, board)

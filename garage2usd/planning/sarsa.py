@@ -60,7 +60,9 @@ def new_memory(parameters: SarsaParameters, *, bits: int) -> Memory:
 def grown(memory: Memory) -> Memory:
     """The same in a table twice the size."""
     size = 2 * len(memory.keys)
-    larger = Memory(np.zeros(size, np.uint64), np.zeros((size, 5), np.float32), memory.used, memory.course, memory.last)
+    larger = Memory(
+        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), np.float32), memory.used, memory.course, memory.last
+    )
     memory.used[0] = 0
     for row in range(len(memory.keys)):
         if memory.keys[row] != 0:
@@ -112,19 +114,19 @@ def _observe(ground: Ground, board: Board, parameters: SarsaParameters, square: 
 def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> int:
     """An epsilon-greedy action: greedy with probability 1 - epsilon + epsilon / |A|."""
     count = 0
-    for action in range(5):
+    for action in range(ACTIONS):
         count += allowed[action]
     if uniform(random) < epsilon:
         nth = int(uniform(random) * count)
-        for action in range(5):
+        for action in range(ACTIONS):
             if allowed[action]:
                 if nth == 0:
                     return action
                 nth -= 1
-    first = int(next_random(random) % np.uint64(5))
+    first = int(next_random(random) % np.uint64(ACTIONS))
     best, top = -1, -np.inf
-    for offset in range(5):
-        action = (first + offset) % 5
+    for offset in range(ACTIONS):
+        action = (first + offset) % ACTIONS
         if allowed[action] and memory.q[row, action] > top:
             best, top = action, memory.q[row, action]
     return best
@@ -142,7 +144,7 @@ def learn(
     first: int,
     last: int,
 ) -> tuple[int, int]:
-    """Run episodes `first` to `last`, or fewer when the table fills up.
+    """Run the episodes from `first` to below `last`, or fewer when the table fills up.
 
     Returns
     -------
@@ -160,7 +162,7 @@ def learn(
     max_steps = min(p.max_steps_per_square * len(ground.squares), archive.tapes.shape[1])
     tape = np.zeros(max_steps, np.int8)
     laid = np.zeros(len(ground.squares), np.int64)
-    allowed = np.ones(5, np.bool_)
+    allowed = np.ones(ACTIONS, np.bool_)
     epsilon, unchanged, steps_taken = memory.course[0], memory.course[1], 0
     for episode in range(first, last):
         if 2 * (memory.used[0] + max_steps) > len(memory.keys):

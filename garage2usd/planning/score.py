@@ -67,8 +67,7 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
     farthest = max(hops.values(), default=0)
     total = 0
     for row, col in np.argwhere(capacity > 0).tolist():
-        lanes = ((row + dr, col + dc) for dr, dc in NEIGHBOUR_STEPS)
-        nearest = min((hops[lane] for lane in lanes if lane in hops), default=farthest)
+        nearest = min((hops[lane] for lane in _beside((row, col)) if lane in hops), default=farthest)
         total += int(capacity[row, col]) * (1 + nearest)
     stalls = int(capacity.sum())
     time = total / stalls if stalls else 0.0

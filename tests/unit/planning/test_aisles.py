@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, G1, G2, G3, OPTIMUM, feasible, random_site, score
+from planning_reference import BAY, G1, G2, G3, OPTIMUM, feasible, score, sown
 
 from garage2usd.config import PlanConfig, SiteConfig
 from garage2usd.planning import evaluate, plan_lanes
 from garage2usd.planning.aisles import runs_of
-from garage2usd.planning.board import measure, new_board
+from garage2usd.planning.board import measure
 from garage2usd.planning.bound import counting_bound
 from garage2usd.planning.drift import drift
 from garage2usd.planning.ground import cells_of, ground_of
@@ -49,13 +49,7 @@ def test_runs_are_all_of_the_site():
 
 @pytest.mark.parametrize("seed", range(12))
 def test_drift_stays_feasible_and_never_loses(seed):
-    site = random_site(seed)
-    if site is None:
-        pytest.skip("no such site")
-    ground = ground_of(site, bay=BAY, plan=ALLOW)
-    board = new_board(ground)
-    rng = np.random.default_rng(seed)
-    board.cells[ground.squares[rng.random(len(ground.squares)) < 0.3]] = 1
+    site, ground, board, _ = sown(seed, ALLOW)
     assert connect(ground, board)
     before = measure(ground, board)
     after = drift(ground, board, np.array([seed], np.uint64), 20_000, 1.0, 0.1, 50)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, drawn, feasible, random_site, score
+from planning_reference import BAY, drawn, feasible, random_site, score, sown
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.board import NO_VALUE, clear, dead_ends, lay, measure, new_board, value_now
@@ -56,14 +56,7 @@ def test_lanes_and_cells_are_inverse():
 
 @pytest.mark.parametrize("seed", range(30))
 def test_connect_joins_any_lanes(seed):
-    site = random_site(seed)
-    if site is None:
-        pytest.skip("no such site")
-    ground = ground_of(site, bay=BAY, plan=ALLOW)
-    board = new_board(ground)
-    rng = np.random.default_rng(seed)
-    laid = ground.squares[rng.random(len(ground.squares)) < rng.uniform(0, 0.6)]
-    board.cells[laid] = 1
+    _, ground, board, laid = sown(seed, ALLOW, share=None)
     assert connect(ground, board)
     assert feasible(lanes_now(ground, board))
     assert (board.cells[laid] == 1).all()  # on connected ground nothing is taken off
@@ -88,13 +81,7 @@ def test_long_dead_ends(text, count):
 
 @pytest.mark.parametrize("seed", range(30))
 def test_closing_leaves_no_dead_end(seed):
-    site = random_site(seed)
-    if site is None:
-        pytest.skip("no such site")
-    ground = ground_of(site, bay=BAY, plan=FORBID)
-    board = new_board(ground)
-    rng = np.random.default_rng(seed)
-    board.cells[ground.squares[rng.random(len(ground.squares)) < 0.3]] = 1
+    _, ground, board, _ = sown(seed, FORBID)
     assert connect(ground, board)
     close_dead_ends(ground, board)
     cells = lanes_now(ground, board)
