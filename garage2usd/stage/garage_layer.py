@@ -18,10 +18,10 @@ from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_
 from garage2usd.stage.authoring import define, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
-from garage2usd.stage.lane_curves import author_lane_graph
+from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, write_lane_graph
 from garage2usd.stage.prim_text import group_text, moved_text, place_text, reference_text, rounded_m
 from garage2usd.stage.prototypes import Prototype
-from garage2usd.stage.scatter import author_instancer
+from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
 from garage2usd.stage.variants import SWITCHES, variant_texts
 
@@ -44,7 +44,7 @@ def write_garage_layer(
     last_frame: int,
     path: Path,
 ) -> None:
-    """Author the layer that places every prototype, and the prototypes of tiles where those are shared.
+    """Author the layer that places every prototype, and beside the assets what belongs to this garage alone.
 
     Parameters
     ----------
@@ -55,7 +55,8 @@ def write_garage_layer(
     prototypes
         Asset and look of every spec in the layout.
     asset_folder
-        Folder of the assets beside `path`; the prototypes of tiles go there too.
+        Folder of the assets beside `path`. The lane graph goes there, and the prototypes of tiles and the scattered
+        objects where those are shared.
     metadata
         Written into the root's customData beside S, R and C.
     setback_m
@@ -73,12 +74,13 @@ def write_garage_layer(
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
         describe_stalls=True,
     )
+    folder = path.parent / asset_folder
     labels = _tile_labels(graph, arrangement.squares)
     class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
     if arrangement.nested:
         inner = InstanceWriter(layout, arrangement, prototypes, ".", classes={}, describe_stalls=False)
         shared = share_tiles(layout, arrangement, labels, inner)
-        write_tile_prototypes(shared, path.parent / asset_folder / TILES_FILE)
+        write_tile_prototypes(shared, folder / TILES_FILE)
         tiles = _shared_tiles(arrangement, shared, asset_folder)
         variants = variant_texts(class_names, groups=[_TILE_CLASS], within=_CLASSES)
     else:
@@ -87,10 +89,15 @@ def write_garage_layer(
     groups = "".join(group_text(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
     names = [switch.class_name for switch in class_names] + [_TILE_CLASS] * arrangement.nested
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
+    write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph, setback_m=setback_m)
+    for name, rows in arrangement.scattered.items():
+        write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes)
+    files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
+    parts = "".join(_part_text(asset_folder, file) for file in files)
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.ImportFromString(
         f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
-        f'class "{_CLASSES}"\n{{\n{classes}}}\n{tiles}{groups}}}\n'
+        f'class "{_CLASSES}"\n{{\n{classes}}}\n{tiles}{groups}{parts}}}\n'
     )
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
     with Sdf.ChangeBlock():
@@ -99,9 +106,6 @@ def write_garage_layer(
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout.structure)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        for name, rows in arrangement.scattered.items():
-            author_instancer(layer, root_path.AppendChild(name), layout.placements, rows, prototypes, asset_folder)
-        author_lane_graph(layer, root_path.AppendChild("LaneGraph"), layout, graph, setback_m=setback_m)
         author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
     layer.Export(str(path))
 
@@ -135,6 +139,11 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder
     for square, (x, z), name in zip(arrangement.squares, rounded_m(arrangement.origins_m), shared.name_of, strict=True):
         rows[square[0]].append(f'def "{tile_name(square)}" (\n{headers[name]})\n{{\n{moved_text(x, z)}}}\n')
     return _in_rows(rows)
+
+
+def _part_text(asset_folder: str, file: str) -> str:
+    """A prim that stands in a layer of its own beside the assets."""
+    return f'def "{Path(file).stem}" (\n{reference_text(f"./{asset_folder}/{file}")})\n{{\n}}\n'
 
 
 def _in_rows(rows: Mapping[int, list[str]]) -> str:

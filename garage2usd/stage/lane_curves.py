@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +10,13 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, Stall
-from garage2usd.stage.authoring import attribute, define
+from garage2usd.stage.authoring import attribute, define, set_units
 from garage2usd.stalls import Edge
 
-__all__ = ["author_lane_graph"]
+__all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
+
+LANE_GRAPH_FILE = "LaneGraph.usdc"
+"""Layer of the lane graph, beside the assets."""
 
 _LIFT_M = 0.05
 _NODE_RADIUS_M = 0.4
@@ -22,23 +26,29 @@ _TYPES = Sdf.ValueTypeNames
 _EDGE_NAMES = {edge: edge.name.lower() for edge in Edge}
 
 
-def author_lane_graph(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, setback_m: float) -> None:
-    """Author the curves ``Nodes``, ``Edges`` and ``Stalls``, all of the purpose guide.
+def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m: float) -> None:
+    """Write a layer of its own, as text is slow with long arrays, with the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
     -----
-    Each attribute holds one value a curve. ``Nodes`` has a ring for each lane square and portal, with
-    ``garage:lane:kind``, ``:square`` (row, col) and ``:widths`` (metres of carriageway across X and Z). ``Edges`` has a
-    line from middle to middle for each pair that joins, with ``garage:lane:from`` and ``:to`` (squares), ``:length``,
-    ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an entrance and into an exit). ``Stalls`` has
-    the outline of each stall, mouth left, mouth right, rear right, rear left, with ``garage:stall:id``, ``:type``,
-    ``:use``, ``:square``, ``:accessSquare`` and ``:entryEdge``.
+    All are of the purpose guide, and each attribute holds one value a curve. ``Nodes`` has a ring for each lane square
+    and portal, with ``garage:lane:kind``, ``:square`` (row, col) and ``:widths`` (metres of carriageway across X and
+    Z). ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and ``:to``
+    (squares), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an entrance and into
+    an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear left, with
+    ``garage:stall:id``, ``:type``, ``:use``, ``:square``, ``:accessSquare`` and ``:entryEdge``.
     """
-    group = define(layer, path, "Xform", kind=Kind.Tokens.group)
-    attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
-    _author_nodes(layer, path.AppendChild("Nodes"), layout, graph, setback_m)
-    _author_edges(layer, path.AppendChild("Edges"), layout, graph, setback_m)
-    _author_stalls(layer, path.AppendChild("Stalls"), layout.stalls)
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = path.stem
+        group = define(layer, root, "Xform", kind=Kind.Tokens.group)
+        attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
+        _author_nodes(layer, root.AppendChild("Nodes"), layout, graph, setback_m)
+        _author_edges(layer, root.AppendChild("Edges"), layout, graph, setback_m)
+        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls)
+    layer.Export(str(path))
 
 
 def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, setback_m: float) -> None:

@@ -2,52 +2,66 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Sdf, Vt
+from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.layout import ObjectTable
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.table import KINDS
-from garage2usd.stage.authoring import attribute, define
+from garage2usd.stage.authoring import attribute, define, set_units
 from garage2usd.stage.labels import OBJECT_LABELS, points_of
 from garage2usd.stage.prototypes import Prototype
 
-__all__ = ["author_instancer"]
+__all__ = ["write_instancer"]
 
 _TYPES = Sdf.ValueTypeNames
 
 
-def author_instancer(
-    layer: Sdf.Layer,
-    path: Sdf.Path,
-    objects: ObjectTable,
-    rows: NDArray[np.intp],
-    prototypes: Mapping[Spec, Prototype],
-    asset_folder: str,
+def write_instancer(
+    path: Path, objects: ObjectTable, rows: NDArray[np.intp], prototypes: Mapping[Spec, Prototype]
 ) -> None:
-    """Author a point instancer with a point for each object in some rows, all of one kind.
+    """Write a layer beside the assets with an instancer that has a point for each object in some rows, all of one kind.
 
     Notes
     -----
     Point instancers lose colliders in physics engines, and browsers draw one copy only.
     """
-    prim = define(layer, path, "PointInstancer", label=OBJECT_LABELS[KINDS[objects.kind[rows[0]]]])
+    kind = KINDS[objects.kind[rows[0]]]
     shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
     specs = [objects.specs[shape] for shape in shapes]
-    folder = path.AppendChild("Prototypes")
-    define(layer, folder, "Scope")
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = path.stem
+        prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=OBJECT_LABELS[kind])
+        _author_prototypes(prim, [prototypes[spec].name for spec in specs])
+        _author_points(prim, objects, rows, specs, indices)
+    layer.Export(str(path))
+
+
+def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:
+    folder = define(instancer.layer, instancer.path.AppendChild("Prototypes"), "Scope", kind=Kind.Tokens.group)
     targets = []
-    for spec in specs:
-        name = prototypes[spec].name
-        child = define(layer, folder.AppendChild(name), "Xform")
-        reference = Sdf.Reference(f"./{asset_folder}/{name}.usdc")
+    for name in names:
+        child = define(instancer.layer, folder.path.AppendChild(name), "Xform")
+        reference = Sdf.Reference(f"./{name}.usdc")
         child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
         targets.append(child.path)
-    relationship = Sdf.RelationshipSpec(prim, "prototypes", custom=False)
+    relationship = Sdf.RelationshipSpec(instancer, "prototypes", custom=False)
     relationship.targetPathList.explicitItems = targets
 
+
+def _author_points(
+    prim: Sdf.PrimSpec,
+    objects: ObjectTable,
+    rows: NDArray[np.intp],
+    specs: Sequence[Spec],
+    indices: NDArray[np.intp],
+) -> None:
     positions, yaws_rad = objects.position_m[rows], objects.yaw_rad[rows]
     attribute(prim, "protoIndices", _TYPES.IntArray, Vt.IntArray.FromNumpy(indices.astype(np.int32)))
     attribute(prim, "positions", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(positions.astype(np.float32)))

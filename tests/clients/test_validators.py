@@ -21,15 +21,16 @@ pytestmark = pytest.mark.client
 MANY_INSTANCES = [sample for sample in SAMPLES if sample.stem == "large_20x30"]
 
 
+def usd_findings(path):
+    registry = UsdValidation.ValidationRegistry()
+    context = UsdValidation.ValidationContext(registry.GetOrLoadAllValidators())
+    return [f"{f.GetName()} {f.GetMessage()}" for f in context.Validate(Usd.Stage.Open(str(path)))]
+
+
 @each_sample
 @each_format
 def test_usd_validation_finds_nothing(sample, extension, builds):
-    build = builds(sample, extension)
-    stage = Usd.Stage.Open(str(build.stage))
-    registry = UsdValidation.ValidationRegistry()
-    context = UsdValidation.ValidationContext(registry.GetOrLoadAllValidators())
-    findings = context.Validate(stage)
-    assert [f"{f.GetName()} {f.GetMessage()}" for f in findings] == []
+    assert usd_findings(builds(sample, extension).stage) == []
 
 
 def nvidia_findings(asset, output, *options):
@@ -63,6 +64,12 @@ def test_nvidia_validation_of_every_variant_finds_nothing(tmp_path):
     )
     stage = build(config, tmp_path / "small.usdc").stage
     assert nvidia_findings(stage, tmp_path / "findings.csv") == []
+
+
+def test_tiles_that_share_prototypes_pass_both(builds, tmp_path):
+    stage = builds(next(sample for sample in SAMPLES if sample.stem == "irregular"), "usdc", "nested").stage
+    assert usd_findings(stage) == []
+    assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants") == []
 
 
 @pytest.mark.parametrize("sample", MANY_INSTANCES, ids=lambda path: path.stem)
