@@ -18,6 +18,8 @@ __all__ = ["Illuminance", "Lux", "direct_lux", "light_up"]
 UTILISATION, MAINTENANCE = 1.0, 0.8
 """Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
 _REACH_M = 25.0
+_POINTS_AT_ONCE = 4096
+"""Bounds the memory that pairs of points and tubes take."""
 _SEGMENTS = 3
 _POINTS_A_SIDE = 3
 _LIGHT_DROP_M = 0.115
@@ -94,13 +96,15 @@ def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArr
     if not len(points) or not tubes:
         return np.zeros(len(points))
     pieces, areas, heights = _pieces(tubes)
-    near = KDTree(points).query_ball_point(pieces, _REACH_M)
-    counts = np.array([len(found) for found in near])
-    which = np.concatenate([np.asarray(found, dtype=np.int64) for found in near])
-    source = np.repeat(np.arange(len(pieces)), counts)
-    squared_m2 = ((points[which] - pieces[source]) ** 2).sum(axis=1) + heights[source] ** 2
-    lux = MAINTENANCE * areas[source] * heights[source] ** 2 / squared_m2**2
-    total: NDArray[np.float64] = np.bincount(which, weights=lux, minlength=len(points)).astype(np.float64)
+    sources = KDTree(pieces)
+    total = np.zeros(len(points))
+    for start in range(0, len(points), _POINTS_AT_ONCE):
+        near = KDTree(points[start : start + _POINTS_AT_ONCE])
+        pairs = near.sparse_distance_matrix(sources, _REACH_M, output_type="ndarray")
+        source = pairs["j"]
+        squared_m2 = pairs["v"] ** 2 + heights[source] ** 2
+        lux = MAINTENANCE * areas[source] * heights[source] ** 2 / squared_m2**2
+        total[start : start + near.n] = np.bincount(pairs["i"], weights=lux, minlength=near.n)
     return total
 
 
