@@ -1,7 +1,7 @@
 """The lane graph and the stalls as guide curves, so that a program can drive on the stage alone."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -32,11 +32,12 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
     Notes
     -----
     All are of the purpose guide, and each attribute holds one value a curve. ``Nodes`` has a ring for each lane square
-    and portal, with ``garage:lane:kind``, ``:square`` (row, col) and ``:widths`` (metres of carriageway across X and
-    Z). ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and ``:to``
-    (squares), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an entrance and into
-    an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear left, with
-    ``garage:stall:id``, ``:type``, ``:use``, ``:square``, ``:accessSquare`` and ``:entryEdge``.
+    and portal, with ``garage:lane:kind``, ``:row``, ``:column`` and the metres of carriageway across X and Z in
+    ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
+    ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
+    entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
+    left, with ``garage:stall:id``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of a node) and
+    ``:entryEdge``. No attribute is an ``int2[]`` or a ``string[]``: three.js cannot read those from a crate file.
     """
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
@@ -45,31 +46,41 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
         layer.defaultPrim = path.stem
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
-        _author_nodes(layer, root.AppendChild("Nodes"), layout, graph, setback_m)
-        _author_edges(layer, root.AppendChild("Edges"), layout, graph, setback_m)
-        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls)
+        squares = sorted(graph.graph.nodes)
+        number_of = {square: number for number, square in enumerate(squares)}
+        _author_nodes(layer, root.AppendChild("Nodes"), layout, graph, squares, setback_m)
+        _author_edges(layer, root.AppendChild("Edges"), layout, graph, number_of, setback_m)
+        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, number_of)
     layer.Export(str(path))
 
 
-def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, setback_m: float) -> None:
-    squares = sorted(graph.graph.nodes)
+def _author_nodes(
+    layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, squares: Sequence[Square], setback_m: float
+) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     prim = _author_curves(layer, path, _middles(graph, squares)[:, None] + ring, closed=True)
     kinds = [graph.kind(square).value for square in squares]
     attribute(prim, "garage:lane:kind", _TYPES.TokenArray, Vt.TokenArray(kinds))
-    attribute(prim, "garage:lane:square", _TYPES.Int2Array, _squares(squares))
+    _author_squares(prim, "garage:lane", squares)
     widths = (_sides_m(layout, squares) - 2 * setback_m).astype(np.float32)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths))
 
 
-def _author_edges(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, setback_m: float) -> None:
+def _author_edges(
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    layout: Layout,
+    graph: LaneGraph,
+    number_of: Mapping[Square, int],
+    setback_m: float,
+) -> None:
     edges = [_directed(graph, *pair) for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges)]
     starts, ends = [edge[0] for edge in edges], [edge[1] for edge in edges]
     ways = np.stack([_middles(graph, starts), _middles(graph, ends)], axis=1)
     prim = _author_curves(layer, path, ways, closed=False)
-    attribute(prim, "garage:lane:from", _TYPES.Int2Array, _squares(starts))
-    attribute(prim, "garage:lane:to", _TYPES.Int2Array, _squares(ends))
+    _author_numbers(prim, "garage:lane:from", [number_of[square] for square in starts])
+    _author_numbers(prim, "garage:lane:to", [number_of[square] for square in ends])
     attribute(prim, "garage:lane:direction", _TYPES.TokenArray, Vt.TokenArray([edge[2] for edge in edges]))
     lengths = np.linalg.norm(ways[:, 1] - ways[:, 0], axis=1).astype(np.float32)
     attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
@@ -79,18 +90,18 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneG
     attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(widths))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: Sequence[Stall]) -> None:
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: Sequence[Stall], number_of: Mapping[Square, int]) -> None:
     prim = _author_curves(layer, path, _outlines(stalls), closed=True)
-    attribute(prim, "garage:stall:id", _TYPES.StringArray, Vt.StringArray([stall.name for stall in stalls]))
     words = {
+        "id": [stall.name for stall in stalls],
         "type": [str(stall.stall_type) for stall in stalls],
         "use": [str(stall.use) for stall in stalls],
         "entryEdge": [_EDGE_NAMES[stall.edge] for stall in stalls],
     }
     for name, values in words.items():
         attribute(prim, f"garage:stall:{name}", _TYPES.TokenArray, Vt.TokenArray(values))
-    attribute(prim, "garage:stall:square", _TYPES.Int2Array, _squares([stall.square for stall in stalls]))
-    attribute(prim, "garage:stall:accessSquare", _TYPES.Int2Array, _squares([stall.access_square for stall in stalls]))
+    _author_squares(prim, "garage:stall", [stall.square for stall in stalls])
+    _author_numbers(prim, "garage:stall:accessNode", [number_of[stall.access_square] for stall in stalls])
 
 
 def _outlines(stalls: Sequence[Stall]) -> NDArray[np.float64]:
@@ -125,8 +136,13 @@ def _sides_m(layout: Layout, squares: Sequence[Square]) -> NDArray[np.float64]:
     return sides
 
 
-def _squares(squares: Sequence[Square]) -> Vt.Vec2iArray:
-    return Vt.Vec2iArray.FromNumpy(np.array(squares, dtype=np.int32))
+def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: Sequence[Square]) -> None:
+    _author_numbers(prim, f"{namespace}:row", [row for row, _ in squares])
+    _author_numbers(prim, f"{namespace}:column", [col for _, col in squares])
+
+
+def _author_numbers(prim: Sdf.PrimSpec, name: str, numbers: Sequence[int]) -> None:
+    attribute(prim, name, _TYPES.IntArray, Vt.IntArray.FromNumpy(np.array(numbers, dtype=np.int32)))
 
 
 def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:

@@ -54,11 +54,13 @@ def curves(stage, name):
 
 def test_a_program_can_drive_on_the_stage_alone(stage, made):
     roads = nx.Graph()
-    for ring, node in zip(*curves(stage, "Nodes"), strict=True):
+    rings, nodes = curves(stage, "Nodes")
+    squares = [(node["row"], node["column"]) for node in nodes]
+    for ring, node, square in zip(rings, nodes, squares, strict=True):
         assert 5.0 < min(node["widths"]) <= max(node["widths"]) < 8.1
-        roads.add_node(tuple(node["square"]), kind=node["kind"], middle=ring.mean(axis=0))
+        roads.add_node(square, kind=node["kind"], middle=ring.mean(axis=0))
     for points, edge in zip(*curves(stage, "Edges"), strict=True):
-        start, end = tuple(edge["from"]), tuple(edge["to"])
+        start, end = squares[edge["from"]], squares[edge["to"]]
         assert points == pytest.approx(np.array([roads.nodes[start]["middle"], roads.nodes[end]["middle"]]), abs=1e-4)
         assert edge["length"] == pytest.approx(np.linalg.norm(points[1] - points[0]), abs=1e-4)
         assert 5.0 < edge["width"] < 8.1
@@ -77,7 +79,7 @@ def test_stalls_describe_themselves(stage, made):
     stalls = {stall.name: stall for stall in made.garage.layout.stalls}
     outlines = {said["id"]: (outline, said) for outline, said in zip(*curves(stage, "Stalls"), strict=True)}
     assert outlines.keys() == stalls.keys()
-    lanes = {tuple(node["square"]): ring.mean(axis=0) for ring, node in zip(*curves(stage, "Nodes"), strict=True)}
+    rings, nodes = curves(stage, "Nodes")
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
     found = []
     for prim in stage.Traverse():
@@ -91,21 +93,24 @@ def test_stalls_describe_themselves(stage, made):
             stall.use,
         )
         assert tuple(prim.GetAttribute("garage:stall:square").Get()) == stall.square
-        access = tuple(prim.GetAttribute("garage:stall:accessSquare").Get())
-        assert access == stall.access_square
+        assert tuple(prim.GetAttribute("garage:stall:accessSquare").Get()) == stall.access_square
         corners = np.array(prim.GetAttribute("garage:stall:corners").Get())
         box = cache.ComputeWorldBound(prim).ComputeAlignedRange()
         low, high = np.array(box.GetMin())[[0, 2]], np.array(box.GetMax())[[0, 2]]
         assert corners.min(axis=0) == pytest.approx(low, abs=1e-4)
         assert corners.max(axis=0) == pytest.approx(high, abs=1e-4)
-        # the mouth, the first two corners, lies on the edge to the lane that it names
-        mouth, rear = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
-        assert np.linalg.norm(mouth - lanes[access]) < np.linalg.norm(rear - lanes[access])
         # the curve of the stall says the same
         outline, said = outlines[stall.name]
         assert outline == pytest.approx(corners, abs=1e-5)
-        for name, value in said.items():
-            assert prim.GetAttribute(f"garage:stall:{name}").Get() == value
+        for name in ("type", "use", "entryEdge"):
+            assert prim.GetAttribute(f"garage:stall:{name}").Get() == said[name]
+        assert (said["row"], said["column"]) == stall.square
+        lane = nodes[said["accessNode"]]
+        assert (lane["row"], lane["column"]) == stall.access_square
+        # the mouth, the first two corners, lies on the edge to the lane that it names
+        mouth, rear = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
+        middle = rings[said["accessNode"]].mean(axis=0)
+        assert np.linalg.norm(mouth - middle) < np.linalg.norm(rear - middle)
     assert sorted(found) == sorted(stalls)
 
 
