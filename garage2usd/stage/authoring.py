@@ -1,11 +1,10 @@
 """Small steps of authoring Sdf specs, with no stage open."""
 
-import math
 from collections.abc import Iterable
 
-from pxr import Gf, Sdf, UsdGeom, UsdPhysics, Vt
+from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
-__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "over", "place", "set_units"]
+__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "set_units"]
 
 LABEL_TAXONOMY = "class"
 """Instance name of the semantic labels: ``semantics:labels:class``."""
@@ -26,29 +25,18 @@ def define(
     *,
     kind: str | None = None,
     label: str | None = None,
-    schemas: Iterable[str] = (),
 ) -> Sdf.PrimSpec:
-    """Define a prim, with its model kind, semantic class and further API schemas."""
+    """Define a prim, with its model kind and semantic class."""
     prim = Sdf.CreatePrimInLayer(layer, path)
     prim.specifier = Sdf.SpecifierDef
     prim.typeName = type_name
     if kind is not None:
         prim.kind = kind
-    applied = list(schemas)
     if label is not None:
-        applied.append(f"SemanticsLabelsAPI:{LABEL_TAXONOMY}")
+        schema = f"SemanticsLabelsAPI:{LABEL_TAXONOMY}"
+        prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=[schema]))
         name = f"semantics:labels:{LABEL_TAXONOMY}"
         attribute(prim, name, Sdf.ValueTypeNames.TokenArray, Vt.TokenArray([label]))
-    if applied:
-        prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=applied))
-    return prim
-
-
-def over(parent: Sdf.PrimSpec, relative: Sdf.Path) -> Sdf.PrimSpec:
-    """An over of a prim below a prim spec, which may be that of a variant."""
-    prim = parent
-    for name in str(relative).split("/"):
-        prim = prim.nameChildren.get(name) or Sdf.PrimSpec(prim, name, Sdf.SpecifierOver)
     return prim
 
 
@@ -62,17 +50,6 @@ def attribute(
     if name.startswith("garage:"):
         spec.custom = True
     return spec
-
-
-def place(prim: Sdf.PrimSpec, position_m: tuple[float, float, float], yaw_rad: float = 0.0) -> None:
-    """Translate a prim and turn it about +Y."""
-    # float3, not double3: three.js cannot read a double3 from a crate file
-    operation(prim, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*position_m))
-    names = ["translate"]
-    if yaw_rad:
-        operation(prim, "rotateY", Sdf.ValueTypeNames.Float, round(math.degrees(yaw_rad), 4))
-        names.append("rotateY")
-    order_operations(prim, names)
 
 
 def operation(prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object) -> Sdf.AttributeSpec:

@@ -13,12 +13,15 @@ from garage2usd.grid import Cell
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
+from garage2usd.stage.bounds import world_bounds_m
 
 __all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
 
 FRAMES_PER_SECOND = 24.0
 _EYE_M = 1.5
 _FOCAL_MM = 20.0
+_APERTURE_MM = (36.0, 20.25)
+_MARGIN = 1.05
 _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
@@ -63,9 +66,12 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
     _fixed(_camera(layer, path.AppendChild("Inside")), (x, _EYE_M, z), yaw_deg=yaw)
 
-    width, depth = layout.structure.column_edges_m[-1], layout.structure.row_edges_m[-1]
-    height = 1.15 * max(width * 20 / 36, depth * 20 / 20.25) + layout.ceiling_height_m
-    _fixed(_camera(layer, path.AppendChild("Above")), (width / 2, height, depth / 2), pitch_deg=-90.0)
+    of_building = np.flatnonzero(layout.placements.square[:, 0] < 0)
+    low, high = world_bounds_m(layout.placements, of_building)
+    (left, _, back), (right, top, front) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
+    distance = _MARGIN * _FOCAL_MM * max((right - left) / _APERTURE_MM[0], (front - back) / _APERTURE_MM[1])
+    over = ((left + right) / 2, top + distance, (back + front) / 2)
+    _fixed(_camera(layer, path.AppendChild("Above")), over, pitch_deg=-90.0)
     drive = define(layer, path.AppendChild(DRIVE_NAME), "Camera")
     reference = Sdf.Reference(f"./{asset_folder}/{DRIVE_NAME}.usdc")
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
@@ -125,9 +131,9 @@ def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
 def _camera(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.PrimSpec:
     camera = define(layer, path, "Camera")
     # focal length and aperture are tenths of a stage unit
-    lens = (("focalLength", _FOCAL_MM / 100), ("horizontalAperture", 0.36), ("verticalAperture", 0.2025))
-    for name, value in lens:
-        attribute(camera, name, Sdf.ValueTypeNames.Float, value)
+    lens = {"focalLength": _FOCAL_MM, "horizontalAperture": _APERTURE_MM[0], "verticalAperture": _APERTURE_MM[1]}
+    for name, value_mm in lens.items():
+        attribute(camera, name, Sdf.ValueTypeNames.Float, value_mm / 100)
     attribute(camera, "clippingRange", Sdf.ValueTypeNames.Float2, Gf.Vec2f(0.1, 2000.0))
     return camera
 

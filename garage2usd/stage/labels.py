@@ -1,17 +1,15 @@
 """Semantic classes, and the table of every labelled object: prim path, instance id, class, world bounds."""
 
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.layout import Layout, ObjectKind, Placement
-from garage2usd.layout.specs import Spec
-from garage2usd.stage.prototypes import asset_of
+from garage2usd.layout import Layout, ObjectKind
+from garage2usd.layout.table import KINDS
+from garage2usd.stage.bounds import world_bounds_m
 
-__all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table", "points_of"]
+__all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table"]
 
 OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.FLOOR: "floor",
@@ -81,43 +79,13 @@ def label_table(layout: Layout, paths: Sequence[str]) -> dict[str, list[dict[str
         ``path``, ``id`` from 1, ``class``, and ``min_m`` and ``max_m``, the corners of its bounds in the world.
     """
     names = list(CITYSCAPES)
-    objects = []
-    for index, placement in enumerate(layout.placements):
-        low, high = _bounds_m(placement)
-        objects.append(
-            {
-                "path": paths[index],
-                "id": index + 1,
-                "class": OBJECT_LABELS[placement.kind],
-                "min_m": np.round(low, 4).tolist(),
-                "max_m": np.round(high, 4).tolist(),
-            }
+    class_of_kind = [OBJECT_LABELS[kind] for kind in KINDS]
+    low, high = (np.round(corners, 4).tolist() for corners in world_bounds_m(layout.placements))
+    objects = [
+        {"path": path, "id": number, "class": class_of_kind[kind], "min_m": least, "max_m": most}
+        for number, (path, kind, least, most) in enumerate(
+            zip(paths, layout.placements.kind.tolist(), low, high, strict=True), 1
         )
+    ]
     classes = [{"name": name, "id": number, "cityscapes": CITYSCAPES[name]} for number, name in enumerate(names, 1)]
     return {"classes": classes, "objects": objects}
-
-
-def _bounds_m(placement: Placement) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    low, high = _turned_bounds_m(placement.spec, placement.yaw_rad)
-    position = np.array(placement.position_m)
-    return low + position, high + position
-
-
-@lru_cache(maxsize=65536)
-def _turned_bounds_m(spec: Spec, yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bounds of an asset's points, turned about +Y."""
-    points = points_of(spec)
-    cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
-    turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
-    return turned.min(axis=0), turned.max(axis=0)
-
-
-@lru_cache(maxsize=4096)
-def points_of(spec: Spec) -> NDArray[np.float64]:
-    """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3)."""
-    asset = asset_of(spec)
-    points = [part.points.astype(np.float64) for part in asset.parts]
-    if asset.light is not None:
-        x, y, z = asset.light.width_m / 2, asset.light.height_m, asset.light.depth_m / 2
-        points.append(np.array([(-x, y, -z), (-x, y, z), (x, y, -z), (x, y, z)]))
-    return np.concatenate(points)

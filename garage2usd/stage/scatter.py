@@ -12,7 +12,8 @@ from garage2usd.layout import ObjectTable
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.table import KINDS
 from garage2usd.stage.authoring import attribute, define, set_units
-from garage2usd.stage.labels import OBJECT_LABELS, points_of
+from garage2usd.stage.bounds import points_of
+from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import Prototype
 
 __all__ = ["write_instancer"]

@@ -1,0 +1,45 @@
+"""How far objects reach."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.layout import ObjectTable
+from garage2usd.layout.specs import Spec
+from garage2usd.stage.prototypes import asset_of
+
+__all__ = ["points_of", "world_bounds_m"]
+
+
+@lru_cache(maxsize=4096)
+def points_of(spec: Spec) -> NDArray[np.float64]:
+    """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3)."""
+    asset = asset_of(spec)
+    points = [part.points.astype(np.float64) for part in asset.parts]
+    if asset.light is not None:
+        x, y, z = asset.light.width_m / 2, asset.light.height_m, asset.light.depth_m / 2
+        points.append(np.array([(-x, y, -z), (-x, y, z), (x, y, -z), (x, y, z)]))
+    return np.concatenate(points)
+
+
+def world_bounds_m(
+    objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None)
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Least and greatest (x, y, z) in the world of the objects in some rows; float64, shape (n, 3) each."""
+    position_m, yaw_rad, spec = objects.position_m[rows], objects.yaw_rad[rows], objects.spec[rows]
+    yaws, yaw = np.unique(yaw_rad, return_inverse=True)
+    turns, turn = np.unique(spec.astype(np.int64) * len(yaws) + yaw, return_inverse=True)
+    corners = [
+        _turned_bounds_m(points_of(objects.specs[shape]), yaws[number])
+        for shape, number in zip(*(part.tolist() for part in np.divmod(turns, len(yaws))), strict=True)
+    ]
+    local = np.array(corners).reshape(-1, 2, 3)[turn]
+    return local[:, 0] + position_m, local[:, 1] + position_m
+
+
+def _turned_bounds_m(points: NDArray[np.float64], yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Bounds of points, turned about +Y."""
+    cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
+    turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
+    return turned.min(axis=0), turned.max(axis=0)
