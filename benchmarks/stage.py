@@ -4,6 +4,7 @@ Usage: python benchmarks/stage.py STEP ROWS COLS FORM FOLDER   (one measurement,
 """
 
 import json
+import pickle
 import resource
 import statistics
 import subprocess
@@ -16,6 +17,7 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.stage import StageForm
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
@@ -23,16 +25,18 @@ from garage2usd.stage import write_stage
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
+from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
 from garage2usd.stage.prototypes import name_prototypes
 from garage2usd.stage.tile_prototypes import TILES_FILE
 
 __all__ = ["stages"]
 
 ASSETS = "garage_assets"
+_LAYOUT_FILE = "layout.pickle"
 
 FORMS = ((7, 9, "instanced"), (40, 60, "instanced"), (40, 60, "nested"), (200, 300, "nested"))
 ROUNDS = {7: 5, 40: 3, 200: 3}
-STEPS = ("naive", "author", "export", "open", "traverse", "blender")
+STEPS = ("lay_out", "naive", "author", "export", "open", "traverse", "blender")
 _HUGE_ROWS = 200
 """From here on the naive way is measured once and Blender, which makes an object of each instance, not at all."""
 
@@ -46,14 +50,15 @@ def stages() -> str:
             "The garage's own layers (`.usdc`, assets apart) of combs of aisles, 60 % of the stalls with a car. Naive: "
             "the same objects by `UsdGeom` on an open stage, instanced, without lane graph, stall attributes and "
             "variants. Floor: `Layer.Export` of the authored layers. Open: `Usd.Stage.Open` with all assets. Blender: "
-            "`usd_import` of the whole stage. Peak memory of the whole process, the layout in it; medians."
+            "`usd_import` of the whole stage. Peak memory of the whole process: naive and authored read the finished "
+            "layout from a file; medians."
         ),
         "",
         (
-            "| squares | form | objects | file | naive | authored | naive / authored | floor | authored / floor "
-            "| peak: naive / authored | open | peak | traverse | Blender |"
+            "| squares | form | objects | laid out | peak | files | naive | authored | naive / authored | floor "
+            "| authored / floor | peak: naive / authored | open | peak | traverse | Blender |"
         ),
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     rows += [_row(*form) for form in FORMS]
     return "\n".join(rows)
@@ -64,7 +69,9 @@ def _row(rows: int, cols: int, form: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         for round_ in range(ROUNDS[rows]):
             for step in STEPS:
-                if rows >= _HUGE_ROWS and (step == "blender" or (step == "naive" and round_)):
+                if round_ and (step == "lay_out" or (step == "naive" and rows >= _HUGE_ROWS)):
+                    continue
+                if step == "blender" and rows >= _HUGE_ROWS:
                     continue
                 command = [sys.executable, __file__, step, str(rows), str(cols), form, folder]
                 run = subprocess.run(command, check=True, capture_output=True)  # noqa: S603
@@ -75,7 +82,8 @@ def _row(rows: int, cols: int, form: str) -> str:
     seconds = {step: of["seconds"] for step, of in middle.items() if of}
     blender = f"{seconds['blender']:.2f} s" if "blender" in seconds else "-"
     return (
-        f"| {rows} x {cols} | {form} | {middle['author']['objects']:,.0f} | {middle['author']['megabytes']:.2f} MB "
+        f"| {rows} x {cols} | {form} | {middle['lay_out']['objects']:,.0f} | {seconds['lay_out']:.1f} s "
+        f"| {middle['lay_out']['peak_mb']:.0f} MB | {middle['author']['megabytes']:.2f} MB "
         f"| {seconds['naive']:.2f} s | {seconds['author']:.2f} s | {seconds['naive'] / seconds['author']:.1f} "
         f"| {seconds['export']:.2f} s | {seconds['author'] / seconds['export']:.2f} "
         f"| {middle['naive']['peak_mb']:.0f} / {middle['author']['peak_mb']:.0f} MB "
@@ -94,49 +102,73 @@ def _garage(rows: int, cols: int, form: str) -> tuple[Layout, LaneGraph, GarageC
     return lay_out(structure, graph, config), graph, config
 
 
-def _measure(step: str, rows: int, cols: int, form: str, folder: Path) -> dict[str, float]:
-    path, naive = folder / "garage.usdc", folder / "naive.usdc"
-    if step == "naive":
-        naive.unlink(missing_ok=True)
-        layout, _, _ = _garage(rows, cols, form)
-        prototypes = name_prototypes(layout)
-        start = time.perf_counter()
-        _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, naive)
-        return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb()}
-    if step == "author":
-        return _author(rows, cols, form, path)
-    if step == "export":
-        files = [file for file in (path, path.parent / ASSETS / TILES_FILE) if file.exists()]
-        layers = [Sdf.Layer.FindOrOpen(str(file)) for file in files]
-        start = time.perf_counter()
-        for layer in layers:
-            layer.Export(str(folder / "exported.usdc"))
-        return {"seconds": time.perf_counter() - start}
-    if step == "blender":
-        import bpy  # noqa: PLC0415 - it brings a USD of its own, and is needed by this step alone
+def _naive(path: Path) -> dict[str, float]:
+    layout, _, _ = _read(path.parent)
+    prototypes = name_prototypes(layout)
+    start = time.perf_counter()
+    _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, path.with_stem("naive"))
+    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb()}
 
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-        start = time.perf_counter()
-        bpy.ops.wm.usd_import(filepath=str(path))
-        return {"seconds": time.perf_counter() - start, "objects": len(bpy.data.objects)}
+
+def _export(path: Path) -> dict[str, float]:
+    layers = [Sdf.Layer.FindOrOpen(str(file)) for file in _own_layers(path)]
+    start = time.perf_counter()
+    for layer in layers:
+        layer.Export(str(path.with_stem("exported")))
+    return {"seconds": time.perf_counter() - start}
+
+
+def _open(path: Path) -> dict[str, float]:
     start = time.perf_counter()
     stage = Usd.Stage.Open(str(path))
-    opened = time.perf_counter()
-    if step == "open":
-        return {"seconds": opened - start, "peak_mb": _peak_mb()}
+    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "layers": len(stage.GetUsedLayers())}
+
+
+def _traverse(path: Path) -> dict[str, float]:
+    stage = Usd.Stage.Open(str(path))
+    start = time.perf_counter()
     count = sum(1 for _ in stage.Traverse())
-    return {"seconds": time.perf_counter() - opened, "prims": count}
+    return {"seconds": time.perf_counter() - start, "prims": count}
 
 
-def _author(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
+def _blender(path: Path) -> dict[str, float]:
+    import bpy  # noqa: PLC0415 - it brings a USD of its own, and is needed by this step alone
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    start = time.perf_counter()
+    bpy.ops.wm.usd_import(filepath=str(path))
+    return {"seconds": time.perf_counter() - start, "objects": len(bpy.data.objects)}
+
+
+def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
+    """Lay a garage out, keep the layout for the other steps, and write its stage with all assets."""
+    start = time.perf_counter()
     layout, graph, config = _garage(rows, cols, form)
-    if not path.exists():  # the assets, once
-        write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
+    figures = {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "objects": len(layout.placements)}
+    (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
+    write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
+    return figures
+
+
+def _read(folder: Path) -> tuple[Layout, LaneGraph, GarageConfig]:
+    with (folder / _LAYOUT_FILE).open("rb") as file:
+        read: tuple[Layout, LaneGraph, GarageConfig] = pickle.load(file)  # noqa: S301 - our own
+    return read
+
+
+def _own_layers(path: Path) -> list[Path]:
+    """The layers that are authored for one garage alone."""
+    names = (TILES_FILE, LANE_GRAPH_FILE, "StallNumbers.usdc")
+    return [file for file in (path, *(path.parent / ASSETS / name for name in names)) if file.exists()]
+
+
+def _author(path: Path) -> dict[str, float]:
+    layout, graph, config = _read(path.parent)
     start = time.perf_counter()
     write_garage_layer(
         layout,
         graph,
-        arrangement=arrange(layout, nested=form == "nested"),
+        arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
         prototypes=name_prototypes(layout),
         asset_folder=ASSETS,
         metadata={},
@@ -145,9 +177,8 @@ def _author(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
         path=path,
     )
     seconds = time.perf_counter() - start
-    files = [path, path.parent / ASSETS / TILES_FILE]
-    size = sum(file.stat().st_size for file in files if file.exists()) / 1e6
-    return {"seconds": seconds, "peak_mb": _peak_mb(), "objects": len(layout.placements), "megabytes": size}
+    size = sum(file.stat().st_size for file in _own_layers(path)) / 1e6
+    return {"seconds": seconds, "peak_mb": _peak_mb(), "megabytes": size}
 
 
 def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> None:
@@ -174,6 +205,17 @@ def _peak_mb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
+_MEASURES = {
+    "naive": _naive,
+    "author": _author,
+    "export": _export,
+    "open": _open,
+    "traverse": _traverse,
+    "blender": _blender,
+}
+
+
 if __name__ == "__main__":
     step, rows, cols, form, folder = sys.argv[1:]
-    print(json.dumps(_measure(step, int(rows), int(cols), form, Path(folder))))
+    path = Path(folder) / "garage.usdc"
+    print(json.dumps(_lay_out(int(rows), int(cols), form, path) if step == "lay_out" else _MEASURES[step](path)))
