@@ -10,7 +10,7 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
-from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
+from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
@@ -20,6 +20,7 @@ from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.specs import Point
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
+from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
 from garage2usd.planning import dead_ends
 
 __all__ = ["Illuminance", "Layout", "ObjectKind", "ObjectTable", "Placement", "Stall", "StallUse", "lay_out"]
@@ -95,6 +96,8 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, tips)
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
+    zones = Zones(structure) if fittings.zones else None
+    stalls = with_numbers(stalls, zones)
     parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
     parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
 
@@ -115,6 +118,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *barriers(walls, fittings),
         *obstacles(structure, fittings),
         *pillars,
+        *(zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()),
     ]
     by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
     return Layout(structure, ObjectTable((*by_square, *shell)), stalls, fittings.ceiling_height_m, illuminance)

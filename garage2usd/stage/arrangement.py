@@ -21,6 +21,7 @@ _BUILDING_GROUPS = {
     ObjectKind.PORTAL: "Walls",
     ObjectKind.OBSTACLE: "Obstacles",
     ObjectKind.COLUMN: "Columns",
+    ObjectKind.ZONE_PLATE: "Columns",
     ObjectKind.RAMP: "Ramps",
     ObjectKind.SKY: "Ramps",
     ObjectKind.BARRIER: "Ramps",
@@ -30,7 +31,7 @@ _BUILDING_GROUPS = {
 _AT_CORNERS = {ObjectKind.COLUMN: "Column"}
 """Names of what stands where four tiles meet: where tiles share prototypes, it belongs to the first of them."""
 
-_SCATTERED = {ObjectKind.STALL_NUMBER: "StallNumbers"}
+_SCATTERED = {ObjectKind.STALL_NUMBER: "StallNumbers", ObjectKind.ZONE_PLATE: "ZonePlates"}
 """Instancer of each kind that makes all tiles different and that nothing can touch, where tiles share prototypes."""
 
 
