@@ -6,6 +6,7 @@ import numpy as np
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds
+from garage2usd.dead_ends import dead_ends
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, with_ramps
@@ -21,7 +22,6 @@ from garage2usd.layout.specs import Point
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
-from garage2usd.planning import dead_ends
 
 __all__ = ["Illuminance", "Layout", "ObjectKind", "ObjectTable", "Placement", "Stall", "StallUse", "lay_out"]
 
