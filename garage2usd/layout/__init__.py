@@ -1,5 +1,6 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,15 +83,6 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
-    # what lies on the lanes decides what is painted there
-    bumps = speed_bumps(grid, graph, fittings, seed=seed)
-    with_bump = {bump.square for bump in bumps}
-    crossings = set(core_doors(structure)) - with_bump
-    floors = [
-        floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
-        for tile in grid
-    ]
-
     stalls = stalls_of(grid, graph, bay)
     if config.plan.dead_ends is DeadEnds.STANDARD:
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
@@ -98,30 +90,41 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
-    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
-    parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
-
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
-    pillars = columns(structure, bay, fittings)
-    overhead = [
-        *(ceiling_panel(tile, fittings) for tile in grid),
-        *tubes,
-        *ducts(structure, grid, fittings),
-        *sprinklers(structure, grid, fittings),
-        *exit_signs(grid, graph, fittings),
-        *mirrors(grid, graph, pillars, bay.column_size_m, fittings),
-    ]
-    on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
-    walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
-    shell = [
-        *walls,
-        *barriers(walls, fittings),
-        *obstacles(structure, fittings),
-        *pillars,
-        *(zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()),
-    ]
-    by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
-    return Layout(structure, ObjectTable((*by_square, *shell)), stalls, fittings.ceiling_height_m, illuminance)
+
+    def parts() -> Iterator[Iterable[Placement]]:
+        # what lies on the lanes decides what is painted there
+        bumps = speed_bumps(grid, graph, fittings, seed=seed)
+        with_bump = {bump.square for bump in bumps}
+        crossings = set(core_doors(structure)) - with_bump
+        yield (
+            floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
+            for tile in grid
+        )
+        yield stall_panels(stalls)
+        yield wheel_stops(stalls, fittings)
+        yield parked_cars(stalls, config.parking, draws)
+        yield stall_numbers(stalls, fittings)
+        yield chargers(stalls)
+        yield bumps
+        yield no_parking_signs(grid, fittings, seed=seed)
+
+        pillars = columns(structure, bay, fittings)
+        yield (ceiling_panel(tile, fittings) for tile in grid)
+        yield tubes
+        yield ducts(structure, grid, fittings)
+        yield sprinklers(structure, grid, fittings)
+        yield exit_signs(grid, graph, fittings)
+        yield mirrors(grid, graph, pillars, bay.column_size_m, fittings)
+
+        walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
+        yield walls
+        yield barriers(walls, fittings)
+        yield obstacles(structure, fittings)
+        yield pillars
+        yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
+
+    return Layout(structure, ObjectTable(parts()), stalls, fittings.ceiling_height_m, illuminance)
 
 
 def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:
