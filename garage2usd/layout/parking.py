@@ -38,6 +38,7 @@ _COATINGS = {StallUse.EV: Surface.STALL_EV, StallUse.ACCESSIBLE: Surface.STALL_A
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     stalls: list[Stall] = []
+    squares = {square: square for square in grid.tiles}  # one tuple for each square
     for tile in grid:
         number = 0
         for row in grid.rows_by_square.get(tile.square, []):
@@ -50,7 +51,7 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
                         square=tile.square,
                         edge=row.edge,
                         stall_type=graph.stall_types[tile.square],
-                        access_square=(row.row + dr, row.col + dc),
+                        access_square=squares[row.row + dr, row.col + dc],
                         centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
                         yaw_rad=edge_yaw_rad(row.edge),
                         width_m=bay.stall_width_m,
