@@ -16,16 +16,15 @@ _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
 _HALF_PILLAR_M = 0.045
 _MIN_STATION_STEP_M = 0.008
-_MAX_STATION_STEP_M = 0.24
+_MAX_STATION_STEP_M = 0.30
 _END_INSET_M = 0.010
 """Room for plates and lamps between the shell's ends and the footprint."""
 _END_STEPS_M = (0.012, 0.03, 0.06, 0.11, 0.17)
 _BONNET_CROWN_M = 0.045
 _END_RUN_M = 0.42
-_SAME_M = 1e-6
 _BED_FLOOR_M = 0.82
 _PAN_TOLERANCE_M = 0.025
-_SIDE_TOLERANCE_M = 0.0015
+_SIDE_TOLERANCE_M = 0.002
 # points of a ring, see `Shell._make_rings`: faces below the sill are floor pan, one band is side window
 _SILL, _BELT, _ROOF_EDGE = 4, 10, 12
 _SIDE_HEIGHT = (0.0, 0.12, 0.35, 0.58, 0.80, 0.94, 1.0)
@@ -193,15 +192,18 @@ class Contour:
     def __init__(self, line: NDArray[np.float64], *, rear: bool) -> None:
         steps = np.diff(line, axis=0)
         lengths = np.linalg.norm(steps, axis=1)
-        kept = np.concatenate(([True], lengths > _SAME_M))
-        self.line = line[kept]
-        steps, lengths = steps[kept[1:]], lengths[kept[1:]]
+        self.line = line
         self.arc_m = np.concatenate(([0.0], np.cumsum(lengths)))
         """Metres along the line of each of its points."""
         outwards = steps[:, ::-1] * ((-1.0, 1.0) if rear else (1.0, -1.0)) / lengths[:, None]
         self._normals = np.concatenate([outwards[:1], outwards[:-1] + outwards[1:], outwards[-1:]])
         self._normals[0, 0] = 0.0
         self._normals /= np.linalg.norm(self._normals, axis=1, keepdims=True)
+
+    @property
+    def corner_m(self) -> float:
+        """Metres along the line to where the flat end becomes the side."""
+        return float(self.arc_m[len(_BONNET)])
 
     def arc_at_x(self, x: float) -> float:
         """Metres along the line to where its X is `x`; negative on the left."""
@@ -211,6 +213,11 @@ class Contour:
         """Metres along the line to where it is `depth_m` behind its middle."""
         depths = np.abs(self.line[:, 1] - self.line[0, 1])
         return float(np.interp(depth_m, depths, self.arc_m))
+
+    def arc_at_points(self, numbers: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Metres along the line to points of it by number; negative on the left for negative ones."""
+        arcs: NDArray[np.float64] = np.sign(numbers) * self.arc_m[np.abs(numbers)]
+        return arcs
 
     def place(self, arc_m: NDArray[np.float64], skin_m: float) -> NDArray[np.float64]:
         """X and Z, shape (n, 2), of places along the line, `skin_m` outside it."""
@@ -280,10 +287,11 @@ class Shell:
         """Height of the upper edge of nose or tail."""
         return float(self.points[-1 if rear else 0, _BELT, 1])
 
-    def end_heights(self, *, rear: bool) -> NDArray[np.float64]:
-        """Heights of the rows of points on nose or tail, upwards."""
-        heights: NDArray[np.float64] = self._caps[rear][:-1, 0, 1]
-        return heights
+    def end_heights(self, *, rear: bool, around_corner: bool) -> NDArray[np.float64]:
+        """Heights at which nose or tail bend, upwards; around their corners they are others."""
+        end, corner = (-1, -len(_END_STEPS_M)) if rear else (0, len(_END_STEPS_M))
+        heights = [self.points[i, _SILL : _BELT + 1, 1] for i in ((end, corner) if around_corner else (end,))]
+        return np.sort(np.concatenate(heights))
 
     def bumper_top(self, *, rear: bool) -> float:
         """Height at which nose or tail begins to step back above the bumper."""

@@ -14,15 +14,16 @@ __all__ = ["car"]
 
 _TYRE_WIDTH_M = 0.21
 _PLATE_M = (0.52, 0.11)
-_SKIN_M = 0.004
-_LENS_SKIN_M = 0.010
+_SKIN_M = 0.006
+_HOUSING_SKIN_M = 0.008
+_LENS_SKIN_M = 0.012
 _SLAB_M = 0.012
 _ARCH_LIP_M = 0.03
 _SEAM_M = 0.007
-_COLUMN_M = 0.015
+_COLUMN_M = 0.01
 """Least width of the columns at the ends of what is put on nose or tail."""
-_ROW_M = 0.004
-_TURN_TOLERANCE_M = 0.0016
+_ROW_M = 0.006
+_TURN_TOLERANCE_M = 0.0012
 _FLATNESS_M = 0.001
 
 Faces = NDArray[np.float64]
@@ -93,18 +94,21 @@ def _slab(outer: NDArray[np.float64], inner: NDArray[np.float64]) -> Faces:
 def _end_patch(shell: Shell, rows: Sequence[Row], *, rear: bool, skin_m: float = _SKIN_M) -> Faces:
     """A slab that follows nose or tail around its corners; its rows go upwards."""
     low, high = rows[0][0], rows[-1][0]
-    between = shell.end_heights(rear=rear)
-    between = between[(between > low + _ROW_M) & (between < high - _ROW_M)]
-    heights = np.unique(np.concatenate([[y for y, _, _ in rows], between]))
+    wide = shell.contour(high, rear=rear)
+    around_corner = rows[-1][2](wide) > wide.corner_m
+    between = shell.end_heights(rear=rear, around_corner=around_corner)
+    outline = np.array([y for y, _, _ in rows])
+    apart = np.abs(between[:, None] - outline).min(axis=1) > _ROW_M
+    heights = np.sort(np.concatenate([outline, between[apart & (between > low) & (between < high)]]))
     contours = [shell.contour(y, rear=rear) for y in heights.tolist()]
     ends = [_ends_at(rows, y, contour) for y, contour in zip(heights.tolist(), contours, strict=True)]
-    middle = len(heights) // 2
-    shares = _columns(contours[middle], *ends[middle])
+    turns = _turns(contours[len(heights) // 2], min(f for f, _ in ends), max(e for _, e in ends), skin_m)
     grids = []
     for skin in (skin_m, -_SLAB_M):
-        grid = np.empty((len(heights), len(shares), 3))
+        grid = np.empty((len(heights), len(turns) + 2, 3))
         for row, (contour, (first, last)) in enumerate(zip(contours, ends, strict=True)):
-            grid[row, :, [0, 2]] = contour.place(first + (last - first) * shares, skin).T
+            arcs = np.array([first, *np.clip(contour.arc_at_points(turns), first, last), last])
+            grid[row, :, [0, 2]] = contour.place(arcs, skin).T
             grid[row, :, 1] = heights[row]
         grids.append(grid if rear else grid[:, ::-1])
     return _slab(grids[0], grids[1])
@@ -119,13 +123,15 @@ def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, fl
     return first, low[2](contour) * (1 - share) + high[2](contour) * share
 
 
-def _columns(contour: Contour, first: float, last: float) -> NDArray[np.float64]:
-    """Where between two places of a contour a patch has columns, 0 to 1: where the contour turns."""
-    turns = np.concatenate([-contour.arc_m[:0:-1], contour.arc_m])
-    arcs = np.array([first, *turns[(turns > first + _COLUMN_M) & (turns < last - _COLUMN_M)], last])
-    arcs = arcs[needed(arcs, contour.place(arcs, 0.0), _TURN_TOLERANCE_M)]
-    shares: NDArray[np.float64] = (arcs - first) / (last - first)
-    return shares
+def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArray[np.int64]:
+    """The numbers of a contour's points between two places at which a patch has columns, lest it cut corners."""
+    numbers = np.arange(1 - len(contour.line), len(contour.line))
+    arcs = contour.arc_at_points(numbers)
+    numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]
+    arcs = np.array([first, *contour.arc_at_points(numbers), last])
+    kept = needed(arcs, contour.place(arcs, 0.0), skin_m / 4)
+    chosen: NDArray[np.int64] = numbers[np.array(kept[1:-1], dtype=int) - 1]
+    return chosen
 
 
 def _ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float) -> Faces:
@@ -167,7 +173,7 @@ class _HeadLamps:
             (top - 0.055, _x(0.50 * half), _depth(0.33)),
             (top, _x(0.52 * half), _depth(0.37)),
         ]
-        return both_sides(_end_patch(self._shell, rows, rear=False, skin_m=0.006))
+        return both_sides(_end_patch(self._shell, rows, rear=False, skin_m=_HOUSING_SKIN_M))
 
     def lights(self) -> Faces:
         shell, half, top = self._shell, self._half, self._top
@@ -187,7 +193,7 @@ class _TailLamps:
         half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.03
         tall = shell.shape.upright_tail
         self._height, self._inner = (0.36, 0.77 * half) if tall else (0.155, 0.48 * half)
-        self._wrap, self._top = (0.17, top) if tall else (0.27, top)
+        self._wrap, self._top = shell.shape.bow_m[1] + (0.12 if tall else 0.20), top
 
     def _patch(self, low: float, high: float, edge_m: float, *, skin_m: float, inner_m: float = 0.0) -> Faces:
         """Part of the lamps between two shares of their height, an edge's width within their outline."""
@@ -199,7 +205,7 @@ class _TailLamps:
         return both_sides(_end_patch(self._shell, rows, rear=True, skin_m=skin_m))
 
     def housings(self) -> Faces:
-        return self._patch(0.0, 1.0, 0.0, skin_m=0.005)
+        return self._patch(0.0, 1.0, 0.0, skin_m=_HOUSING_SKIN_M)
 
     def lenses(self) -> Faces:
         low, high = (0.34, 0.48) if self._shell.shape.upright_tail else (0.20, 0.44)
@@ -426,7 +432,11 @@ def _wheels(body: CarBody) -> list[Part]:
     hub = lathe_faces(
         [(half - 0.08, 0.075), (half - 0.016, 0.066), (half - 0.004, 0.04), (half - 0.004, 0.0)], segments=12
     )
-    spoke = np.array(box_faces((half - 0.045, 0.04, -0.02), (half - 0.012, rim - 0.012, 0.02), without="lbt"))
+    # a spoke is a wedge: its face, and two sides to an edge behind
+    (near, far), (back, face) = (0.04, rim - 0.012), (half - 0.045, half - 0.012)
+    left, right = ([(face, far, z), (face, near, z)] for z in (-0.02, 0.02))
+    edge = [(back, far, 0.0), (back, near, 0.0)]
+    spoke = np.array([[*a, *b[::-1]] for a, b in ((right, left), (left, edge), (edge, right))])
     spokes = []
     for angle in np.arange(10) * (2 * np.pi / 10) + np.tile((0.09, -0.09), 5):
         cos, sin = np.cos(angle), np.sin(angle)
