@@ -38,6 +38,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.size_m, spec.size_m)
         case s.TubeLightSpec():
             return _centred(spec.length_m, spec.width_m)
+        case s.BeamSpec():
+            return _centred(spec.width_m, spec.length_m)
+        case s.BeamNodeSpec():
+            return shapely.union_all([shapely.box(*box) for box in spec.boxes])
         case s.DuctSpec():
             return _centred(spec.width_m, spec.length_m)
         case s.SpeedBumpSpec():

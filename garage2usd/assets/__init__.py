@@ -1,7 +1,16 @@
 """Everything that is placed in a garage, as plain meshes, materials and textures, free of any file format."""
 
 from garage2usd.assets.access import barrier, ramp, sky
-from garage2usd.assets.building import ceiling_panel, column, obstacle_block, portal_wall, wall_panel, wall_post
+from garage2usd.assets.building import (
+    beam,
+    beam_node,
+    ceiling_panel,
+    column,
+    obstacle_block,
+    portal_wall,
+    wall_panel,
+    wall_post,
+)
 from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import charger, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
@@ -22,6 +31,8 @@ __all__ = [
     "RectLight",
     "bake_textures",
     "barrier",
+    "beam",
+    "beam_node",
     "car",
     "ceiling_panel",
     "charger",

@@ -1,5 +1,7 @@
 """Lights, ducts, speed bumps, wheel stops and signs."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part, ring_faces
@@ -39,8 +41,18 @@ def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asse
     )
 
 
-def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float) -> Asset:
-    """A rectangular duct with flanges, hangers and an outlet, long along Z; origin in the middle of its top."""
+def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float, hangers_at_m: Sequence[float]) -> Asset:
+    """A rectangular duct with flanges, hangers and an outlet, long along Z; origin in the middle of its top.
+
+    Parameters
+    ----------
+    length_m, width_m, height_m
+        Its measures.
+    hanger_m
+        Length of the hangers from its top to the ceiling.
+    hangers_at_m
+        Places of the hangers along Z.
+    """
     x, z = width_m / 2, length_m / 2
     body = box_faces((-x, -height_m, -z), (x, 0, z))
     count = max(1, round(length_m / _FLANGE_PITCH_M))
@@ -50,13 +62,11 @@ def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float) -
         middle = -z + (index + 0.5) * length_m / count
         f = _FLANGE_M
         flanges += ring_faces((-x, -height_m, middle - 0.02), (x, 0, middle + 0.02), f)
-        if index % 2 == 0:
-            for side in (-x - 0.05, x + 0.03):
-                rod = box_faces((side, -height_m - f - 0.03, middle + 0.05), (side + 0.02, hanger_m, middle + 0.07))
-                hangers += rod
-            hangers += box_faces(
-                (-x - 0.09, -height_m - f - 0.05, middle + 0.04), (x + 0.09, -height_m - f - 0.02, middle + 0.08)
-            )
+    for at in hangers_at_m:
+        bar_low, bar_high = -height_m - _FLANGE_M - 0.05, -height_m - _FLANGE_M - 0.02
+        hangers += box_faces((-x - 0.09, bar_low, at - 0.02), (x + 0.09, bar_high, at + 0.02))
+        for side in (-x - 0.05, x + 0.03):
+            hangers += box_faces((side, bar_high, at - 0.01), (side + 0.02, hanger_m, at + 0.01))
     parts = [
         make_part("Body", body, "steel_galvanised", collider=Collider.BOX),
         make_part("Flanges", flanges, "steel_galvanised"),

@@ -1,37 +1,46 @@
 """Sprinkler pipes, exit signs and traffic mirrors."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part
 
 __all__ = ["exit_sign", "mirror", "sprinkler"]
 
-_CLAMP_PITCH_M = 2.7
 _CLAMP_M = 0.008
 _HEAD_M = 0.07
 _SIGN_WIDTH_M = 0.8
 _SIGN_DEPTH_M = 0.05
 
 
-def sprinkler(length_m: float, radius_m: float, drop_m: float, *, heads: int) -> Asset:
-    """A red pipe on rods with pendent heads, long along Z; origin over its middle, on the ceiling."""
+def sprinkler(
+    length_m: float, radius_m: float, drop_m: float, *, rods_at_m: Sequence[float], heads_at_m: Sequence[float]
+) -> Asset:
+    """A red pipe on rods with pendent heads, long along Z; origin over its middle, on the ceiling.
+
+    Parameters
+    ----------
+    length_m, radius_m
+        Of the pipe.
+    drop_m
+        From the ceiling down to the pipe's middle.
+    rods_at_m, heads_at_m
+        Places of the rods and of the heads along Z.
+    """
     half = length_m / 2
     profile = [(-half, 0.0), (-half, radius_m), (half, radius_m), (half, 0.0)]
     # from X to Z, by a cyclic change of the axes that keeps the winding
     pipe = [face[:, [1, 2, 0]] + np.array((0.0, -drop_m, 0.0)) for face in lathe_faces(profile, segments=12)]
     rods: list[Face] = []
-    count = max(1, round(length_m / _CLAMP_PITCH_M))
-    for index in range(count):
-        z = -half + (index + 0.5) * length_m / count
+    for z in rods_at_m:
         rods += box_faces((-_CLAMP_M, -drop_m + radius_m * 0.9, z - _CLAMP_M), (_CLAMP_M, 0.0, z + _CLAMP_M))
-    parts = [
-        make_part("Pipe", pipe, "pipe_red", collider=Collider.BOX),
-        make_part("Rods", rods, "steel_dark"),
-    ]
-    if heads:
+    parts = [make_part("Pipe", pipe, "pipe_red", collider=Collider.BOX)]
+    if rods:
+        parts.append(make_part("Rods", rods, "steel_dark"))
+    if heads_at_m:
         foot, brass = -drop_m - radius_m, []
-        for index in range(heads):
-            z = -half + (index + 0.5) * length_m / heads
+        for z in heads_at_m:
             brass += box_faces((-0.012, foot - _HEAD_M + 0.006, z - 0.012), (0.012, foot + 0.004, z + 0.012))
             brass += box_faces((-0.03, foot - _HEAD_M, z - 0.03), (0.03, foot - _HEAD_M + 0.005, z + 0.03))
         parts.append(make_part("Heads", brass, "brass"))

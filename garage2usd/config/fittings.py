@@ -28,10 +28,12 @@ class FittingsConfig(Settings):
     """Wanted mean direct illuminance on the lanes' floor; tubes get the luminance for it."""
     stall_lux: float = Field(30.0, gt=0, le=2000)
     """The same on the stalls."""
+    beams: bool = True
+    """Beams from column to column, as deep as the room that ducts and pipes leave over the clear height."""
     ducts: bool = True
-    """Ventilation ducts along the aisles."""
+    """Ventilation ducts along the aisles, where they find room over the clear height."""
     sprinklers: bool = True
-    """Sprinkler pipes along the aisles."""
+    """Sprinkler pipes along the aisles, where they find room."""
     exit_signs: bool = True
     """Lit signs at junctions, where the ceiling leaves room over the clear height."""
     mirrors: bool = True

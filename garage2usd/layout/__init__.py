@@ -10,13 +10,15 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
+from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.fittings import no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
-from garage2usd.layout.overhead import exit_signs, mirrors, sprinklers
+from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout.services import ducts, sprinklers
 from garage2usd.layout.specs import Point
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
@@ -100,13 +102,15 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
     pillars = columns(structure, bay, fittings)
+    levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
     overhead = [
         *(ceiling_panel(tile, fittings) for tile in grid),
+        *beams(structure, bay, ceiling, levels.beam_depth_m),
         *tubes,
-        *ducts(structure, grid, fittings),
-        *sprinklers(structure, grid, fittings),
-        *exit_signs(grid, graph, fittings),
-        *mirrors(grid, graph, pillars, bay.column_size_m, fittings),
+        *ducts(structure, grid, ceiling, levels),
+        *sprinklers(structure, grid, ceiling, levels),
+        *exit_signs(grid, graph, fittings, levels),
+        *mirrors(grid, graph, pillars, bay.column_size_m, fittings, levels),
     ]
     on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
     walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)

@@ -22,6 +22,7 @@ class ObjectKind(StrEnum):
     OBSTACLE = "obstacle"
     COLUMN = "column"
     LIGHT = "light"
+    BEAM = "beam"
     DUCT = "duct"
     SPEED_BUMP = "speed_bump"
     WHEEL_STOP = "wheel_stop"

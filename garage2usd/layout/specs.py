@@ -6,6 +6,9 @@ from functools import cached_property
 
 __all__ = [
     "BarrierSpec",
+    "BeamNodeSpec",
+    "BeamSpec",
+    "Box",
     "CarSpec",
     "CeilingSpec",
     "ChargerSpec",
@@ -38,6 +41,8 @@ __all__ = [
 Point = tuple[float, float]
 Polygon = tuple[Point, ...]
 """Corners (x, z) in metres from the panel's centre, without holes."""
+Box = tuple[float, float, float, float]
+"""An axis-aligned rectangle: left, top, right, bottom, in x and z."""
 
 
 class Surface(StrEnum):
@@ -213,6 +218,23 @@ class TubeLightSpec:
 
 
 @dataclass(frozen=True)
+class BeamSpec:
+    """A beam under the ceiling, long along Z; origin in the middle of its top."""
+
+    length_m: float
+    width_m: float
+    depth_m: float
+
+
+@dataclass(frozen=True)
+class BeamNodeSpec:
+    """Where beams meet without a column: rectangles that touch, `depth_m` deep; origin on the ceiling."""
+
+    boxes: tuple[Box, ...]
+    depth_m: float
+
+
+@dataclass(frozen=True)
 class DuctSpec:
     """A rectangular duct on hangers, long along Z; origin in the middle of its top.
 
@@ -220,12 +242,15 @@ class DuctSpec:
     ----------
     hanger_m
         Length of the hangers from its top to the ceiling.
+    hangers_at_m
+        Places of the hangers along it, from its middle.
     """
 
     length_m: float
     width_m: float
     height_m: float
     hanger_m: float
+    hangers_at_m: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -270,12 +295,21 @@ class Turn(StrEnum):
 
 @dataclass(frozen=True)
 class SprinklerSpec:
-    """A sprinkler pipe, long along Z; origin over its middle, on the ceiling; `drop_m` down to the pipe's middle."""
+    """A sprinkler pipe, long along Z; origin over its middle, on the ceiling.
+
+    Attributes
+    ----------
+    drop_m
+        From the ceiling down to the pipe's middle.
+    rods_at_m, heads_at_m
+        Places of its rods and of its heads along it, from its middle.
+    """
 
     length_m: float
     radius_m: float
     drop_m: float
-    heads: int
+    rods_at_m: tuple[float, ...]
+    heads_at_m: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -314,6 +348,8 @@ Spec = (
     | ObstacleSpec
     | ColumnSpec
     | TubeLightSpec
+    | BeamSpec
+    | BeamNodeSpec
     | DuctSpec
     | SpeedBumpSpec
     | WheelStopSpec

@@ -172,8 +172,20 @@ def _(spec: s.TubeLightSpec) -> Asset:
 
 
 @_make.register
+def _(spec: s.BeamSpec) -> Asset:
+    return assets.beam(spec.length_m, spec.width_m, spec.depth_m)
+
+
+@_make.register
+def _(spec: s.BeamNodeSpec) -> Asset:
+    return assets.beam_node(spec.boxes, spec.depth_m)
+
+
+@_make.register
 def _(spec: s.DuctSpec) -> Asset:
-    return assets.duct(spec.length_m, spec.width_m, spec.height_m, hanger_m=spec.hanger_m)
+    return assets.duct(
+        spec.length_m, spec.width_m, spec.height_m, hanger_m=spec.hanger_m, hangers_at_m=spec.hangers_at_m
+    )
 
 
 @_make.register
@@ -212,7 +224,9 @@ _ARROW_DEG = {s.Turn.LEFT: -90.0, s.Turn.AHEAD: 0.0, s.Turn.RIGHT: 90.0}
 
 @_make.register
 def _(spec: s.SprinklerSpec) -> Asset:
-    return assets.sprinkler(spec.length_m, spec.radius_m, spec.drop_m, heads=spec.heads)
+    return assets.sprinkler(
+        spec.length_m, spec.radius_m, spec.drop_m, rods_at_m=spec.rods_at_m, heads_at_m=spec.heads_at_m
+    )
 
 
 @_make.register

@@ -162,6 +162,7 @@ def test_settings_decide_what_is_there():
         IRREGULAR,
         GarageConfig(
             fittings={
+                "beams": False,
                 "ducts": False,
                 "wheel_stops": False,
                 "speed_bump_rate": 0,
@@ -177,6 +178,7 @@ def test_settings_decide_what_is_there():
         ),
     ).counts()
     empty = {
+        "beam",
         "duct",
         "wheel_stop",
         "speed_bump",
