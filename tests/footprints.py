@@ -42,7 +42,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.width_m, spec.length_m)
         case s.BeamNodeSpec():
             return shapely.union_all([shapely.box(*box) for box in spec.boxes])
-        case s.DuctSpec():
+        case s.DuctSpec() | s.CableTraySpec():
             return _centred(spec.width_m, spec.length_m)
         case s.SpeedBumpSpec():
             return _centred(spec.length_m, 0.35)

@@ -13,7 +13,8 @@ from garage2usd.layout import ObjectKind
 from garage2usd.layout.specs import CarSpec
 from garage2usd.stage.prototypes import asset_of
 
-HANGING = (ObjectKind.LIGHT, ObjectKind.BEAM, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN)
+SERVICES = (ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.SPRINKLER)
+HANGING = (ObjectKind.LIGHT, ObjectKind.BEAM, *SERVICES, ObjectKind.EXIT_SIGN)
 STANDING = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
 SOLID = (*HANGING, *STANDING, ObjectKind.MIRROR, ObjectKind.BARRIER, ObjectKind.CAR)
 TOUCH_M = 1e-4

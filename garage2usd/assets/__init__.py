@@ -17,7 +17,7 @@ from garage2usd.assets.floor import Marking, floor_panel
 from garage2usd.assets.glyphs import floor_digit
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
-from garage2usd.assets.overhead import exit_sign, mirror, sprinkler
+from garage2usd.assets.overhead import cable_tray, exit_sign, mirror, sprinkler
 from garage2usd.assets.textures import bake_textures, texture_folder
 
 __all__ = [
@@ -33,6 +33,7 @@ __all__ = [
     "barrier",
     "beam",
     "beam_node",
+    "cable_tray",
     "car",
     "ceiling_panel",
     "charger",

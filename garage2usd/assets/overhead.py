@@ -1,4 +1,4 @@
-"""Sprinkler pipes, exit signs and traffic mirrors."""
+"""Sprinkler pipes, cable trays, exit signs and traffic mirrors."""
 
 from collections.abc import Sequence
 
@@ -6,10 +6,14 @@ import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part
 
-__all__ = ["exit_sign", "mirror", "sprinkler"]
+__all__ = ["cable_tray", "exit_sign", "mirror", "sprinkler"]
 
 _CLAMP_M = 0.008
 _HEAD_M = 0.07
+_RAIL_M = 0.015
+_RUNG_PITCH_M = 0.3
+_CABLES_M = ((-0.115, 0.035), (-0.07, 0.025), (-0.035, 0.025), (0.03, 0.03), (0.07, 0.02))
+"""Left side and thickness of each cable on a tray."""
 _SIGN_WIDTH_M = 0.8
 _SIGN_DEPTH_M = 0.05
 
@@ -45,6 +49,45 @@ def sprinkler(
             brass += box_faces((-0.03, foot - _HEAD_M, z - 0.03), (0.03, foot - _HEAD_M + 0.005, z + 0.03))
         parts.append(make_part("Heads", brass, "brass"))
     return Asset("sprinkler", tuple(parts))
+
+
+def cable_tray(length_m: float, width_m: float, height_m: float, drop_m: float, *, rods_at_m: Sequence[float]) -> Asset:
+    """A ladder of steel with cables on it, hung on bars between rods, long along Z; origin on the ceiling over it.
+
+    Parameters
+    ----------
+    length_m, width_m, height_m
+        Of the ladder.
+    drop_m
+        From the ceiling down to the ladder's bottom.
+    rods_at_m
+        Places of the pairs of rods along Z.
+    """
+    x, z, low = width_m / 2, length_m / 2, -drop_m
+    rails: list[Face] = []
+    for left, right in ((-x, -x + _RAIL_M), (x - _RAIL_M, x)):
+        rails += box_faces((left, low, -z), (right, low + height_m, z))
+    count = max(1, round(length_m / _RUNG_PITCH_M))
+    rungs: list[Face] = []
+    for index in range(count):
+        middle = -z + (index + 0.5) * length_m / count
+        rungs += box_faces((-x + _RAIL_M, low + 0.005, middle - 0.02), (x - _RAIL_M, low + 0.015, middle + 0.02))
+    cables: list[Face] = []
+    for left, width in _CABLES_M:
+        cables += box_faces((left, low + 0.015, -z), (left + width, low + 0.015 + width, z))
+    parts = [
+        make_part("Rails", rails, "steel_galvanised", collider=Collider.BOX),
+        make_part("Rungs", rungs, "steel_galvanised"),
+        make_part("Cables", cables, "rubber_black"),
+    ]
+    hangers: list[Face] = []
+    for at in rods_at_m:
+        hangers += box_faces((-x - 0.04, low - 0.02, at - 0.02), (x + 0.04, low, at + 0.02))
+        for side in (-x - 0.03, x + 0.02):
+            hangers += box_faces((side, low, at - 0.005), (side + 0.01, 0.0, at + 0.005))
+    if hangers:
+        parts.append(make_part("Hangers", hangers, "steel_dark"))
+    return Asset("cable_tray", tuple(parts))
 
 
 def exit_sign(turn_deg: float, top_m: float, height_m: float) -> Asset:

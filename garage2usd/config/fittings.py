@@ -29,9 +29,11 @@ class FittingsConfig(Settings):
     stall_lux: float = Field(30.0, gt=0, le=2000)
     """The same on the stalls."""
     beams: bool = True
-    """Beams from column to column, as deep as the room that ducts and pipes leave over the clear height."""
+    """Beams from column to column, as deep as the room that services leave over the clear height."""
     ducts: bool = True
     """Ventilation ducts along the aisles, where they find room over the clear height."""
+    cable_trays: bool = True
+    """Cable trays along the aisles, where they find room."""
     sprinklers: bool = True
     """Sprinkler pipes along the aisles, where they find room."""
     exit_signs: bool = True

@@ -18,7 +18,7 @@ from garage2usd.layout.lighting import Illuminance, light_up
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
-from garage2usd.layout.services import ducts, sprinklers
+from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.specs import Point
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
@@ -108,6 +108,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         *beams(structure, bay, ceiling, levels.beam_depth_m),
         *tubes,
         *ducts(structure, grid, ceiling, levels),
+        *cable_trays(structure, grid, ceiling, levels),
         *sprinklers(structure, grid, ceiling, levels),
         *exit_signs(grid, graph, fittings, levels),
         *mirrors(grid, graph, pillars, bay.column_size_m, fittings, levels),

@@ -13,18 +13,30 @@ from garage2usd.lanes import Square
 from garage2usd.layout.placement import ObjectKind, Placement
 from garage2usd.layout.specs import BeamNodeSpec, BeamSpec, Box, Point
 
-__all__ = ["DUCT_HEIGHT_M", "DUCT_WIDTH_M", "HEAD_M", "PIPE_RADIUS_M", "CeilingLevels", "beams", "ceiling_levels"]
+__all__ = [
+    "DUCT_HEIGHT_M",
+    "DUCT_WIDTH_M",
+    "PIPE_RADIUS_M",
+    "TRAY_HEIGHT_M",
+    "TRAY_WIDTH_M",
+    "CeilingLevels",
+    "beams",
+    "ceiling_levels",
+]
 
 _QUARTER_TURN = np.pi / 2
 _BEAM_STEP_M = 0.05
 _LEAST_BEAM_M, _MOST_BEAM_M = 0.2, 0.6
 _BEAM_TO_COLUMN = 2 / 3
 PIPE_RADIUS_M = 0.03
-HEAD_M = 0.07
-"""How far a sprinkler's head hangs below its pipe."""
+_HEAD_M = 0.07
 DUCT_WIDTH_M, DUCT_HEIGHT_M = 0.8, 0.3
+TRAY_WIDTH_M, TRAY_HEIGHT_M = 0.3, 0.06
+_TRAY_BAR_M = 0.02
 _FLANGE_M, _DUCT_BAR_M = 0.025, 0.05
 _GAP_M = 0.02
+_BELOW_TUBES_M = 0.13
+_TRAY_LAYER_M = _GAP_M + TRAY_HEIGHT_M + _TRAY_BAR_M
 _PIPE_LAYER_M = _GAP_M + 2 * PIPE_RADIUS_M
 _DUCT_LAYER_M = _GAP_M + DUCT_HEIGHT_M + 2 * _FLANGE_M + _DUCT_BAR_M
 _SIGN_TOP_M, _SIGN_BELOW_BEAM_M = 0.58, 0.18
@@ -40,6 +52,8 @@ class CeilingLevels:
     ----------
     beam_depth_m
         Depth of the beams; 0 without any.
+    tray_drop_m
+        Down to the bottom of the cable trays.
     pipe_drop_m
         Down to the middle of the sprinkler pipes.
     duct_top_m
@@ -49,28 +63,33 @@ class CeilingLevels:
     """
 
     beam_depth_m: float
+    tray_drop_m: float | None
     pipe_drop_m: float | None
     duct_top_m: float | None
     sign_top_m: float
 
 
 def ceiling_levels(fittings: FittingsConfig) -> CeilingLevels:
-    """Share out the room between ceiling and clear height: beams on top, below them pipes, below these ducts.
+    """Share out the room between ceiling and clear height: beams on top, below them cable trays, pipes, ducts.
 
-    Pipes come before ducts, and ducts before beams, where there is not room for all.
+    Where there is not room for all, pipes come before ducts, ducts before trays, and trays before beams.
     """
     left = fittings.ceiling_height_m - fittings.clear_height_m
-    has_pipes = fittings.sprinklers and left >= _PIPE_LAYER_M + HEAD_M
+    has_pipes = fittings.sprinklers and left >= _PIPE_LAYER_M + _HEAD_M
     left -= _PIPE_LAYER_M if has_pipes else 0.0
     has_ducts = fittings.ducts and left >= _DUCT_LAYER_M
-    left -= _DUCT_LAYER_M if has_ducts else HEAD_M if has_pipes else 0.0
+    left -= _DUCT_LAYER_M if has_ducts else _HEAD_M if has_pipes else 0.0
+    has_trays = fittings.cable_trays and left >= _TRAY_LAYER_M + _BELOW_TUBES_M
+    left -= _TRAY_LAYER_M if has_trays else 0.0
     steps = math.floor(left / _BEAM_STEP_M + 1e-6) if fittings.beams else 0
     depth = round(min(steps * _BEAM_STEP_M, _MOST_BEAM_M), 6)
     depth = depth if depth >= _LEAST_BEAM_M else 0.0
-    pipe_top = depth + _GAP_M
-    duct_top = depth + (_PIPE_LAYER_M if has_pipes else 0.0) + _GAP_M + _FLANGE_M
+    tray_top = max(depth, _BELOW_TUBES_M if has_trays else 0.0) + _GAP_M
+    pipe_top = tray_top + (_TRAY_LAYER_M if has_trays else 0.0)
+    duct_top = pipe_top + (_PIPE_LAYER_M if has_pipes else 0.0) + _FLANGE_M
     return CeilingLevels(
         beam_depth_m=depth,
+        tray_drop_m=round(tray_top + TRAY_HEIGHT_M, 6) if has_trays else None,
         pipe_drop_m=round(pipe_top + PIPE_RADIUS_M, 6) if has_pipes else None,
         duct_top_m=round(duct_top, 6) if has_ducts else None,
         sign_top_m=max(_SIGN_TOP_M, round(depth + _SIGN_BELOW_BEAM_M, 6)),

@@ -24,6 +24,7 @@ class ObjectKind(StrEnum):
     LIGHT = "light"
     BEAM = "beam"
     DUCT = "duct"
+    CABLE_TRAY = "cable_tray"
     SPEED_BUMP = "speed_bump"
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"

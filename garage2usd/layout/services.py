@@ -1,4 +1,4 @@
-"""Lines that hang along the aisles: ventilation ducts and sprinkler pipes."""
+"""Lines that hang along the aisles: ventilation ducts, sprinkler pipes, cable trays."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,13 +7,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.grid import Cell, Structure
-from garage2usd.layout.ceiling import DUCT_HEIGHT_M, DUCT_WIDTH_M, PIPE_RADIUS_M, CeilingLevels
+from garage2usd.layout.ceiling import (
+    DUCT_HEIGHT_M,
+    DUCT_WIDTH_M,
+    PIPE_RADIUS_M,
+    TRAY_HEIGHT_M,
+    TRAY_WIDTH_M,
+    CeilingLevels,
+)
 from garage2usd.layout.placement import ObjectKind, Placement
-from garage2usd.layout.specs import DuctSpec, Point, Spec, SprinklerSpec
+from garage2usd.layout.specs import CableTraySpec, DuctSpec, Point, Spec, SprinklerSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.stalls import Edge
 
-__all__ = ["ducts", "sprinklers"]
+__all__ = ["cable_trays", "ducts", "sprinklers"]
 
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8
@@ -51,6 +58,7 @@ class _Line:
 
 _DUCT = _Line("Duct", -1, 0.75, DUCT_WIDTH_M / 2)
 _PIPE = _Line("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
+_TRAY = _Line("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
 
 
 @dataclass(frozen=True)
@@ -109,6 +117,18 @@ def sprinklers(structure: Structure, grid: TileGrid, ceiling_m: float, levels: C
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
         placed.append(_place(piece, ObjectKind.SPRINKLER, spec, ceiling_m))
+    return placed
+
+
+def cable_trays(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+    """Cable trays along the aisles, beside the pipes and over them and the ducts where they cross."""
+    if levels.tray_drop_m is None:
+        return []
+    placed = []
+    for piece in _pieces(_TRAY, structure, grid):
+        rods = _hangers_at_m(piece, grid.setback_m)
+        spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
+        placed.append(_place(piece, ObjectKind.CABLE_TRAY, spec, ceiling_m))
     return placed
 
 

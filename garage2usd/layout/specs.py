@@ -9,6 +9,7 @@ __all__ = [
     "BeamNodeSpec",
     "BeamSpec",
     "Box",
+    "CableTraySpec",
     "CarSpec",
     "CeilingSpec",
     "ChargerSpec",
@@ -254,6 +255,27 @@ class DuctSpec:
 
 
 @dataclass(frozen=True)
+class CableTraySpec:
+    """A cable ladder with its cables, long along Z; origin over its middle, on the ceiling.
+
+    Attributes
+    ----------
+    height_m
+        Of its rails.
+    drop_m
+        From the ceiling down to its bottom.
+    rods_at_m
+        Places of its pairs of rods along it, from its middle.
+    """
+
+    length_m: float
+    width_m: float
+    height_m: float
+    drop_m: float
+    rods_at_m: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class SpeedBumpSpec:
     """A rubber speed bump, long along X; origin in the middle of its foot."""
 
@@ -351,6 +373,7 @@ Spec = (
     | BeamSpec
     | BeamNodeSpec
     | DuctSpec
+    | CableTraySpec
     | SpeedBumpSpec
     | WheelStopSpec
     | NoParkingSignSpec

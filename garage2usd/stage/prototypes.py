@@ -189,6 +189,11 @@ def _(spec: s.DuctSpec) -> Asset:
 
 
 @_make.register
+def _(spec: s.CableTraySpec) -> Asset:
+    return assets.cable_tray(spec.length_m, spec.width_m, spec.height_m, spec.drop_m, rods_at_m=spec.rods_at_m)
+
+
+@_make.register
 def _(spec: s.SpeedBumpSpec) -> Asset:
     return assets.speed_bump(spec.length_m)
 

@@ -164,6 +164,7 @@ def test_settings_decide_what_is_there():
             fittings={
                 "beams": False,
                 "ducts": False,
+                "cable_trays": False,
                 "wheel_stops": False,
                 "speed_bump_rate": 0,
                 "no_parking_sign_rate": 0,
@@ -179,6 +180,7 @@ def test_settings_decide_what_is_there():
     ).counts()
     empty = {
         "beam",
+        "cable_tray",
         "duct",
         "wheel_stop",
         "speed_bump",

@@ -90,11 +90,12 @@ E======X
 @pytest.mark.parametrize(
     ("ceiling_m", "switches", "depth_m", "absent"),
     [
-        (3.2, {}, 0.5, set()),
+        (3.2, {}, 0.4, set()),
+        (3.2, {"cable_trays": False}, 0.5, {ObjectKind.CABLE_TRAY}),
         (3.2, {"ducts": False}, 0.6, {ObjectKind.DUCT}),
         (3.2, {"beams": False}, 0.0, {ObjectKind.BEAM}),
-        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.EXIT_SIGN}),
-        (2.4, {}, 0.0, {ObjectKind.BEAM, ObjectKind.DUCT, ObjectKind.EXIT_SIGN}),
+        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
+        (2.4, {}, 0.0, {ObjectKind.BEAM, ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
     ],
 )
 def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
