@@ -61,6 +61,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(2 * spec.radius_m, 0.2)
         case s.ChargerSpec():
             return _centred(0.32, 0.1)
+        case s.ConeSpec():
+            return _centred(0.38, 0.38)
         case s.NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)

@@ -16,7 +16,7 @@ from garage2usd.stage.prototypes import asset_of
 SERVICES = (ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.SPRINKLER)
 HANGING = (ObjectKind.LIGHT, ObjectKind.BEAM, *SERVICES, ObjectKind.EXIT_SIGN)
 STANDING = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
-SOLID = (*HANGING, *STANDING, ObjectKind.MIRROR, ObjectKind.BARRIER, ObjectKind.CAR)
+SOLID = (*HANGING, *STANDING, ObjectKind.MIRROR, ObjectKind.BARRIER, ObjectKind.CAR, ObjectKind.CONE)
 TOUCH_M = 1e-4
 # flanges of ducts that meet; beams and walls that end in each other's line
 MAY_TOUCH = {ObjectKind.DUCT}

@@ -12,7 +12,7 @@ from garage2usd.assets.building import (
     wall_post,
 )
 from garage2usd.assets.cars import car
-from garage2usd.assets.fittings import charger, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
+from garage2usd.assets.fittings import charger, cone, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
 from garage2usd.assets.glyphs import floor_digit
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
@@ -38,6 +38,7 @@ __all__ = [
     "ceiling_panel",
     "charger",
     "column",
+    "cone",
     "duct",
     "exit_sign",
     "floor_digit",

@@ -1,12 +1,13 @@
 """Lights, ducts, speed bumps, wheel stops and signs."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part, ring_faces
 
-__all__ = ["charger", "duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
+__all__ = ["charger", "cone", "duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
 
 SPEED_BUMP_WIDTH_M, SPEED_BUMP_HEIGHT_M = 0.35, 0.05
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
@@ -16,6 +17,8 @@ _LIGHT_DROP_M = 0.115
 _FLANGE_PITCH_M = 1.35
 _FLANGE_M = 0.025
 _SEGMENT_M = 0.5
+_CONE_BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
+"""Heights where a cone's colours change, orange first."""
 
 
 def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asset:
@@ -141,6 +144,28 @@ def charger() -> Asset:
             make_part("Cable", cable, "rubber_black"),
         ),
     )
+
+
+def cone() -> Asset:
+    """An orange traffic cone 0.75 m high with two reflective bands on a rubber foot; origin in the foot's middle."""
+    foot = box_faces((-0.19, 0.0, -0.19), (0.19, 0.03, 0.19))
+    orange: list[Face] = []
+    white: list[Face] = []
+    for index, (low, high) in enumerate(pairwise(_CONE_BANDS_M)):
+        piece = _upright_lathe([(low, _cone_radius_m(low)), (high, _cone_radius_m(high))], segments=20)
+        (white if index % 2 else orange).extend(piece)
+    return Asset(
+        "traffic_cone",
+        (
+            make_part("Foot", foot, "rubber_black", collider=Collider.CONVEX_HULL),
+            make_part("Body", orange, "sign_orange", collider=Collider.CONVEX_HULL),
+            make_part("Bands", white, "sign_white"),
+        ),
+    )
+
+
+def _cone_radius_m(height_m: float) -> float:
+    return 0.14 - 0.11 * (height_m - _CONE_BANDS_M[0]) / (_CONE_BANDS_M[-1] - _CONE_BANDS_M[0])
 
 
 def no_parking_sign() -> Asset:

@@ -42,6 +42,8 @@ class FittingsConfig(Settings):
     """A convex mirror on a column at each junction."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)
     """Share of straight lane squares that carry a speed bump."""
+    cone_rate: float = Field(0.04, ge=0, le=1)
+    """Share of the standard stalls without a car that cones close, and of the hatched squares with cones."""
     wheel_stops: bool = True
     """A wheel stop in each stall."""
     no_parking_sign_rate: float = Field(0.5, ge=0, le=1)

@@ -13,7 +13,7 @@ from garage2usd.layout.building import columns, core_doors, ground_inside, obsta
 from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.fittings import no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.fittings import cones, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
@@ -97,8 +97,9 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, tips)
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
-    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
-    parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
+    cars = parked_cars(stalls, config.parking, draws)
+    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *cars]
+    parking += [*cones(grid, stalls, cars, fittings, draws), *stall_numbers(stalls, fittings), *chargers(stalls)]
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
     pillars = columns(structure, bay, fittings)

@@ -1,19 +1,26 @@
-"""What hangs from the ceiling or lies on the lanes: tube lights, speed bumps, signs."""
+"""What hangs over single squares or stands on them: tube lights, speed bumps, signs, cones."""
+
+from collections import Counter
+from collections.abc import Iterable
 
 import numpy as np
 
 from garage2usd.config import FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.lanes import LaneGraph, LaneKind, Square
-from garage2usd.layout.placement import ObjectKind, Placement
-from garage2usd.layout.specs import NoParkingSignSpec, SpeedBumpSpec, TubeLightSpec
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["cones", "no_parking_signs", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 _TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
+_CONES_ACROSS_M = (-0.75, 0.0, 0.75)
+_CONES_FROM_MOUTH_M = 0.9
+_CONES_FROM_EDGE_M = 0.95
 _TUBE_GAP_M = 0.1
 _JUNCTION_TUBE_OFFSET_M = 1.2
 
@@ -85,3 +92,34 @@ def no_parking_signs(grid: TileGrid, fittings: FittingsConfig, *, seed: int) -> 
                 Placement("NoParkingSign", ObjectKind.NO_PARKING_SIGN, NoParkingSignSpec(), position, yaw, tile.square)
             )
     return signs
+
+
+def cones(
+    grid: TileGrid, stalls: tuple[Stall, ...], cars: Iterable[Placement], fittings: FittingsConfig, draws: SquareDraws
+) -> list[Placement]:
+    """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
+    taken = {(car.square, car.name) for car in cars}
+    most = max(Counter(stall.square for stall in stalls).values(), default=0)
+    numbers = draws.of_step(Step.CONES, most + 1)
+    place_on_square: Counter[Square] = Counter()
+    placed: list[Placement] = []
+
+    def place(name: str, points: Iterable[Point], middle: Point, yaw_rad: float, square: Square) -> None:
+        for number, point in enumerate(points, start=1):
+            x, z = to_world(point, middle, yaw_rad)
+            position = (round(x, 6), 0.0, round(z, 6))
+            placed.append(Placement(f"{name}_{number}", ObjectKind.CONE, ConeSpec(), position, yaw_rad, square))
+
+    for stall in stalls:
+        place_on_square[stall.square] += 1
+        is_drawn = numbers[stall.square][place_on_square[stall.square]] < fittings.cone_rate
+        if is_drawn and stall.use is StallUse.STANDARD and (stall.square, stall.named("Car")) not in taken:
+            along = stall.length_m / 2 - _CONES_FROM_MOUTH_M
+            points = [(across, along) for across in _CONES_ACROSS_M]
+            place(stall.named("Cone"), points, stall.centre_m, stall.yaw_rad, stall.square)
+    for tile in grid:
+        x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
+        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.rows_by_square
+        if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
+            place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), (tile.x_m, tile.z_m), 0.0, tile.square)
+    return placed

@@ -28,6 +28,7 @@ class ObjectKind(StrEnum):
     SPEED_BUMP = "speed_bump"
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"
+    CONE = "cone"
     CAR = "car"
     RAMP = "ramp"
     SKY = "sky"

@@ -14,6 +14,7 @@ __all__ = [
     "CeilingSpec",
     "ChargerSpec",
     "ColumnSpec",
+    "ConeSpec",
     "DigitSpec",
     "DuctSpec",
     "ExitSignSpec",
@@ -295,6 +296,11 @@ class NoParkingSignSpec:
 
 
 @dataclass(frozen=True)
+class ConeSpec:
+    """A traffic cone; origin in the middle of its foot."""
+
+
+@dataclass(frozen=True)
 class DigitSpec:
     """A digit painted on the floor, its top to -Z; origin in its middle on the floor."""
 
@@ -377,6 +383,7 @@ Spec = (
     | SpeedBumpSpec
     | WheelStopSpec
     | NoParkingSignSpec
+    | ConeSpec
     | CarSpec
     | DigitSpec
     | ChargerSpec

@@ -209,6 +209,11 @@ def _(_spec: s.NoParkingSignSpec) -> Asset:
 
 
 @_make.register
+def _(_spec: s.ConeSpec) -> Asset:
+    return assets.cone()
+
+
+@_make.register
 def _(spec: s.CarSpec) -> Asset:
     body = next(body for body in CAR_BODIES if body.name == spec.body)
     return assets.car(body)

@@ -53,6 +53,7 @@ CASES = {
     "duct": assets.duct(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),
     "branch": assets.duct(0.65, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(0.1,)),
     "tray": assets.cable_tray(8.1, 0.3, 0.06, 0.5, rods_at_m=(-2.0, 2.0)),
+    "cone": assets.cone(),
     "bump": assets.speed_bump(7.2),
     "stop": assets.wheel_stop(1.65),
     "sign": assets.no_parking_sign(),
