@@ -14,7 +14,7 @@ from garage2usd.assets.building import (
 from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import charger, cone, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
-from garage2usd.assets.glyphs import floor_digit
+from garage2usd.assets.lettering import floor_number, zone_plate
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.overhead import cable_tray, exit_sign, mirror, sprinkler
@@ -41,7 +41,7 @@ __all__ = [
     "cone",
     "duct",
     "exit_sign",
-    "floor_digit",
+    "floor_number",
     "floor_panel",
     "mirror",
     "no_parking_sign",
@@ -56,4 +56,5 @@ __all__ = [
     "wall_panel",
     "wall_post",
     "wheel_stop",
+    "zone_plate",
 ]

@@ -1,3 +1,4 @@
+import string
 from collections import Counter, defaultdict
 
 import networkx as nx
@@ -62,7 +63,11 @@ CASES = {
     **{f"exit_sign_{turn}": assets.exit_sign(turn, 0.58, 0.2) for turn in (-90, 0, 90)},
     "mirror": assets.mirror(0.25),
     "charger": assets.charger(),
-    **{f"digit_{digit}": assets.floor_digit(digit, 0.45) for digit in range(10)},
+    **{f"number_{digits}": assets.floor_number(digits, 0.45, pitch=0.71) for digits in [*"0123456789", "07", "88"]},
+    **{
+        f"plate_{text}": assets.zone_plate(text, 0.6, 0.38, pitch=0.71)
+        for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
+    },
     **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
 }
 each_part = pytest.mark.parametrize(
@@ -210,7 +215,7 @@ def test_every_texture_is_there_and_used():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"light", "sky", "stall_number"}
+    untouchable = {"light", "sky", "stall_number", "zone_plate"}
     for asset in CASES.values():
         assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}
