@@ -64,7 +64,8 @@ class ParkingConfig(Settings):
     ev_share: float = Field(0.08, ge=0, le=1)
     """Share of the stalls that have a charger."""
     accessible_share: float = Field(0.02, ge=0, le=1)
-    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0."""
+    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0.
+    Each has a hatched access aisle beside it, that two of them share and that takes the place of a stall."""
     reversed_share: float = Field(0.3, ge=0, le=1)
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)

@@ -32,7 +32,12 @@ _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
 _REAR_CLEARANCE_M = 0.12
 _DRAWS_A_CAR = 7
-_COATINGS = {StallUse.EV: Surface.STALL_EV, StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE}
+_COATINGS = {
+    StallUse.EV: Surface.STALL_EV,
+    StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE,
+    StallUse.ACCESS_AISLE: Surface.STALL_ACCESSIBLE,
+}
+_HATCHES = {StallUse.TURNING: Surface.PAINT_YELLOW, StallUse.ACCESS_AISLE: Surface.PAINT_WHITE}
 
 
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
@@ -92,8 +97,8 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
 @lru_cache
 def _stall_panel(width_m: float, length_m: float, use: StallUse) -> PanelSpec:
     lines = stall_lines(width_m, length_m)
-    if use is StallUse.TURNING:
-        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M)
+    if not use.takes_cars:
+        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
     return PanelSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
@@ -103,7 +108,7 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
         return []
     placements = []
     for stall in stalls:
-        if stall.use is StallUse.TURNING:
+        if not stall.use.takes_cars:
             continue
         x, z = to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
         name = stall.named("WheelStop")
@@ -130,7 +135,7 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
         drawn = numbers[stall.square][place_on_square[stall.square]].tolist()
         place_on_square[stall.square] += 1
         occupied, reverse, yaw_share, side_share, along_share, body_index, paint_index = drawn
-        if not holds_car.get(stall.name, occupied < parking.occupancy) or stall.use is StallUse.TURNING:
+        if not holds_car.get(stall.name, occupied < parking.occupancy) or not stall.use.takes_cars:
             continue
         room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
         bodies = [
@@ -174,8 +179,10 @@ def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, b
         for name in getattr(parking, field) or ():
             if name not in uses:
                 raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
-            if holds_car and uses[name] is StallUse.TURNING:
-                raise ConfigError(f"parking.{field}", name, "stalls that are not kept free for turning")
+            if holds_car and not uses[name].takes_cars:
+                raise ConfigError(
+                    f"parking.{field}", name, "stalls that are not kept free for turning or for wheelchairs"
+                )
             named[name] = holds_car
     if parking.occupied_stalls is not None:
         return dict.fromkeys(uses, False) | named

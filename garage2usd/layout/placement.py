@@ -50,7 +50,14 @@ class StallUse(StrEnum):
     EV = "ev"
     """With a charger."""
     ACCESSIBLE = "accessible"
-    """For people with a disability."""
+    """For people with a disability, beside an access aisle."""
+    ACCESS_AISLE = "access_aisle"
+    """Hatched and kept free, so that wheelchairs get to the accessible stalls beside it."""
+
+    @property
+    def takes_cars(self) -> bool:
+        """Whether cars park there."""
+        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE}
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,7 +35,7 @@ E======...
 
 @pytest.fixture(scope="module")
 def layout():
-    return laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 1.0, "max_yaw_deg": 5.0}))
+    return laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 1.0, "max_yaw_deg": 5.0, "accessible_share": 0}))
 
 
 def union(placements):
@@ -249,11 +249,12 @@ def test_names_are_unique_among_siblings(layout):
 
 def test_a_long_dead_end_keeps_a_turning_stall():
     text = ".......\n=======\n=.X....\nE......"
-    free = laid_out(text, GarageConfig(parking={"occupancy": 1.0}))
+    parking = {"occupancy": 1.0, "accessible_share": 0}
+    free = laid_out(text, GarageConfig(parking=parking))
     turning = [stall for stall in free.stalls if stall.use is StallUse.TURNING]
     assert [stall.access_square for stall in turning] == [(1, 6)]  # four squares of 8.1 m past the exit's junction
     assert len(free.of_kind(ObjectKind.CAR)) == len(free.of_kind(ObjectKind.WHEEL_STOP)) == len(free.stalls) - 1
-    allowed = laid_out(text, GarageConfig(parking={"occupancy": 1.0}, plan={"dead_ends": "allow"}))
+    allowed = laid_out(text, GarageConfig(parking=parking, plan={"dead_ends": "allow"}))
     assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind(ObjectKind.CAR))
 
     def is_turning(place):
