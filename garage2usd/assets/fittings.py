@@ -13,7 +13,6 @@ SPEED_BUMP_WIDTH_M, SPEED_BUMP_HEIGHT_M = 0.35, 0.05
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
 _HOUSING_HEIGHT_M = 0.06
 _TUBE_RADIUS_M = 0.016
-_LIGHT_DROP_M = 0.115
 _FLANGE_PITCH_M = 1.35
 _FLANGE_M = 0.025
 _SEGMENT_M = 0.5
@@ -21,8 +20,8 @@ _CONE_BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
 """Heights where a cone's colours change, orange first."""
 
 
-def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asset:
-    """A batten with two bare tubes, long along X; origin in the middle of its top."""
+def tube_light(length_m: float, width_m: float, *, drop_m: float, luminance_nit: float) -> Asset:
+    """A batten with two bare tubes, long along X, that shine from `drop_m` below; origin in the middle of its top."""
     x, z = length_m / 2, width_m / 2
     housing = box_faces((-x, -_HOUSING_HEIGHT_M, -z), (x, 0, z))
     ends: list[Face] = []
@@ -32,7 +31,7 @@ def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asse
     for side in (-z / 2, z / 2):
         ring = lathe_faces([(-x + 0.03, _TUBE_RADIUS_M), (x - 0.03, _TUBE_RADIUS_M)], segments=10)
         tubes += [face + np.array((0.0, -_HOUSING_HEIGHT_M - 0.024, side)) for face in ring]
-    light = RectLight(length_m, width_m, -_LIGHT_DROP_M, luminance_nit)
+    light = RectLight(length_m, width_m, -drop_m, luminance_nit)
     return Asset(
         "light",
         (

@@ -155,13 +155,13 @@ def _letters(y: float, z: float, size: float) -> list[Part]:
     return parts
 
 
-def mirror(radius_m: float) -> Asset:
+def mirror(radius_m: float, *, arm_m: float) -> Asset:
     """A convex mirror in an orange rim that looks to +Z, on an arm to -Z; origin in the middle of its rim."""
     rim = [(-0.03, 0.0), (-0.03, radius_m), (0.02, radius_m), (0.02, radius_m * 0.94), (0.0, radius_m * 0.94)]
     rim.append((0.0, 0.0))
     angles = np.linspace(np.pi / 2, 0.0, 7)
     glass = [(float(0.004 + 0.09 * np.cos(a)), float(radius_m * 0.93 * np.sin(a))) for a in angles]
-    arm = box_faces((-0.02, -0.02, -0.12), (0.02, 0.02, -0.032))
+    arm = box_faces((-0.02, -0.02, -arm_m), (0.02, 0.02, -0.032))
     return Asset(
         "mirror",
         (

@@ -41,7 +41,7 @@ class FittingsConfig(Settings):
     exit_signs: bool = True
     """Lit signs at junctions, where the ceiling leaves room over the clear height."""
     mirrors: bool = True
-    """A convex mirror on a column at each junction."""
+    """Convex mirrors at blind corners, on columns and walls."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)
     """Share of straight lane squares that carry a speed bump."""
     cone_rate: float = Field(0.04, ge=0, le=1)

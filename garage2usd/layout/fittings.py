@@ -14,10 +14,11 @@ from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBum
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["cones", "no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
-_TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
+TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
+"""The tube light, before it is known how bright it must be."""
 _CONES_ACROSS_M = (-0.75, 0.0, 0.75)
 _CONES_FROM_MOUTH_M = 0.9
 _CONES_FROM_EDGE_M = 0.95
@@ -35,8 +36,8 @@ def tube_lights(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
         count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         along_x = _tube_along_x(tile, grid)
         length = tile.width_m if along_x else tile.depth_m
-        room = length - 2 * grid.setback_m - _TUBE.length_m
-        least_pitch = _TUBE.length_m + _TUBE_GAP_M
+        room = length - 2 * grid.setback_m - TUBE.length_m
+        least_pitch = TUBE.length_m + _TUBE_GAP_M
         count = min(count, 1 + max(int(room / least_pitch), 0))
         pitch = min(length / max(count, 1), room / max(count - 1, 1))
         if tile.axis_is_x is None:
@@ -47,7 +48,7 @@ def tube_lights(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
             z = tile.z_m + (0.0 if along_x else offset)
             position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
             yaw = 0.0 if along_x else _QUARTER_TURN
-            lights.append(Placement(f"Tube_{index + 1}", ObjectKind.LIGHT, _TUBE, position, yaw, tile.square))
+            lights.append(Placement(f"Tube_{index + 1}", ObjectKind.LIGHT, TUBE, position, yaw, tile.square))
     return lights
 
 

@@ -7,11 +7,11 @@ import networkx as nx
 
 from garage2usd.config import FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.lanes import LaneGraph, LaneKind
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
-from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Turn
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, Turn
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
 from garage2usd.stalls import Edge
 
 __all__ = ["exit_signs", "mirrors"]
@@ -19,7 +19,12 @@ __all__ = ["exit_signs", "mirrors"]
 _SIGN_HEIGHT_M = 0.2
 _SIGN_FROM_EDGE_M = 0.45
 _MIRROR_RADIUS_M = 0.25
-_MIRROR_FROM_COLUMN_M = 0.12
+_MIRROR_GAP_M = 0.05
+_MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
+_ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
+"""Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
+_TUBE_DEPTH_M = 0.105
+_CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
@@ -37,12 +42,12 @@ def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, level
     for tile in grid:
         if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
             continue
-        ways = {edge: distance.get(_beyond(tile.square, edge), math.inf) for edge in lane_edges(tile)}
+        ways = {edge: distance.get(neighbour(tile.square, edge), math.inf) for edge in lane_edges(tile)}
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways
-            if edge is not out and graph.kind(_beyond(tile.square, edge)) is not LaneKind.EXIT
+            if edge is not out and graph.kind(neighbour(tile.square, edge)) is not LaneKind.EXIT
         ]
     return signs
 
@@ -62,33 +67,68 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
 
 def mirrors(
     grid: TileGrid,
-    graph: LaneGraph,
     columns: Iterable[Placement],
     column_size_m: float,
     fittings: FittingsConfig,
     levels: CeilingLevels,
 ) -> list[Placement]:
-    """A convex mirror on a column at the lower side of each junction, looking up the plan along it."""
+    """Convex mirrors on columns and walls at the blind corners of junctions and bends, looking across the square.
+
+    Notes
+    -----
+    Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
+    that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
+    """
     if not fittings.mirrors:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    inset = column_size_m / 2 + _MIRROR_FROM_COLUMN_M
-    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, 0.08) - 0.02 - _MIRROR_RADIUS_M
-    centre = min(fittings.clear_height_m + _MIRROR_RADIUS_M + 0.05, highest)
+    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, _TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
+    height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
     placed: list[Placement] = []
     for tile in grid:
-        if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS:
+        if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
-        for side in (-1, 1):
-            x, z = tile.x_m + side * tile.half_x_m, tile.z_m + tile.half_z_m
-            if (round(x, 4), round(z, 4)) in feet:
-                position = (round(x, 6), round(centre, 6), round(z - inset, 6))
-                spec, yaw = MirrorSpec(_MIRROR_RADIUS_M), edge_yaw_rad(Edge.UP)
-                placed.append(Placement("Mirror", ObjectKind.MIRROR, spec, position, yaw, tile.square))
+        unserved = {edge for edge in lane_edges(tile) if _is_blind(edge, tile, grid)}
+        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet, column_size_m))}
+        while mounts:
+            corner = max(mounts, key=lambda corner: len(unserved.intersection(_served(corner))))
+            inset, arm = mounts.pop(corner)
+            if not unserved.intersection(_served(corner)):
                 break
+            unserved.difference_update(_served(corner))
+            side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+            x = tile.x_m + side_x * (tile.half_x_m - inset)
+            z = tile.z_m + side_z * (tile.half_z_m - inset)
+            position = (round(x, 6), round(height, 6), round(z, 6))
+            name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
+            yaw = round(math.atan2(-side_x, -side_z), 6)
+            spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
+            placed.append(Placement(name, ObjectKind.MIRROR, spec, position, yaw, tile.square))
     return placed
 
 
-def _beyond(square: Square, edge: Edge) -> Square:
-    dr, dc = NEIGHBOUR_STEPS[edge]
-    return square[0] + dr, square[1] + dc
+def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
+    """Whether who comes in over an edge sees a way to the side only from inside the square."""
+    sides = (Edge.LEFT, Edge.RIGHT) if edge in {Edge.UP, Edge.DOWN} else (Edge.UP, Edge.DOWN)
+    between = (grid.neighbour(tile, edge, side) for side in sides if tile.drivable[side])
+    return any(other is None or other.cell is Cell.FREE for other in between)
+
+
+def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
+    """The edges from which a driver has a corner before him."""
+    return set(Edge) - set(corner)
+
+
+def _mount_m(
+    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: set[Point], column_size_m: float
+) -> tuple[float, float] | None:
+    """How far a mirror's middle is from both sides of a corner, and how long its arm; None if nothing holds it."""
+    side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+    point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
+    if point in feet:
+        return round(column_size_m / 2 + _MIRROR_FROM_COLUMN_M, 6), _ARM_TO_COLUMN_M
+    if any(grid.neighbour(tile, edge) is None for edge in corner):
+        return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
+    if grid.neighbour(tile, *corner) is None:
+        return _MIRROR_FROM_COLUMN_M, _ARM_TO_EDGE_M
+    return None

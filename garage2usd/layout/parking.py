@@ -12,14 +12,13 @@ from scipy.spatial import KDTree
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.errors import ConfigError
-from garage2usd.grid import NEIGHBOUR_STEPS
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
 from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
-from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
+from garage2usd.layout.tiles import Tile, TileGrid, neighbour, stall_rectangle
 from garage2usd.randomness import Step
 
 __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
@@ -46,7 +45,6 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
     for tile in grid:
         number = 0
         for row in grid.rows_by_square.get(tile.square, []):
-            dr, dc = NEIGHBOUR_STEPS[row.edge]
             for index in range(row.count):
                 number += 1
                 stalls.append(
@@ -55,7 +53,7 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
                         square=tile.square,
                         edge=row.edge,
                         stall_type=graph.stall_types[tile.square],
-                        access_square=(row.row + dr, row.col + dc),
+                        access_square=neighbour((row.row, row.col), row.edge),
                         centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
                         yaw_rad=edge_yaw_rad(row.edge),
                         width_m=bay.stall_width_m,

@@ -212,12 +212,15 @@ class TubeLightSpec:
 
     Attributes
     ----------
+    drop_m
+        From its top down to its lit face.
     luminance_nit
-        Of its downward face, cd/m2.
+        Of that face, which looks down, cd/m2.
     """
 
     length_m: float
     width_m: float
+    drop_m: float = 0.115
     luminance_nit: float = 0.0
 
 
@@ -366,9 +369,10 @@ class ExitSignSpec:
 
 @dataclass(frozen=True)
 class MirrorSpec:
-    """A convex traffic mirror that looks to +Z; origin in the middle of its rim."""
+    """A convex traffic mirror that looks to +Z; origin in the middle of its rim, which an arm holds from behind."""
 
     radius_m: float
+    arm_m: float
 
 
 @dataclass(frozen=True)

@@ -168,7 +168,7 @@ def _(spec: s.ColumnSpec) -> Asset:
 
 @_make.register
 def _(spec: s.TubeLightSpec) -> Asset:
-    return assets.tube_light(spec.length_m, spec.width_m, luminance_nit=spec.luminance_nit)
+    return assets.tube_light(spec.length_m, spec.width_m, drop_m=spec.drop_m, luminance_nit=spec.luminance_nit)
 
 
 @_make.register
@@ -251,4 +251,4 @@ def _(spec: s.ExitSignSpec) -> Asset:
 
 @_make.register
 def _(spec: s.MirrorSpec) -> Asset:
-    return assets.mirror(spec.radius_m)
+    return assets.mirror(spec.radius_m, arm_m=spec.arm_m)

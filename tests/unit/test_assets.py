@@ -48,7 +48,7 @@ CASES = {
     "obstacle": assets.obstacle_block(8.1, 5.4, 3.2),
     "column": assets.column(0.6, 3.2),
     "ceiling": assets.ceiling_panel(8.1, 8.1, 0.25),
-    "tube": assets.tube_light(1.5, 0.12, luminance_nit=4000.0),
+    "tube": assets.tube_light(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": assets.beam(7.5, 0.4, 0.4),
     "node": assets.beam_node([(-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)], 0.4),
     "duct": assets.duct(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),
@@ -61,7 +61,7 @@ CASES = {
     "sprinkler": assets.sprinkler(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
     "pipe": assets.sprinkler(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
     **{f"exit_sign_{turn}": assets.exit_sign(turn, 0.58, 0.2) for turn in (-90, 0, 90)},
-    "mirror": assets.mirror(0.25),
+    "mirror": assets.mirror(0.25, arm_m=0.12),
     "charger": assets.charger(),
     **{f"number_{digits}": assets.floor_number(digits, 0.45, pitch=0.71) for digits in [*"0123456789", "07", "88"]},
     **{

@@ -11,6 +11,7 @@ from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.layout.specs import Turn
 from garage2usd.pipeline import generate
+from garage2usd.stalls import Edge
 
 
 @each_sample
@@ -48,14 +49,61 @@ def test_exit_signs_point_to_the_exit():
     assert turns[(1, 5), "ExitSign_Up"] is Turn.LEFT
 
 
-def test_every_junction_with_a_column_has_a_mirror_on_it():
-    layout, _ = laid_out(CROSS)
-    columns = [place.position_m for place in layout.of_kind(ObjectKind.COLUMN)]
+def ways_seen(place):
+    """The edges from which a driver has a mirror before him."""
+    x, z = np.sin(place.yaw_rad), np.cos(place.yaw_rad)
+    return {Edge.DOWN if z > 0 else Edge.UP, Edge.RIGHT if x > 0 else Edge.LEFT}
+
+
+def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
+    layout, config = laid_out(CROSS)
+    assert_nothing_overhead_meets(layout, config)
+    seen = {}
+    for place in layout.of_kind(ObjectKind.MIRROR):
+        seen.setdefault(place.square, set()).update(ways_seen(place))
+    assert seen[1, 2] == seen[1, 5] == set(Edge)
+    assert seen[3, 2] >= {Edge.LEFT, Edge.UP, Edge.RIGHT}
+    bend, _ = laid_out("""
+....
+.==X
+.=..
+.E..
+""")
+    (mirror,) = bend.of_kind(ObjectKind.MIRROR)
+    assert (mirror.square, ways_seen(mirror)) == ((1, 1), {Edge.DOWN, Edge.RIGHT})
+
+
+def test_mirrors_hang_on_columns_and_walls():
+    layout, _ = laid_out(
+        """
+E====X
+.=.=..
+.=#=..
+.====.
+"""
+    )
+    solid = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    holding = shapely.union_all([footprint(place) for place in layout.placements if place.kind in solid])
     placed = layout.of_kind(ObjectKind.MIRROR)
-    assert {place.square for place in placed} >= {(1, 2), (1, 5)}
+    assert {place.spec.arm_m for place in placed} >= {0.12, 0.29}
     for place in placed:
         x, _, z = place.position_m
-        assert min(np.hypot(x - cx, z - cz) for cx, _, cz in columns) < 0.7
+        tip = shapely.Point(x - place.spec.arm_m * np.sin(place.yaw_rad), z - place.spec.arm_m * np.cos(place.yaw_rad))
+        assert tip.distance(holding) < 0.025
+
+
+def test_ramps_are_lit_under_their_cover():
+    layout, config = laid_out(CROSS)
+    tubes = [place for place in layout.of_kind(ObjectKind.LIGHT) if place.square is None]
+    ramps = layout.of_kind(ObjectKind.RAMP)
+    assert len(tubes) == 2 * len(ramps) > 0
+    assert {place.spec for place in tubes} == {place.spec for place in layout.of_kind(ObjectKind.LIGHT)}
+    for place in tubes:
+        (ramp,) = [ramp for ramp in ramps if footprint(ramp).contains(footprint(place))]
+        run = np.hypot(place.position_m[0] - ramp.position_m[0], place.position_m[2] - ramp.position_m[2])
+        assert run < ramp.spec.cover_end_m
+        floor = np.interp(run, *zip(*ramp.spec.profile, strict=True))
+        assert place.position_m[1] - place.spec.drop_m - floor >= config.fittings.clear_height_m
 
 
 def test_beams_and_columns_cover_every_border_between_squares_once():
