@@ -42,7 +42,14 @@ SWITCHES: Mapping[ObjectKind, Switch] = {
     ObjectKind.CAR: _CARS,
     ObjectKind.LIGHT: _LIGHTS,
     **dict.fromkeys(
-        (ObjectKind.CEILING, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN),
+        (
+            ObjectKind.CEILING,
+            ObjectKind.BEAM,
+            ObjectKind.DUCT,
+            ObjectKind.CABLE_TRAY,
+            ObjectKind.SPRINKLER,
+            ObjectKind.EXIT_SIGN,
+        ),
         _OVERHEAD,
     ),
 }
