@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from garage2usd import assets
-from garage2usd.assets import MATERIALS, Collider, Marking, texture_folder
+from garage2usd.assets import MATERIALS, Collider, Marking
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
@@ -198,11 +198,6 @@ def test_texture_coordinates_run_on_under_the_paint():
         for point, place in zip(part.points[part.face_indices], part.st[part.st_indices] * repeat, strict=True):
             known = by_point.setdefault(tuple(point.tolist()), place)
             assert known == pytest.approx(place, abs=1e-4)
-
-
-def test_every_texture_is_there_and_used():
-    used = {texture for material in MATERIALS.values() for texture in material.textures()}
-    assert used == {path.name for path in texture_folder().glob("*.png")}
 
 
 def test_colliders_are_on_what_can_be_touched():

@@ -304,3 +304,4 @@ def test_texture_quality_is_a_budget(tmp_path, made):
     assert 3 * sizes["low"] < sizes["medium"] < sizes["high"] / 2
     for name, width in widths["high"].items():
         assert (widths["medium"][name], widths["low"][name]) == (width // 2, width // 4)
+    assert sizes["medium"] < 700_000
