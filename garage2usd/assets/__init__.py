@@ -9,6 +9,7 @@ from garage2usd.assets.glyphs import floor_digit
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.overhead import exit_sign, mirror, sprinkler
+from garage2usd.assets.stains import floor_stain, tyre_marks
 from garage2usd.assets.textures import bake_textures, texture_folder
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "exit_sign",
     "floor_digit",
     "floor_panel",
+    "floor_stain",
     "mirror",
     "no_parking_sign",
     "obstacle_block",
@@ -40,6 +42,7 @@ __all__ = [
     "sprinkler",
     "texture_folder",
     "tube_light",
+    "tyre_marks",
     "wall_panel",
     "wall_post",
     "wheel_stop",

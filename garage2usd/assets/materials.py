@@ -21,6 +21,8 @@ class Material:
         File names in the texture folder. A packed one holds occlusion, roughness and metallic in red, green and blue.
     roughness, metallic, opacity, clearcoat
         0 to 1.
+    has_alpha
+        Whether the colour texture's alpha is the opacity.
     ior
         Index of refraction; None for the default.
     emissive_rgb
@@ -38,6 +40,7 @@ class Material:
     normal_texture: str | None = None
     metallic: float = 0.0
     opacity: float = 1.0
+    has_alpha: bool = False
     clearcoat: float = 0.0
     ior: float | None = None
     emissive_rgb: Rgb = (0.0, 0.0, 0.0)
@@ -91,6 +94,10 @@ MATERIALS: dict[str, Material] = {
         normal_texture="floor_normal.png",
         repeat_m=5.4,
     ),
+    "stain_oil": Material(colour_texture="stains.png", has_alpha=True, roughness=0.22),
+    "stain_damp": Material(colour_texture="stains.png", has_alpha=True, roughness=0.12),
+    "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
+    "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
     "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7),
     "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7),
     "wall_concrete": Material(

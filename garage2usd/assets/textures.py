@@ -8,16 +8,19 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.assets.stain_texture import bake_stains
 from garage2usd.config.stage import TextureQuality
 
 __all__ = ["bake_textures", "texture_folder"]
 
 Pixels = NDArray[np.uint8]
-"""uint8, shape (rows, columns, 3)."""
+"""uint8, shape (rows, columns, 3), or 4 with alpha."""
 
 _SEED = 20_260_101
 _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}
 _JPEG_QUALITY = 90
+_RGBA = 4
+_ALPHA_STEPS = 28
 
 
 def texture_folder(quality: TextureQuality) -> Path:
@@ -36,13 +39,23 @@ def bake_textures(folder: Path) -> None:
         (folder / quality).mkdir()
     for name, bake in _BAKERS.items():
         rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_SEED, *name.encode()])))
-        picture = Image.fromarray(bake(rng))
+        pixels = bake(rng)
         for quality, divisor in _DIVISORS.items():
-            _save(picture.reduce(divisor), folder / quality / name)
+            _save(pixels, divisor, folder / quality / name)
 
 
-def _save(picture: Image.Image, path: Path) -> None:
-    if path.suffix == ".jpg":
+def _save(pixels: Pixels, divisor: int, path: Path) -> None:
+    picture = Image.fromarray(pixels).reduce(divisor)
+    if pixels.shape[2] == _RGBA:
+        # its colours are few and each cell has one of them, its opacity is fine where there is little of it
+        alpha = np.rint(np.sqrt(np.asarray(picture.getchannel("A")) / 255.0) * _ALPHA_STEPS)
+        opaque = np.rint((alpha / _ALPHA_STEPS) ** 2 * 255).astype(np.uint8)
+        colours = np.dstack([pixels[::divisor, ::divisor, :3], opaque])
+        entries, index = np.unique(colours.reshape(-1, _RGBA), axis=0, return_inverse=True)
+        picture = Image.fromarray(index.reshape(opaque.shape).astype(np.uint8))
+        picture.putpalette(entries[:, :3].tobytes())
+        picture.save(path, format="PNG", optimize=True, transparency=entries[:, 3].tobytes())
+    elif path.suffix == ".jpg":
         # colours that meet at sharp edges need all their pixels
         subsampling = "4:4:4" if path.stem == "hazard" else "4:2:0"
         picture.save(path, format="JPEG", quality=_JPEG_QUALITY, subsampling=subsampling, optimize=True)
@@ -292,4 +305,5 @@ _BAKERS: dict[str, Callable[[np.random.Generator], Pixels]] = {
     "hazard.jpg": _hazard,
     "steel_colour.jpg": _steel_colour,
     "steel_packed.png": _steel_packed,
+    "stains.png": bake_stains,
 }

@@ -18,6 +18,7 @@ from garage2usd.layout.overhead import exit_signs, mirrors, sprinklers
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.specs import Point
+from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.planning import dead_ends
@@ -97,6 +98,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
     parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
     parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
+    parking += floor_stains(grid, floors, stalls, fittings, draws)
 
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
     pillars = columns(structure, bay, fittings)

@@ -35,11 +35,9 @@ def define_material(
         reader.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1, -1, -1, 0))
         output = reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
         surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).ConnectToSource(output)
-    for name, value in (
-        ("opacity", material.opacity),
-        ("clearcoat", material.clearcoat),
-    ):
-        surface.CreateInput(name, Sdf.ValueTypeNames.Float).Set(value)
+    if not material.has_alpha:
+        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(material.opacity)
+    surface.CreateInput("clearcoat", Sdf.ValueTypeNames.Float).Set(material.clearcoat)
     if material.ior is not None:
         surface.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(material.ior)
     if any(material.emissive_rgb):
@@ -62,6 +60,11 @@ def _bind_colour(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, mat
         return
     reader = _texture(stage, path, "ColourTexture", material.colour_texture, "sRGB")
     colour.ConnectToSource(reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+    if material.has_alpha:
+        alpha = reader.CreateOutput("a", Sdf.ValueTypeNames.Float)
+        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).ConnectToSource(alpha)
+        # where there is nothing, nothing shines either
+        surface.CreateInput("opacityMode", Sdf.ValueTypeNames.Token).Set("presence")
 
 
 def _bind_finish(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:

@@ -58,6 +58,9 @@ CASES = {
     **{f"exit_sign_{turn}": assets.exit_sign(turn, 0.58, 0.2) for turn in (-90, 0, 90)},
     "mirror": assets.mirror(0.25),
     "charger": assets.charger(),
+    "oil": assets.floor_stain("oil", 2, 0.9, 0.7),
+    "wear": assets.floor_stain("wear_t", 0, 8.1, 6.5),
+    **{f"tyres_{turn}": assets.tyre_marks(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
     **{f"digit_{digit}": assets.floor_digit(digit, 0.45) for digit in range(10)},
     **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
 }
@@ -201,7 +204,7 @@ def test_texture_coordinates_run_on_under_the_paint():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"light", "sky", "stall_number"}
+    untouchable = {"light", "sky", "stall_number", "floor_stain"}
     for asset in CASES.values():
         assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}
