@@ -65,6 +65,7 @@ def write_report(
         "stalls": [
             {
                 "name": stall.name,
+                "number": stall.number,
                 "type": str(stall.stall_type),
                 "use": str(stall.use),
                 "square": stall.square,

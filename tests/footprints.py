@@ -47,8 +47,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case s.CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)
-        case s.DigitSpec():
-            return _centred(0.56 * spec.height_m, spec.height_m)
+        case s.NumberSpec():
+            return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
+        case s.ZonePlateSpec():
+            return _centred(spec.column_size_m + 0.01, spec.column_size_m + 0.01)
         case s.SprinklerSpec():
             return _centred(2 * spec.radius_m, spec.length_m)
         case s.ExitSignSpec():

@@ -5,7 +5,7 @@ from garage2usd.assets.building import ceiling_panel, column, obstacle_block, po
 from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import charger, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
-from garage2usd.assets.glyphs import floor_digit
+from garage2usd.assets.lettering import floor_number, zone_plate
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.overhead import exit_sign, mirror, sprinkler
@@ -29,7 +29,7 @@ __all__ = [
     "column",
     "duct",
     "exit_sign",
-    "floor_digit",
+    "floor_number",
     "floor_panel",
     "floor_stain",
     "mirror",
@@ -46,4 +46,5 @@ __all__ = [
     "wall_panel",
     "wall_post",
     "wheel_stop",
+    "zone_plate",
 ]

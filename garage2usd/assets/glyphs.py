@@ -1,21 +1,19 @@
-"""Painted digits as thin decals over the floor."""
+"""Shapes of capital letters and digits, drawn with a broad pen."""
 
 import shapely
+from shapely import affinity
 
-from garage2usd.assets.floor import flat_part
-from garage2usd.assets.mesh import Asset
+__all__ = ["GLYPH_WIDTH", "text_shape"]
 
-__all__ = ["DIGIT_LIFT_M", "floor_digit"]
-
-DIGIT_LIFT_M = 0.003
+GLYPH_WIDTH = 0.56
+"""Width of each character as a share of its height."""
 _STROKE = 0.16
-_WIDTH = 0.56
 _CUT = 0.14
 
 Stroke = tuple[tuple[float, float], ...]
 
-# strokes (x, y) with y down, in a cell that is 1 high and 0.56 wide; a loop ends where it starts
-_LEFT, _RIGHT, _TOP, _BOTTOM = _STROKE / 2, _WIDTH - _STROKE / 2, _STROKE / 2, 1 - _STROKE / 2
+# strokes (x, y) with y down, in a cell that is 1 high and `GLYPH_WIDTH` wide; a loop ends where it starts
+_LEFT, _RIGHT, _TOP, _BOTTOM = _STROKE / 2, GLYPH_WIDTH - _STROKE / 2, _STROKE / 2, 1 - _STROKE / 2
 _MIDDLE = 0.5
 
 
@@ -39,32 +37,110 @@ _HOOK_TOP = ((_LEFT, 0.26), (_LEFT, _TOP + _CUT), (_LEFT + _CUT, _TOP), (_RIGHT 
 _HOOK_BOTTOM = ((_RIGHT - _CUT, _BOTTOM), (_LEFT + _CUT, _BOTTOM), (_LEFT, _BOTTOM - _CUT), (_LEFT, 0.74))
 _BELLY = ((_RIGHT - _CUT, _MIDDLE), (_RIGHT, _MIDDLE + _CUT), (_RIGHT, _BOTTOM - _CUT))
 
-_STROKES: dict[int, tuple[Stroke, ...]] = {
-    0: (_loop(_TOP, _BOTTOM),),
-    1: (((0.12, 0.2), (0.3, _TOP), (0.3, 1.0)),),
-    2: ((*_HOOK_TOP, (_RIGHT, 0.38), (_LEFT, _BOTTOM), (_WIDTH, _BOTTOM)),),
-    3: (
+_STROKES: dict[str, tuple[Stroke, ...]] = {
+    "0": (_loop(_TOP, _BOTTOM),),
+    "1": (((0.12, 0.2), (0.3, _TOP), (0.3, 1.0)),),
+    "2": ((*_HOOK_TOP, (_RIGHT, 0.38), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
+    "3": (
         (*_HOOK_TOP, (_RIGHT, _MIDDLE - _CUT), (_RIGHT - _CUT, _MIDDLE), (0.2, _MIDDLE)),
         ((0.2, _MIDDLE), *_BELLY, *_HOOK_BOTTOM),
     ),
-    4: (((0.36, 1.0), (0.36, _TOP), (_LEFT, 0.68), (_WIDTH, 0.68)),),
-    5: (((_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, _MIDDLE), *_BELLY, *_HOOK_BOTTOM),),
-    6: (_loop(0.42, _BOTTOM), ((_LEFT, 0.6), (_LEFT, _TOP + _CUT), (_LEFT + _CUT, _TOP), (_RIGHT, _TOP))),
-    7: (((0.0, _TOP), (_RIGHT, _TOP), (0.2, 1.0)),),
-    8: (_loop(_TOP, _MIDDLE), _loop(_MIDDLE, _BOTTOM)),
-    9: (_loop(_TOP, 0.58), ((_RIGHT, 0.4), (_RIGHT, _BOTTOM - _CUT), (_RIGHT - _CUT, _BOTTOM), (_LEFT, _BOTTOM))),
+    "4": (((0.36, 1.0), (0.36, _TOP), (_LEFT, 0.68), (GLYPH_WIDTH, 0.68)),),
+    "5": (((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, _MIDDLE), *_BELLY, *_HOOK_BOTTOM),),
+    "6": (_loop(0.42, _BOTTOM), ((_LEFT, 0.6), (_LEFT, _TOP + _CUT), (_LEFT + _CUT, _TOP), (_RIGHT, _TOP))),
+    "7": (((0.0, _TOP), (_RIGHT, _TOP), (0.2, 1.0)),),
+    "8": (_loop(_TOP, _MIDDLE), _loop(_MIDDLE, _BOTTOM)),
+    "9": (_loop(_TOP, 0.58), ((_RIGHT, 0.4), (_RIGHT, _BOTTOM - _CUT), (_RIGHT - _CUT, _BOTTOM), (_LEFT, _BOTTOM))),
+}
+
+_POST = ((_LEFT, 0.0), (_LEFT, 1.0))
+_TOP_ARC = ((_RIGHT - _CUT, _TOP), (_RIGHT, _TOP + _CUT))
+_BOTTOM_ARC = ((_RIGHT, _BOTTOM - _CUT), (_RIGHT - _CUT, _BOTTOM))
+_OPEN_RING = (
+    (_RIGHT, 0.3),
+    *reversed(_TOP_ARC),
+    (_LEFT + _CUT, _TOP),
+    (_LEFT, _TOP + _CUT),
+    (_LEFT, _BOTTOM - _CUT),
+    (_LEFT + _CUT, _BOTTOM),
+    *reversed(_BOTTOM_ARC),
+)
+_BOW = ((0.0, _TOP), *_TOP_ARC, (_RIGHT, 0.56 - _CUT), (_RIGHT - _CUT, 0.56), (_LEFT, 0.56))
+_STROKES |= {
+    "A": (
+        ((_LEFT, 1.0), (_LEFT, _TOP + _CUT), (_LEFT + _CUT, _TOP), *_TOP_ARC, (_RIGHT, 1.0)),
+        ((_LEFT, 0.58), (_RIGHT, 0.58)),
+    ),
+    "B": (
+        _POST,
+        ((0.0, _TOP), *_TOP_ARC, (_RIGHT, _MIDDLE - _CUT), (_RIGHT - _CUT, _MIDDLE), (_LEFT, _MIDDLE)),
+        ((_LEFT, _MIDDLE), *_BELLY, (_RIGHT - _CUT, _BOTTOM), (0.0, _BOTTOM)),
+    ),
+    "C": ((*_OPEN_RING, (_RIGHT, 0.7)),),
+    "D": (_POST, ((0.0, _TOP), *_TOP_ARC, *_BOTTOM_ARC, (0.0, _BOTTOM))),
+    "E": (
+        ((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),
+        ((_LEFT, _MIDDLE), (0.46, _MIDDLE)),
+    ),
+    "F": (((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, 1.0)), ((_LEFT, _MIDDLE), (0.46, _MIDDLE))),
+    "G": ((*_OPEN_RING, (_RIGHT, 0.54), (0.28, 0.54)),),
+    "H": (_POST, ((_RIGHT, 0.0), (_RIGHT, 1.0)), ((_LEFT, _MIDDLE), (_RIGHT, _MIDDLE))),
+    "J": (((_RIGHT, 0.0), *_BOTTOM_ARC, (_LEFT + _CUT, _BOTTOM), (_LEFT, _BOTTOM - _CUT), (_LEFT, 0.66)),),
+    "K": (_POST, ((0.50, -0.05), (_LEFT, 0.60)), ((0.20, 0.40), (0.50, 1.05))),
+    "L": (((_LEFT, 0.0), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
+    "M": (((_LEFT, 1.0), (_LEFT, 0.12), (0.28, 0.52), (_RIGHT, 0.12), (_RIGHT, 1.0)),),
+    "N": (((_LEFT, 1.0), (_LEFT, 0.12), (_RIGHT, 0.88), (_RIGHT, 0.0)),),
+    "P": (_POST, _BOW),
+    "Q": (_loop(_TOP, _BOTTOM), ((0.28, 0.66), (0.52, 1.05))),
+    "R": (_POST, _BOW, ((0.26, 0.56), (0.48, 1.05))),
+    "S": (
+        (
+            (_RIGHT, 0.28),
+            *reversed(_TOP_ARC),
+            (_LEFT + _CUT, _TOP),
+            (_LEFT, _TOP + _CUT),
+            (_LEFT, _MIDDLE - _CUT),
+            (_LEFT + _CUT, _MIDDLE),
+            *_BELLY,
+            *_HOOK_BOTTOM,
+        ),
+    ),
+    "T": (((0.0, _TOP), (GLYPH_WIDTH, _TOP)), ((0.28, _TOP), (0.28, 1.0))),
+    "U": (((_LEFT, 0.0), (_LEFT, _BOTTOM - _CUT), (_LEFT + _CUT, _BOTTOM), *reversed(_BOTTOM_ARC), (_RIGHT, 0.0)),),
+    "V": (((0.06, -0.05), (0.28, 0.94), (0.50, -0.05)),),
+    "W": (((0.04, -0.05), (0.15, 0.94), (0.28, 0.36), (0.41, 0.94), (0.52, -0.05)),),
+    "X": (((0.06, -0.05), (0.50, 1.05)), ((0.50, -0.05), (0.06, 1.05))),
+    "Y": (((0.06, -0.05), (0.28, 0.52)), ((0.50, -0.05), (0.28, 0.52)), ((0.28, 0.46), (0.28, 1.0))),
+    "Z": (((0.0, _TOP), (_RIGHT, _TOP), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
 }
 
 
-def floor_digit(digit: int, height_m: float) -> Asset:
-    """A white digit whose top points to -Z, a few millimetres over the floor; origin in its middle."""
+def text_shape(text: str, height_m: float, *, pitch: float) -> shapely.Geometry:
+    """The outline of a word, around the origin, with its second coordinate downwards.
+
+    Parameters
+    ----------
+    text
+        Digits and capital letters, without I and O, which are read as digits.
+    height_m
+        Of each character.
+    pitch
+        From one character's middle to the next one's, as a share of their height.
+    """
+    shapes = []
+    for index, character in enumerate(text):
+        across = (index - (len(text) - 1) / 2) * pitch
+        shapes.append(affinity.translate(_glyph(character), across))
+    return affinity.scale(shapely.union_all(shapes), height_m, height_m, origin=(0, 0))
+
+
+def _glyph(character: str) -> shapely.Geometry:
+    """A character that is 1 high, around the origin."""
     strokes = [
         shapely.LineString(stroke).buffer(_STROKE / 2, cap_style="flat", join_style="mitre")
         if stroke[0] != stroke[-1]
         else shapely.LinearRing(stroke).buffer(_STROKE / 2, join_style="mitre")
-        for stroke in _STROKES[digit]
+        for stroke in _STROKES[character]
     ]
-    glyph = shapely.intersection(shapely.union_all(strokes), shapely.box(0, 0, _WIDTH, 1), grid_size=1e-4)
-    placed = shapely.transform(glyph, lambda points: (points - (_WIDTH / 2, 0.5)) * height_m)
-    part = flat_part("Paint", placed, "paint_white", height_m=DIGIT_LIFT_M, collider=None)
-    return Asset("stall_number", (part,))
+    glyph = shapely.intersection(shapely.union_all(strokes), shapely.box(0, 0, GLYPH_WIDTH, 1), grid_size=1e-4)
+    return affinity.translate(glyph, -GLYPH_WIDTH / 2, -0.5)

@@ -22,6 +22,8 @@ class FittingsConfig(Settings):
     """A barrier gate with a ticket column at each ramp."""
     stall_numbers: bool = True
     """A number painted at the mouth of each stall."""
+    zones: bool = True
+    """Zones by letter and number, on plates around the columns; stalls are numbered within theirs."""
     tubes_per_cell: int = Field(2, ge=0, le=6)
     """Tube lights over each lane square; squares with stalls carry one."""
     lane_lux: float = Field(50.0, gt=0, le=2000)

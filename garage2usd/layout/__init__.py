@@ -1,16 +1,18 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds
+from garage2usd.dead_ends import dead_ends
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
-from garage2usd.layout.designation import chargers, stall_numbers, with_designated_stalls
+from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
@@ -21,7 +23,7 @@ from garage2usd.layout.specs import Point
 from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
-from garage2usd.planning import dead_ends
+from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
 
 __all__ = ["Illuminance", "Layout", "ObjectKind", "ObjectTable", "Placement", "Stall", "StallUse", "lay_out"]
 
@@ -82,44 +84,50 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
-    # what lies on the lanes decides what is painted there
-    bumps = speed_bumps(grid, graph, fittings, seed=seed)
-    with_bump = {bump.square for bump in bumps}
-    crossings = set(core_doors(structure)) - with_bump
-    floors = [
-        floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
-        for tile in grid
-    ]
-
     stalls = stalls_of(grid, graph, bay)
     if config.plan.dead_ends is DeadEnds.STANDARD:
         tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, tips)
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
-    parking = [*stall_panels(stalls), *wheel_stops(stalls, fittings), *parked_cars(stalls, config.parking, draws)]
-    parking += [*stall_numbers(stalls, fittings), *chargers(stalls)]
-    parking += floor_stains(grid, floors, stalls, fittings, draws)
-
+    zones = Zones(structure) if fittings.zones else None
+    stalls = with_numbers(stalls, zones)
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
-    pillars = columns(structure, bay, fittings)
-    overhead = [
-        *(ceiling_panel(tile, fittings) for tile in grid),
-        *tubes,
-        *ducts(structure, grid, fittings),
-        *sprinklers(structure, grid, fittings),
-        *exit_signs(grid, graph, fittings),
-        *mirrors(grid, graph, pillars, bay.column_size_m, fittings),
-    ]
-    on_tiles = [*floors, *parking, *bumps, *no_parking_signs(grid, fittings, seed=seed), *overhead]
-    walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
-    shell = [
-        *walls,
-        *barriers(walls, fittings),
-        *obstacles(structure, fittings),
-        *pillars,
-    ]
-    by_square = sorted(on_tiles, key=lambda placement: placement.square or (0, 0))
-    return Layout(structure, ObjectTable((*by_square, *shell)), stalls, fittings.ceiling_height_m, illuminance)
+
+    def parts() -> Iterator[Iterable[Placement]]:
+        # what lies on the lanes decides what is painted there
+        bumps = speed_bumps(grid, graph, fittings, seed=seed)
+        with_bump = {bump.square for bump in bumps}
+        crossings = set(core_doors(structure)) - with_bump
+        floors = [
+            floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
+            for tile in grid
+        ]
+        yield floors
+        yield floor_stains(grid, floors, stalls, fittings, draws)
+        yield stall_panels(stalls)
+        yield wheel_stops(stalls, fittings)
+        yield parked_cars(stalls, config.parking, draws)
+        yield stall_numbers(stalls, fittings)
+        yield chargers(stalls)
+        yield bumps
+        yield no_parking_signs(grid, fittings, seed=seed)
+
+        pillars = columns(structure, bay, fittings)
+        yield (ceiling_panel(tile, fittings) for tile in grid)
+        yield tubes
+        yield ducts(structure, grid, fittings)
+        yield sprinklers(structure, grid, fittings)
+        yield exit_signs(grid, graph, fittings)
+        yield mirrors(grid, graph, pillars, bay.column_size_m, fittings)
+
+        walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
+        yield walls
+        yield barriers(walls, fittings)
+        yield obstacles(structure, fittings)
+        yield pillars
+        yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
+
+    return Layout(structure, ObjectTable(parts()), stalls, fittings.ceiling_height_m, illuminance)
 
 
 def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:

@@ -1,4 +1,4 @@
-"""What single stalls are for: accessible and charging stalls, their symbols, chargers and numbers."""
+"""What single stalls are for: accessible and charging stalls, their symbols and chargers."""
 
 import math
 from collections.abc import Iterable
@@ -6,17 +6,14 @@ from dataclasses import replace
 
 import shapely
 
-from garage2usd.config import FittingsConfig, ParkingConfig
+from garage2usd.config import ParkingConfig
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
-from garage2usd.layout.specs import ChargerSpec, DigitSpec, Marking, Point, Surface
+from garage2usd.layout.specs import ChargerSpec, Marking, Point, Surface
 
-__all__ = ["chargers", "stall_numbers", "use_symbol", "with_designated_stalls"]
+__all__ = ["chargers", "use_symbol", "with_designated_stalls"]
 
 _ACCESSIBLE_FROM_STALLS = 25
 """Garages of so many stalls have an accessible one at least."""
-_DIGIT_HEIGHT_M = 0.45
-_DIGIT_PITCH_M = 0.32
-_NUMBER_FROM_MOUTH_M = 0.45
 _CHARGER_FROM_REAR_M = 0.055
 _SYMBOL_Z_M = 0.35
 
@@ -64,32 +61,6 @@ def _wheelchair() -> list[tuple[Point, ...]]:
         tuple((round(x - 0.1, 6), round(z + _SYMBOL_Z_M, 6)) for x, z in list(shape.exterior.coords)[:-1])
         for shape in sorted(shapes, key=lambda shape: shape.bounds)
     ]
-
-
-def stall_numbers(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
-    """The running number of each stall that cars park in, painted at its mouth, a placement for each digit."""
-    if not fittings.stall_numbers:
-        return []
-    numbers: list[Placement] = []
-    for number, stall in enumerate(stalls, start=1):
-        if stall.use is StallUse.TURNING:
-            continue
-        digits = f"{number:03d}"
-        for index, digit in enumerate(digits):
-            across = (index - (len(digits) - 1) / 2) * _DIGIT_PITCH_M
-            along = stall.length_m / 2 - _NUMBER_FROM_MOUTH_M
-            x, z = to_world((across, along), stall.centre_m, stall.yaw_rad)
-            numbers.append(
-                Placement(
-                    f"{stall.named('StallNumber')}_{index + 1}",
-                    ObjectKind.STALL_NUMBER,
-                    DigitSpec(int(digit), _DIGIT_HEIGHT_M),
-                    (round(x, 6), 0.0, round(z, 6)),
-                    stall.yaw_rad,
-                    stall.square,
-                )
-            )
-    return numbers
 
 
 def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:

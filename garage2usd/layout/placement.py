@@ -31,6 +31,7 @@ class ObjectKind(StrEnum):
     SKY = "sky"
     BARRIER = "barrier"
     STALL_NUMBER = "stall_number"
+    ZONE_PLATE = "zone_plate"
     CHARGER = "charger"
     SPRINKLER = "sprinkler"
     EXIT_SIGN = "exit_sign"
@@ -103,6 +104,8 @@ class Stall:
         Its size between the lines' middles.
     use
         What it is for.
+    number
+        As people read it, ``B2-07``: zone, and what is painted at its mouth; empty where nobody parks.
     """
 
     name: str
@@ -115,6 +118,7 @@ class Stall:
     width_m: float
     length_m: float
     use: StallUse = StallUse.STANDARD
+    number: str = ""
 
     def named(self, kind: str) -> str:
         """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""

@@ -5,17 +5,18 @@ from enum import StrEnum
 from functools import cached_property
 
 __all__ = [
+    "GLYPH_PITCH",
     "BarrierSpec",
     "CarSpec",
     "CeilingSpec",
     "ChargerSpec",
     "ColumnSpec",
-    "DigitSpec",
     "DuctSpec",
     "ExitSignSpec",
     "Marking",
     "MirrorSpec",
     "NoParkingSignSpec",
+    "NumberSpec",
     "ObstacleSpec",
     "PanelSpec",
     "Point",
@@ -35,6 +36,7 @@ __all__ = [
     "WallPostSpec",
     "WallSpec",
     "WheelStopSpec",
+    "ZonePlateSpec",
     "rectangle",
 ]
 
@@ -250,11 +252,24 @@ class NoParkingSignSpec:
     """A free-standing no-parking sign that looks to +Z; origin in the middle of its foot."""
 
 
-@dataclass(frozen=True)
-class DigitSpec:
-    """A digit painted on the floor, its top to -Z; origin in its middle on the floor."""
+GLYPH_PITCH = 0.71
+"""From one character's middle to the next one's, as a share of their height."""
 
-    digit: int
+
+@dataclass(frozen=True)
+class NumberSpec:
+    """Digits painted on the floor, their tops to -Z; origin in their middle on the floor."""
+
+    digits: str
+    height_m: float
+
+
+@dataclass(frozen=True)
+class ZonePlateSpec:
+    """A plate with a letter or a number on each side of a square column; origin in its middle, at its lower edge."""
+
+    text: str
+    column_size_m: float
     height_m: float
 
 
@@ -364,7 +379,8 @@ Spec = (
     | WheelStopSpec
     | NoParkingSignSpec
     | CarSpec
-    | DigitSpec
+    | NumberSpec
+    | ZonePlateSpec
     | ChargerSpec
     | SprinklerSpec
     | ExitSignSpec

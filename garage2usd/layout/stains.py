@@ -96,7 +96,7 @@ def floor_stains(
     stalls: Iterable[Stall],
     fittings: FittingsConfig,
     draws: SquareDraws,
-) -> list[Placement]:
+) -> Iterator[Placement]:
     """The stains of all squares.
 
     Parameters
@@ -114,13 +114,12 @@ def floor_stains(
     """
     rate = fittings.floor_stain_rate
     if not rate:
-        return []
+        return
     stalls_on: dict[Square, list[Stall]] = {}
     for stall in stalls:
         stalls_on.setdefault(stall.square, []).append(stall)
     most = max((len(row) for row in stalls_on.values()), default=0)
     numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _NUMBERS)
-    placed: list[Placement] = []
     for tile, panel in zip(grid, floors, strict=True):
         floor = _Floor(tile)
         drawn = numbers[tile.square]
@@ -132,8 +131,7 @@ def floor_stains(
             _stain_lane(floor, panel.spec, grid.setback_m, drawn, rate)
             mouths = [stall for edge in Edge for stall in _opening_on(tile, edge, stalls_on)]
             _mark_turns(floor, mouths, grid.setback_m, drawn, rate)
-        placed += floor.placed
-    return placed
+        yield from floor.placed
 
 
 def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64], rate: float) -> None:

@@ -1,7 +1,7 @@
 """All objects of a garage in columns, so that a million of them stay light and quick to go through."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,19 +35,19 @@ class ObjectTable(Sequence[Placement]):
         (row, col) of the tile of each, (-1, -1) for what belongs to the building; int32, shape (n, 2).
     """
 
-    def __init__(self, placements: Iterable[Placement]) -> None:
-        """Take the columns out of placements."""
-        placements = list(placements)
+    def __init__(self, parts: Iterable[Iterable[Placement]]) -> None:
+        """Take the columns out of placements, part by part, so that only one part's are there at a time.
+
+        What lies on squares comes first, square by square, and within one in the order of the parts.
+        """
         specs: dict[Spec, int] = {}
         names: dict[str, int] = {}
-        self.kind = np.array([_KIND_NUMBERS[place.kind] for place in placements], dtype=np.uint8)
-        self.spec = np.array([specs.setdefault(place.spec, len(specs)) for place in placements], dtype=np.int32)
-        self.name = np.array([names.setdefault(place.name, len(names)) for place in placements], dtype=np.int32)
-        self.position_m = np.array([place.position_m for place in placements], dtype=np.float64).reshape(-1, 3)
-        self.yaw_rad = np.array([place.yaw_rad for place in placements], dtype=np.float64)
-        self.square = np.array([place.square or (-1, -1) for place in placements], dtype=np.int32).reshape(-1, 2)
-        self.specs = tuple(specs)
-        self.names = tuple(names)
+        columns = [_columns(part, specs, names) for part in parts]
+        kind, spec, name, position, yaw, square = (np.concatenate(column) for column in zip(*columns, strict=True))
+        order = np.lexsort((square[:, 1], square[:, 0], square[:, 0] < 0))
+        self.kind, self.spec, self.name = kind[order], spec[order], name[order]
+        self.position_m, self.yaw_rad, self.square = position[order], yaw[order], square[order]
+        self.specs, self.names = tuple(specs), tuple(names)
 
     def __len__(self) -> int:
         """Number of objects."""
@@ -89,3 +89,18 @@ class ObjectTable(Sequence[Placement]):
     def rows_of(self, *kinds: ObjectKind) -> NDArray[np.intp]:
         """Numbers of the rows that hold objects of some kinds."""
         return np.flatnonzero(np.isin(self.kind, [_KIND_NUMBERS[kind] for kind in kinds]))
+
+
+def _columns(
+    placements: Iterable[Placement], specs: dict["Spec", int], names: dict[str, int]
+) -> tuple[NDArray[Any], ...]:
+    """Kind, shape, name, position, turn and square of placements as arrays; new shapes and names get a number."""
+    placements = list(placements)
+    return (
+        np.array([_KIND_NUMBERS[place.kind] for place in placements], dtype=np.uint8),
+        np.array([specs.setdefault(place.spec, len(specs)) for place in placements], dtype=np.int32),
+        np.array([names.setdefault(place.name, len(names)) for place in placements], dtype=np.int32),
+        np.array([place.position_m for place in placements], dtype=np.float64).reshape(-1, 3),
+        np.array([place.yaw_rad for place in placements], dtype=np.float64),
+        np.array([place.square or (-1, -1) for place in placements], dtype=np.int32).reshape(-1, 2),
+    )

@@ -3,18 +3,16 @@
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimension
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
-from garage2usd.planning.principles import DeadEnd, Principles, dead_ends, principles
+from garage2usd.planning.principles import Principles, principles
 from garage2usd.planning.score import Score, evaluate, is_feasible
 from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
 __all__ = [
     "ArchivedPlan",
-    "DeadEnd",
     "Plan",
     "Principles",
     "Score",
     "area_per_stall_m2",
-    "dead_ends",
     "dimension",
     "evaluate",
     "given_plan",

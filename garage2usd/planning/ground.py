@@ -7,13 +7,11 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import DeadEnds
+from garage2usd.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.grid import Cell, CellArray, Structure
 from garage2usd.stalls import capacity_table
 
-__all__ = ["LANE_LIMIT_MM", "PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
-
-LANE_LIMIT_MM = 26_000
-"""A dead-end aisle longer than this keeps a turning stall free."""
+__all__ = ["PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
 
 PADDING = 4
 """Squares outside on each side of a site, as many as the widest window sees beyond one of its squares."""
@@ -82,7 +80,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
         weights=np.array([plan.stall_weight, plan.parking_time_weight, plan.unused_weight]),
         dead_end_cost=_DEAD_END_COST[plan.dead_ends]
         * (plan.stall_weight if plan.dead_ends is DeadEnds.STANDARD else 1),
-        dead_end_limit_mm=0 if plan.dead_ends is DeadEnds.FORBID else LANE_LIMIT_MM,
+        dead_end_limit_mm=0 if plan.dead_ends is DeadEnds.FORBID else DEAD_END_LIMIT_MM,
     )
 
 

@@ -1,37 +1,15 @@
-"""The paper's four design principles, and dead ends, as figures of a plan."""
+"""The paper's four design principles, as figures of a plan."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from garage2usd.config import BayConfig
+from garage2usd.dead_ends import DeadEnd, dead_ends
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure, edge_neighbour_count
-from garage2usd.planning.ground import LANE_LIMIT_MM
 from garage2usd.stalls import square_capacity
 
-__all__ = ["DeadEnd", "Principles", "dead_ends", "principles"]
-
-_MM_PER_M = 1000
-Square = tuple[int, int]
-
-
-@dataclass(frozen=True)
-class DeadEnd:
-    """An aisle that ends in nothing.
-
-    Attributes
-    ----------
-    tip
-        (row, col) of its last lane.
-    length_m
-        From its end to the next junction or portal.
-    needs_turning_stall
-        Whether it is longer than the standard's 26 m.
-    """
-
-    tip: Square
-    length_m: float
-    needs_turning_stall: bool
+__all__ = ["Principles", "principles"]
 
 
 @dataclass(frozen=True)
@@ -84,35 +62,6 @@ def principles(structure: Structure, *, bay: BayConfig) -> Principles:
         loops=max(0, edges - int(lane.sum()) + 1) if lane.any() else 0,
         dead_ends=dead_ends(structure),
     )
-
-
-def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
-    """All dead ends of a structure in reading order, by walking from each tip to the next junction or portal."""
-    drivable = {(int(row), int(col)) for row, col in np.argwhere(structure.cells >= Cell.LANE)}
-    beside = {
-        square: [other for other in _around(square) if other in drivable] for square in structure.where(Cell.LANE)
-    }
-    found = []
-    for tip, neighbours in beside.items():
-        if len(neighbours) > 1:
-            continue
-        length_mm, previous, square = 0, tip, tip
-        while square in beside and (square == tip or len(beside[square]) == 2):  # noqa: PLR2004 - neither tip nor junction
-            onward = [other for other in beside[square] if other != previous]
-            ahead = onward[0] if onward else previous
-            side = (
-                structure.row_depths_mm[square[0]] if ahead[0] != square[0] else structure.column_widths_mm[square[1]]
-            )
-            length_mm += int(side)
-            if not onward:
-                break
-            previous, square = square, ahead
-        found.append(DeadEnd(tip, length_mm / _MM_PER_M, length_mm > LANE_LIMIT_MM))
-    return tuple(found)
-
-
-def _around(square: Square) -> list[Square]:
-    return [(square[0] + dr, square[1] + dc) for dr, dc in NEIGHBOUR_STEPS]
 
 
 def _beside(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:

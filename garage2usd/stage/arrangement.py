@@ -12,7 +12,7 @@ from garage2usd.lanes import Square
 from garage2usd.layout import Layout, ObjectKind
 from garage2usd.layout.table import KINDS
 
-__all__ = ["ROOT_NAME", "Arrangement", "arrange", "row_name", "tile_name"]
+__all__ = ["ROOT_NAME", "SCATTERED", "Arrangement", "arrange", "row_name", "tile_name"]
 
 ROOT_NAME = "Garage"
 
@@ -21,6 +21,7 @@ _BUILDING_GROUPS = {
     ObjectKind.PORTAL: "Walls",
     ObjectKind.OBSTACLE: "Obstacles",
     ObjectKind.COLUMN: "Columns",
+    ObjectKind.ZONE_PLATE: "Columns",
     ObjectKind.RAMP: "Ramps",
     ObjectKind.SKY: "Ramps",
     ObjectKind.BARRIER: "Ramps",
@@ -30,7 +31,7 @@ _BUILDING_GROUPS = {
 _AT_CORNERS = {ObjectKind.COLUMN: "Column"}
 """Names of what stands where four tiles meet: where tiles share prototypes, it belongs to the first of them."""
 
-_SCATTERED = {ObjectKind.STALL_NUMBER: "StallNumbers"}
+SCATTERED = {ObjectKind.STALL_NUMBER: "StallNumbers", ObjectKind.ZONE_PLATE: "ZonePlates"}
 """Instancer of each kind that makes all tiles different and that nothing can touch, where tiles share prototypes."""
 
 
@@ -123,7 +124,7 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
             tile[at] = tile_of_square[row, col]
             name = np.where(np.isin(np.arange(len(name)), at), np.int32(len(names)), name)
             names.append(common_name)
-        for kind, instancer in _SCATTERED.items():
+        for kind, instancer in SCATTERED.items():
             at = objects.rows_of(kind)
             if len(at):
                 scattered[instancer] = at

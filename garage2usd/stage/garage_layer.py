@@ -66,6 +66,9 @@ def write_garage_layer(
     path
         The file; ``.usda`` or ``.usdc``.
     """
+    write_lane_graph(path.parent / asset_folder / LANE_GRAPH_FILE, layout, graph, setback_m=setback_m)
+    for name, rows in arrangement.scattered.items():
+        write_instancer(path.parent / asset_folder / f"{name}.usdc", layout.placements, rows, prototypes)
     writer = InstanceWriter(
         layout,
         arrangement,
@@ -89,9 +92,6 @@ def write_garage_layer(
     groups = "".join(group_text(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
     names = [switch.class_name for switch in class_names] + [_TILE_CLASS] * arrangement.nested
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
-    write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph, setback_m=setback_m)
-    for name, rows in arrangement.scattered.items():
-        write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes)
     files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
     parts = "".join(_part_text(asset_folder, file) for file in files)
     layer = Sdf.Layer.CreateAnonymous(path.suffix)

@@ -81,10 +81,11 @@ class InstanceWriter:
 
 
 def _stall_text(stall: Stall) -> str:
-    """Id, type, use, square, lane, mouth and corners (x, z in the world) of a stall as attributes of its prim."""
+    """What a stall is as attributes of its prim; corners are (x, z) in the world."""
     corners = ", ".join(f"({x}, {z})" for x, z in stall.corners_m())
     return (
         f'custom string garage:stall:id = "{stall.name}"\n'
+        f'custom string garage:stall:number = "{stall.number}"\n'
         f'custom token garage:stall:type = "{stall.stall_type.value}"\n'
         f'custom token garage:stall:use = "{stall.use.value}"\n'
         f"custom int2 garage:stall:square = {_pair(stall.square)}\n"

@@ -36,8 +36,8 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
     ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
-    left, with ``garage:stall:id``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of a node) and
-    ``:entryEdge``. No attribute is an ``int2[]`` or a ``string[]``: three.js cannot read those from a crate file.
+    left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
+    a node) and ``:entryEdge``. No attribute is ``int2[]`` or ``string[]``, which three.js cannot read from a crate.
     """
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
@@ -94,6 +94,7 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: Sequence[Stall], nu
     prim = _author_curves(layer, path, _outlines(stalls), closed=True)
     words = {
         "id": [stall.name for stall in stalls],
+        "number": [stall.number for stall in stalls],
         "type": [str(stall.stall_type) for stall in stalls],
         "use": [str(stall.use) for stall in stalls],
         "entryEdge": [_EDGE_NAMES[stall.edge] for stall in stalls],

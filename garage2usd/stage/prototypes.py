@@ -198,8 +198,13 @@ def _(spec: s.CarSpec) -> Asset:
 
 
 @_make.register
-def _(spec: s.DigitSpec) -> Asset:
-    return assets.floor_digit(spec.digit, spec.height_m)
+def _(spec: s.NumberSpec) -> Asset:
+    return assets.floor_number(spec.digits, spec.height_m, pitch=s.GLYPH_PITCH)
+
+
+@_make.register
+def _(spec: s.ZonePlateSpec) -> Asset:
+    return assets.zone_plate(spec.text, spec.column_size_m, spec.height_m, pitch=s.GLYPH_PITCH)
 
 
 @_make.register

@@ -66,8 +66,8 @@ def share_tiles(
             arrangement.name[order],
             objects.kind[order],
             objects.spec[order],
-            np.rint(local / _SAME_PLACE_M).astype(np.int64),
-            np.rint(objects.yaw_rad[order] / _SAME_YAW_RAD).astype(np.int64),
+            np.rint(local / _SAME_PLACE_M).astype(np.int32),
+            np.rint(objects.yaw_rad[order] / _SAME_YAW_RAD).astype(np.int32),
         ]
     )
     names: dict[tuple[str, bytes], str] = {}

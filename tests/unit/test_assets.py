@@ -1,3 +1,4 @@
+import string
 from collections import Counter, defaultdict
 
 import networkx as nx
@@ -61,7 +62,11 @@ CASES = {
     "oil": assets.floor_stain("oil", 2, 0.9, 0.7),
     "wear": assets.floor_stain("wear_t", 0, 8.1, 6.5),
     **{f"tyres_{turn}": assets.tyre_marks(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
-    **{f"digit_{digit}": assets.floor_digit(digit, 0.45) for digit in range(10)},
+    **{f"number_{digits}": assets.floor_number(digits, 0.45, pitch=0.71) for digits in [*"0123456789", "07", "88"]},
+    **{
+        f"plate_{text}": assets.zone_plate(text, 0.6, 0.38, pitch=0.71)
+        for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
+    },
     **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
 }
 each_part = pytest.mark.parametrize(
@@ -204,7 +209,7 @@ def test_texture_coordinates_run_on_under_the_paint():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"light", "sky", "stall_number", "floor_stain"}
+    untouchable = {"light", "sky", "stall_number", "zone_plate", "floor_stain"}
     for asset in CASES.values():
         assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}

@@ -9,7 +9,7 @@ import shapely
 from footprints import footprint
 from sample_files import each_sample
 
-from garage2usd.assets.glyphs import DIGIT_LIFT_M
+from garage2usd.assets.lettering import PAINT_LIFT_M
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.grid import Cell
 from garage2usd.layout import ObjectKind, StallUse
@@ -99,7 +99,7 @@ def test_wear_covers_every_lane_once_and_leads_where_cars_drive(layout, stains):
 def test_what_overlaps_lies_at_another_height(layout, stains):
     on_square = defaultdict(list)
     for place, box in zip(stains, boxes(layout), strict=True):
-        assert 0.0005 < place.position_m[1] < DIGIT_LIFT_M - 0.0005
+        assert 0.0005 < place.position_m[1] < PAINT_LIFT_M - 0.0005
         on_square[place.square].append((place, box))
     for items in on_square.values():
         for (one, box), (other, other_box) in itertools.combinations(items, 2):

@@ -1,0 +1,112 @@
+"""Zones by letter and number, by which people find their car again: plates on columns, and the stalls' numbers."""
+
+import string
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from garage2usd.config import FittingsConfig
+from garage2usd.grid import Structure
+from garage2usd.lanes import Square
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.specs import GLYPH_PITCH, NumberSpec, ZonePlateSpec
+
+__all__ = ["Zone", "Zones", "stall_numbers", "with_numbers", "zone_plates"]
+
+_LETTERS = "".join(letter for letter in string.ascii_uppercase if letter not in "IO")
+_MAX_NUMBER = 99
+_MIN_SIDE = 4
+_DIGIT_HEIGHT_M = 0.45
+_NUMBER_FROM_MOUTH_M = 0.45
+_PIECE_DIGITS = 2
+_NUMBER_PLATE_M = (1.34, 1.68)
+_LETTER_PLATE_M = (1.68, 2.06)
+
+
+class Zone(NamedTuple):
+    """A block of squares: a letter for its columns, a number from 1 for its rows."""
+
+    letter: str
+    number: int
+
+    def __str__(self) -> str:
+        """As people say it: ``B2``."""
+        return f"{self.letter}{self.number}"
+
+
+class Zones:
+    """The zones of a garage: blocks of 4 x 4 squares, larger where letters or numbers would run out."""
+
+    def __init__(self, structure: Structure) -> None:
+        rows, columns = structure.shape
+        self._side = max(_MIN_SIDE, -(-columns // len(_LETTERS)), -(-rows // _MAX_NUMBER))
+
+    def of(self, square: Square) -> Zone:
+        """The zone that a square (row, col) lies in."""
+        row, col = square
+        return Zone(_LETTERS[col // self._side], row // self._side + 1)
+
+
+def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, ...]:
+    """The same stalls with their numbers, running through each zone, or through the garage where there are none.
+
+    Stalls that nobody parks in have none.
+    """
+    counts: Counter[Zone | None] = Counter()
+    numbered = []
+    for stall in stalls:
+        if stall.use is StallUse.TURNING:
+            numbered.append(stall)
+            continue
+        zone = zones.of(stall.square) if zones else None
+        counts[zone] += 1
+        number = f"{zone}-{counts[zone]:02d}" if zone else f"{counts[zone]:03d}"
+        numbered.append(replace(stall, number=number))
+    return tuple(numbered)
+
+
+def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Placement]:
+    """The number of each stall without its zone, painted at its mouth, in pieces of two digits at most."""
+    if not fittings.stall_numbers:
+        return []
+    pitch_m = GLYPH_PITCH * _DIGIT_HEIGHT_M
+    numbers: list[Placement] = []
+    for stall in stalls:
+        painted = stall.number.rpartition("-")[2]
+        along = stall.length_m / 2 - _NUMBER_FROM_MOUTH_M
+        for piece, end in enumerate(range(len(painted), 0, -_PIECE_DIGITS), start=1):
+            start = max(end - _PIECE_DIGITS, 0)
+            across = (start + end - len(painted)) / 2 * pitch_m
+            x, z = to_world((across, along), stall.centre_m, stall.yaw_rad)
+            numbers.append(
+                Placement(
+                    f"{stall.named('StallNumber')}_{piece}",
+                    ObjectKind.STALL_NUMBER,
+                    NumberSpec(painted[start:end], _DIGIT_HEIGHT_M),
+                    (round(x, 6), 0.0, round(z, 6)),
+                    stall.yaw_rad,
+                    stall.square,
+                )
+            )
+    return numbers
+
+
+def zone_plates(
+    columns: Iterable[Placement], column_size_m: float, structure: Structure, zones: Zones
+) -> list[Placement]:
+    """Plates around each column with the letter and the number of the zone at its upper left."""
+    plates: list[Placement] = []
+    for column in columns:
+        x, _, z = column.position_m
+        row, col = np.searchsorted(structure.row_edges_m, z), np.searchsorted(structure.column_edges_m, x)
+        zone = zones.of((int(row) - 1, int(col) - 1))
+        for name, text, (low, high) in (
+            ("ZoneNumber", str(zone.number), _NUMBER_PLATE_M),
+            ("ZoneLetter", zone.letter, _LETTER_PLATE_M),
+        ):
+            spec = ZonePlateSpec(text, column_size_m, round(high - low, 6))
+            plates.append(Placement(f"{name}_r{row:02d}_c{col:02d}", ObjectKind.ZONE_PLATE, spec, (x, low, z)))
+    return plates
