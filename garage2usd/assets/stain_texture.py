@@ -116,7 +116,7 @@ def _tyre(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
 def _lanes(place: Field) -> Field:
     """How much cars have worn a floor across their way; `place` from 0 to 1 across it."""
     away = np.abs(np.abs(place - 0.5) - _LANE)
-    return 0.08 * ramp(away, 0.2, 0.08) + 0.14 * ramp(np.abs(away - _WHEEL), 0.075, 0.0)
+    return 0.12 * ramp(away, 0.21, 0.08) + 0.24 * ramp(np.abs(away - _WHEEL), 0.075, 0.0)
 
 
 def _worn(rng: np.random.Generator, shape: tuple[int, int], ways: Field) -> Field:

@@ -120,8 +120,8 @@ def _floor_colour(rng: np.random.Generator) -> Pixels:
 
 def _floor_packed(rng: np.random.Generator) -> Pixels:
     shape = 512, 512
-    rough = 0.36 + 0.30 * (clouds(rng, shape, (9, 9), 4) - 0.5)
-    rough += 0.16 * ramp(clouds(rng, shape, (14, 14), 4), 0.56, 0.72)
+    rough = 0.43 + 0.20 * (clouds(rng, shape, (12, 12), 4) - 0.5)
+    rough += 0.12 * ramp(clouds(rng, shape, (20, 20), 4), 0.54, 0.74)
     rough -= 0.06 * spots(rng, shape, 60, (3.0, 14.0))
     return _packed(1.0, np.clip(rough, 0.2, 0.8))
 
