@@ -147,7 +147,9 @@ def make_part(
     unit = area / np.linalg.norm(area, axis=1, keepdims=True)
     normals = _corner_normals(flat, counts, area, unit, crease_deg)
     along = project or _along_main_axis
-    coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / MATERIALS[material].repeat_m
+    look = MATERIALS[material]
+    repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
+    coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
     st, st_indices = _unique_rows(np.round(coordinates, _WELD_DECIMALS) + 0.0)
     return Part(
         name=name,
