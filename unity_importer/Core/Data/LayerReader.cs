@@ -11,6 +11,7 @@ namespace Garage.Usd
             try
             {
                 if (UsdaReader.Knows(bytes)) { return UsdaReader.Read(bytes, identifier); }
+                if (CrateReader.Knows(bytes)) { return CrateReader.Read(bytes, identifier); }
             }
             catch (OutOfMemoryException)
             {
