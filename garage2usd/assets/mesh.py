@@ -1,6 +1,6 @@
 """Meshes as plain arrays: parts with one material each, made of faces in metres, Y up."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import pairwise
@@ -20,7 +20,6 @@ __all__ = [
     "frame_faces",
     "lathe_faces",
     "make_part",
-    "moved",
     "ring_faces",
 ]
 
@@ -236,14 +235,6 @@ def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
         faces.append([(ax, ay, z0), (bx, by, z0), (bx, by, z1), (ax, ay, z1)])
         faces.append([(dx, dy, z1), (cx, cy, z1), (cx, cy, z0), (dx, dy, z0)])
     return [np.array(face) for face in faces]
-
-
-def moved(faces: Iterable[Face], offset: ArrayLike, *, mirror_x: bool = False) -> list[Face]:
-    """Faces moved by (x, y, z); mirrored in X before, if asked, with their winding kept outwards."""
-    step = np.asarray(offset, dtype=float)
-    if mirror_x:
-        return [(face * (-1.0, 1.0, 1.0))[::-1] + step for face in faces]
-    return [face + step for face in faces]
 
 
 def _unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
