@@ -124,15 +124,15 @@ def schema() -> None:
 @main.command()
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
 def textures(folder: Path) -> None:
-    """Bake the texture set that the wheel ships into FOLDER, byte for byte."""
+    """Bake the texture set that the wheel ships into FOLDER, byte for byte, a folder for each quality."""
     from garage2usd.assets import bake_textures  # noqa: PLC0415
     from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
 
     check_writable(folder)
     with staging_folder() as staging:
         bake_textures(staging)
-        files = publish(sorted(staging.iterdir()), folder)
-    click.echo(f"{len(files)} textures in {folder}")
+        folders = publish(sorted(staging.iterdir()), folder)
+    click.echo(f"{sum(len(list(place.iterdir())) for place in folders)} textures in {folder}")
 
 
 class _Bars:

@@ -19,6 +19,7 @@ class Step(IntEnum):
     SIGNS = 6
     SPEED_BUMPS = 7
     CONES = 8
+    FLOOR_STAINS = 12
     ARRANGEMENTS = 20
 
 

@@ -65,6 +65,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(0.32, 0.1)
         case s.ConeSpec():
             return _centred(0.38, 0.38)
+        case s.StainSpec():
+            return _centred(spec.width_m, spec.depth_m)
+        case s.TyreMarkSpec():
+            return _centred(1.8, 2 * spec.length_m)
         case s.NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)

@@ -18,6 +18,7 @@ from garage2usd.assets.lettering import floor_number, zone_plate
 from garage2usd.assets.materials import MATERIALS, VARYING, Material
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.overhead import cable_tray, exit_sign, mirror, sprinkler
+from garage2usd.assets.stains import floor_stain, tyre_marks
 from garage2usd.assets.textures import bake_textures, texture_folder
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "exit_sign",
     "floor_number",
     "floor_panel",
+    "floor_stain",
     "mirror",
     "no_parking_sign",
     "obstacle_block",
@@ -53,6 +55,7 @@ __all__ = [
     "sprinkler",
     "texture_folder",
     "tube_light",
+    "tyre_marks",
     "wall_panel",
     "wall_post",
     "wheel_stop",

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, frame_faces, make_part
 
@@ -30,7 +31,11 @@ def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
     top = _BAND_TOP_M + _STRIPE_M
     faces += box_faces((-half, top, -thickness_m), (half, height_m, 0), without="lrbtn")
     faces += box_faces((-half, 0, -thickness_m), (half, height_m, 0), without="f")
-    parts.append(make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX))
+
+    def from_top(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.stack([face[:, 0] + face[:, 2], face[:, 1] - height_m - face[:, 2]], axis=1)
+
+    parts.append(make_part("Concrete", faces, "wall_concrete", collider=Collider.BOX, project=from_top))
     return Asset("wall", tuple(parts))
 
 

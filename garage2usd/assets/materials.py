@@ -17,33 +17,39 @@ class Material:
     ----------
     colour_rgb
         Linear base colour where there is no texture.
-    colour_texture, roughness_texture, normal_texture
-        File names in the texture folder.
+    colour_texture, packed_texture, normal_texture
+        File names in the texture folder. A packed one holds occlusion, roughness and metallic in red, green and blue.
     roughness, metallic, opacity, clearcoat
         0 to 1.
+    has_alpha
+        Whether the colour texture's alpha is the opacity.
     ior
         Index of refraction; None for the default.
     emissive_rgb
         Linear radiance.
     repeat_m
         Metres that one repeat of the textures covers.
+    repeat_up_m
+        The same along V, where it is another.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
     colour_texture: str | None = None
     roughness: float = 0.6
-    roughness_texture: str | None = None
+    packed_texture: str | None = None
     normal_texture: str | None = None
     metallic: float = 0.0
     opacity: float = 1.0
+    has_alpha: bool = False
     clearcoat: float = 0.0
     ior: float | None = None
     emissive_rgb: Rgb = (0.0, 0.0, 0.0)
     repeat_m: float = 1.0
+    repeat_up_m: float | None = None
 
     def textures(self) -> tuple[str, ...]:
         """The file names that it uses."""
-        names = (self.colour_texture, self.roughness_texture, self.normal_texture)
+        names = (self.colour_texture, self.packed_texture, self.normal_texture)
         return tuple(name for name in names if name is not None)
 
 
@@ -65,41 +71,51 @@ VARYING = frozenset({"car_paint"})
 
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
-        colour_texture="floor_colour.png",
-        roughness_texture="floor_roughness.png",
+        colour_texture="floor_colour.jpg",
+        packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
         repeat_m=8.1,
     ),
     "stall_epoxy": Material(
-        colour_texture="stall_colour.png",
-        roughness_texture="floor_roughness.png",
+        colour_texture="stall_colour.jpg",
+        packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
-        repeat_m=6.7,
+        repeat_m=5.4,
     ),
     "stall_green": Material(
         colour_rgb=(0.025, 0.15, 0.06),
-        roughness_texture="floor_roughness.png",
+        packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
-        repeat_m=6.7,
+        repeat_m=5.4,
     ),
     "stall_blue": Material(
         colour_rgb=(0.02, 0.07, 0.24),
-        roughness_texture="floor_roughness.png",
+        packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
-        repeat_m=6.7,
+        repeat_m=5.4,
     ),
-    "paint_white": Material(colour_texture="paint_white.png", roughness=0.55, repeat_m=2.7),
-    "paint_yellow": Material(colour_texture="paint_yellow.png", roughness=0.55, repeat_m=2.7),
+    "stain_oil": Material(colour_texture="stains.png", has_alpha=True, roughness=0.22),
+    "stain_damp": Material(colour_texture="stains.png", has_alpha=True, roughness=0.12),
+    "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
+    "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
+    "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7),
+    "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7),
     "wall_concrete": Material(
-        colour_texture="wall_colour.png", roughness=0.85, normal_texture="wall_normal.png", repeat_m=5.4
+        colour_texture="wall_colour.jpg",
+        packed_texture="wall_packed.png",
+        normal_texture="wall_normal.png",
+        repeat_m=8.1,
+        repeat_up_m=4.05,
     ),
-    "wall_band": Material(colour_texture="band_colour.png", roughness=0.5, repeat_m=5.4),
+    "wall_band": Material(
+        colour_texture="band_colour.jpg", packed_texture="band_packed.png", repeat_m=8.1, repeat_up_m=1.1
+    ),
     "band_stripe": Material(colour_rgb=(0.62, 0.36, 0.02), roughness=0.5),
     "ceiling_concrete": Material(
-        colour_texture="ceiling_colour.png", roughness=0.9, normal_texture="wall_normal.png", repeat_m=6.3
+        colour_texture="ceiling_colour.jpg", roughness=0.9, normal_texture="ceiling_normal.png", repeat_m=8.1
     ),
-    "hazard": Material(colour_texture="hazard.png", roughness=0.5, repeat_m=0.6),
-    "steel_galvanised": Material(colour_texture="steel_colour.png", roughness=0.42, metallic=0.85, repeat_m=1.5),
+    "hazard": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6),
+    "steel_galvanised": Material(colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5),
     "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6),
     "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3),
     "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4),
@@ -128,12 +144,14 @@ MATERIALS: dict[str, Material] = {
     "exit_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, emissive_rgb=(1.6, 1.7, 1.6)),
     "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8),
     "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65),
-    "glass": Material(colour_rgb=(0.012, 0.015, 0.017), roughness=0.06, clearcoat=1.0, ior=1.52),
+    "glass": Material(colour_rgb=(0.022, 0.028, 0.031), roughness=0.04, clearcoat=1.0, ior=1.52),
     "tyre": Material(colour_rgb=(0.018, 0.018, 0.019), roughness=0.85),
     "rim": Material(colour_rgb=(0.5, 0.51, 0.53), roughness=0.28, metallic=0.9),
     "trim_black": Material(colour_rgb=(0.012, 0.012, 0.013), roughness=0.6),
-    "lamp_front": Material(colour_rgb=(0.62, 0.65, 0.68), roughness=0.08, metallic=0.4, clearcoat=1.0),
-    "lamp_rear": Material(colour_rgb=(0.33, 0.008, 0.01), roughness=0.12, clearcoat=1.0),
+    "lamp_front": Material(colour_rgb=(0.86, 0.88, 0.90), roughness=0.14, metallic=0.35, clearcoat=1.0),
+    "lamp_rear": Material(colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, clearcoat=1.0),
+    "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0),
+    "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0),
     "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5),
     "car_paint": Material(roughness=0.32, clearcoat=1.0),
     **{

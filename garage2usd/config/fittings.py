@@ -48,6 +48,8 @@ class FittingsConfig(Settings):
     """Share of the standard stalls without a car that cones close, and of the hatched squares with cones."""
     wheel_stops: bool = True
     """A wheel stop in each stall."""
+    floor_stain_rate: float = Field(0.5, ge=0, le=1)
+    """How much oil, damp, cracks, patches and tyre marks there are; 0 for a new floor."""
     no_parking_sign_rate: float = Field(0.5, ge=0, le=1)
     """Share of the free squares without stalls that carry no-parking signs."""
 

@@ -22,6 +22,7 @@ from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, whee
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.specs import Point
+from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
@@ -101,10 +102,12 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         bumps = speed_bumps(grid, graph, fittings, seed=seed)
         with_bump = {bump.square for bump in bumps}
         crossings = set(core_doors(structure)) - with_bump
-        yield (
+        floors = [
             floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
             for tile in grid
-        )
+        ]
+        yield floors
+        yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
         yield wheel_stops(stalls, fittings)
         cars = parked_cars(stalls, config.parking, draws)

@@ -42,6 +42,7 @@ _HATCHES = {StallUse.TURNING: Surface.PAINT_YELLOW, StallUse.ACCESS_AISLE: Surfa
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     stalls: list[Stall] = []
+    squares = {square: square for square in grid.tiles}  # one tuple for each square
     for tile in grid:
         number = 0
         for row in grid.rows_by_square.get(tile.square, []):
@@ -53,7 +54,7 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
                         square=tile.square,
                         edge=row.edge,
                         stall_type=graph.stall_types[tile.square],
-                        access_square=neighbour((row.row, row.col), row.edge),
+                        access_square=squares[neighbour((row.row, row.col), row.edge)],
                         centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
                         yaw_rad=edge_yaw_rad(row.edge),
                         width_m=bay.stall_width_m,

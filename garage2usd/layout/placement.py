@@ -39,6 +39,7 @@ class ObjectKind(StrEnum):
     SPRINKLER = "sprinkler"
     EXIT_SIGN = "exit_sign"
     MIRROR = "mirror"
+    FLOOR_STAIN = "floor_stain"
 
 
 class StallUse(StrEnum):

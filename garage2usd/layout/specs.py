@@ -32,9 +32,12 @@ __all__ = [
     "Spec",
     "SpeedBumpSpec",
     "SprinklerSpec",
+    "StainMark",
+    "StainSpec",
     "Surface",
     "TubeLightSpec",
     "Turn",
+    "TyreMarkSpec",
     "WallPostSpec",
     "WallSpec",
     "WheelStopSpec",
@@ -375,6 +378,48 @@ class MirrorSpec:
     arm_m: float
 
 
+class StainMark(StrEnum):
+    """What stains a floor."""
+
+    WEAR_STRAIGHT = "wear_straight"
+    """Wheels that rolled from -Z to +Z; a bend joins +Z and +X, a T-junction lets +Z into the lane along X."""
+    WEAR_BEND = "wear_bend"
+    WEAR_T = "wear_t"
+    WEAR_CROSS = "wear_cross"
+    OIL = "oil"
+    DRIPS = "drips"
+    DAMP = "damp"
+    CRACK = "crack"
+    PATCH = "patch"
+
+
+@dataclass(frozen=True)
+class StainSpec:
+    """A stain on a rectangle of the floor; origin in its middle."""
+
+    mark: StainMark
+    variant: int
+    width_m: float
+    depth_m: float
+
+
+@dataclass(frozen=True)
+class TyreMarkSpec:
+    """The marks of a car's wheels; origin in the middle of their end, where the car moved to -Z.
+
+    Attributes
+    ----------
+    length_m
+        Of the way between them.
+    turn_rad
+        By how much the car turned on it; positive where it came from +X.
+    """
+
+    variant: int
+    length_m: float
+    turn_rad: float = 0.0
+
+
 @dataclass(frozen=True)
 class CarSpec:
     """A parked car; origin in the middle of its footprint, nose to -Z."""
@@ -410,6 +455,8 @@ Spec = (
     | SprinklerSpec
     | ExitSignSpec
     | MirrorSpec
+    | StainSpec
+    | TyreMarkSpec
 )
 
 

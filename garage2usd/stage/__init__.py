@@ -20,7 +20,6 @@ from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of, name_prototypes
-from garage2usd.stage.textures import write_texture
 from garage2usd.stage.usdz import write_usdz
 
 __all__ = ["StageFormat", "asset_folder_name", "write_labels", "write_stage"]
@@ -93,7 +92,7 @@ def write_stage(
         write_prototype(asset, folder / f"{name}.usdc")
         used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
     for texture in sorted(used):
-        write_texture(texture_folder() / texture, textures / texture, config.texture_quality)
+        shutil.copyfile(texture_folder(config.texture_quality) / texture, textures / texture)
 
     # a browser reads a package only if its root layer is text
     layer_path = path.with_suffix(".usda") if packed else path

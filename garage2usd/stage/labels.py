@@ -37,6 +37,7 @@ OBJECT_LABELS: dict[ObjectKind, str] = {
     ObjectKind.SPRINKLER: "sprinkler",
     ObjectKind.EXIT_SIGN: "exit_sign",
     ObjectKind.MIRROR: "mirror",
+    ObjectKind.FLOOR_STAIN: "floor_stain",
 }
 """Semantic class of each kind of object, authored on every instance root."""
 
@@ -66,6 +67,7 @@ CITYSCAPES: dict[str, str] = {
     "sprinkler": "static",
     "exit_sign": "traffic sign",
     "mirror": "static",
+    "floor_stain": "road",
 }
 """Name of the nearest Cityscapes class of each class."""
 

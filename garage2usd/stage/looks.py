@@ -4,10 +4,12 @@ from pxr import Gf, Sdf, Usd, UsdShade
 
 from garage2usd.assets import Material
 
-__all__ = ["TEXTURE_FOLDER", "define_material", "set_varying"]
+__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "set_varying"]
 
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
+PACKED_CHANNELS = {"r": "occlusion", "g": "roughness", "b": "metallic"}
+"""What each channel of a packed texture is to the surface."""
 
 
 def define_material(
@@ -25,8 +27,7 @@ def define_material(
 
     if not varying:
         _bind_colour(stage, path, surface, material)
-        _bind_roughness(stage, path, surface, material)
-        surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
+        _bind_finish(stage, path, surface, material)
     if material.normal_texture is not None:
         reader = _texture(stage, path, "NormalTexture", material.normal_texture, "raw")
         # an 8-bit normal map holds (n + 1) / 2
@@ -34,11 +35,9 @@ def define_material(
         reader.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1, -1, -1, 0))
         output = reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
         surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).ConnectToSource(output)
-    for name, value in (
-        ("opacity", material.opacity),
-        ("clearcoat", material.clearcoat),
-    ):
-        surface.CreateInput(name, Sdf.ValueTypeNames.Float).Set(value)
+    if not material.has_alpha:
+        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(material.opacity)
+    surface.CreateInput("clearcoat", Sdf.ValueTypeNames.Float).Set(material.clearcoat)
     if material.ior is not None:
         surface.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(material.ior)
     if any(material.emissive_rgb):
@@ -61,15 +60,22 @@ def _bind_colour(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, mat
         return
     reader = _texture(stage, path, "ColourTexture", material.colour_texture, "sRGB")
     colour.ConnectToSource(reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+    if material.has_alpha:
+        alpha = reader.CreateOutput("a", Sdf.ValueTypeNames.Float)
+        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).ConnectToSource(alpha)
+        # where there is nothing, nothing shines either
+        surface.CreateInput("opacityMode", Sdf.ValueTypeNames.Token).Set("presence")
 
 
-def _bind_roughness(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:
-    roughness = surface.CreateInput("roughness", Sdf.ValueTypeNames.Float)
-    if material.roughness_texture is None:
-        roughness.Set(material.roughness)
+def _bind_finish(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:
+    if material.packed_texture is None:
+        surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(material.roughness)
+        surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
         return
-    reader = _texture(stage, path, "RoughnessTexture", material.roughness_texture, "raw")
-    roughness.ConnectToSource(reader.CreateOutput("r", Sdf.ValueTypeNames.Float))
+    reader = _texture(stage, path, "PackedTexture", material.packed_texture, "raw")
+    for channel, name in PACKED_CHANNELS.items():
+        output = reader.CreateOutput(channel, Sdf.ValueTypeNames.Float)
+        surface.CreateInput(name, Sdf.ValueTypeNames.Float).ConnectToSource(output)
 
 
 def _texture(stage: Usd.Stage, path: Sdf.Path, name: str, file: str, colour_space: str) -> UsdShade.Shader:

@@ -252,3 +252,13 @@ def _(spec: s.ExitSignSpec) -> Asset:
 @_make.register
 def _(spec: s.MirrorSpec) -> Asset:
     return assets.mirror(spec.radius_m, arm_m=spec.arm_m)
+
+
+@_make.register
+def _(spec: s.StainSpec) -> Asset:
+    return assets.floor_stain(spec.mark, spec.variant, spec.width_m, spec.depth_m)
+
+
+@_make.register
+def _(spec: s.TyreMarkSpec) -> Asset:
+    return assets.tyre_marks(spec.variant, spec.length_m, spec.turn_rad)

@@ -18,6 +18,7 @@ from stage_textures import texture_names
 from garage2usd.assets import MATERIALS
 from garage2usd.layout import ObjectKind
 from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.looks import PACKED_CHANNELS
 from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
@@ -30,11 +31,11 @@ VIEWS = ["inside", "above"]
 
 
 def images_by_size(package):
-    """PNG files of a package by the number of their bytes: a page knows the images that it shows by no other mark."""
+    """Pictures of a package by the number of their bytes: a page knows the images that it shows by no other mark."""
     images = {}
     with zipfile.ZipFile(package) as archive:
         for entry in archive.infolist():
-            if entry.filename.endswith(".png"):
+            if entry.filename.endswith((".png", ".jpg")):
                 assert entry.file_size not in images
                 with Image.open(io.BytesIO(archive.read(entry))) as image:
                     images[entry.file_size] = PurePosixPath(entry.filename).name, image.size
@@ -42,12 +43,14 @@ def images_by_size(package):
 
 
 def uses_of_textures(layout):
-    return Counter(
-        texture
-        for placement in layout.placements
-        for part in asset_of(placement.spec).parts
-        for texture in MATERIALS[part.material].textures()
-    )
+    """How many maps show each texture: a packed one is three of its material's."""
+    uses = Counter()
+    for placement in layout.placements:
+        for part in asset_of(placement.spec).parts:
+            look = MATERIALS[part.material]
+            uses.update(look.textures())
+            uses.update([look.packed_texture] * (len(PACKED_CHANNELS) - 1) if look.packed_texture else [])
+    return uses
 
 
 # three.js shares nothing between references, and asks for each texture of each instance at once: of the 20x30 garage's

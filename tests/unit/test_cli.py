@@ -184,8 +184,10 @@ def test_the_schema_command_prints_the_schema():
 def test_the_textures_are_baked_again_byte_for_byte(tmp_path):
     result = run("textures", tmp_path / "baked")
     assert result.exit_code == 0, result.output
-    baked = {path.name: path.read_bytes() for path in (tmp_path / "baked").iterdir()}
-    kept = {path.name: path.read_bytes() for path in (REPOSITORY / "textures").iterdir() if path.suffix == ".png"}
+    baked, kept = (
+        {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*.*")}
+        for folder in (tmp_path / "baked", REPOSITORY / "textures")
+    )
     assert baked == kept
 
 

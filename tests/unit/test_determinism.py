@@ -40,7 +40,7 @@ def files(folder):
 def test_same_bytes(twice):
     first, second = (files(folder) for folder in twice)
     assert set(first) == set(second)
-    assert {Path(name).suffix for name in first} == {".usda", ".usdc", ".usdz", ".png", ".json"}
+    assert {Path(name).suffix for name in first} == {".usda", ".usdc", ".usdz", ".png", ".jpg", ".json"}
     for name in first:
         if not name.endswith("_report.json"):
             assert first[name].read_bytes() == second[name].read_bytes(), name

@@ -169,6 +169,7 @@ def test_settings_decide_what_is_there():
                 "wheel_stops": False,
                 "speed_bump_rate": 0,
                 "no_parking_sign_rate": 0,
+                "floor_stain_rate": 0,
                 "tubes_per_cell": 0,
                 "ramps": False,
                 "sprinklers": False,
@@ -195,7 +196,7 @@ def test_settings_decide_what_is_there():
         "stall_number",
         "charger",
     }
-    empty |= {"sprinkler", "exit_sign", "mirror"}
+    empty |= {"sprinkler", "exit_sign", "mirror", "floor_stain"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 

@@ -1,0 +1,165 @@
+"""The texture of all stains: what stains in its colours, how much of it there is in its alpha."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.assets.stains import CELLS, CELLS_ACROSS
+
+__all__ = ["bake_stains"]
+
+_CELL_PIXELS = 128
+_INK_RGB = {"oil": (26, 23, 20), "drips": (26, 23, 20), "damp": (44, 43, 41), "patch": (138, 135, 128)}
+_RUBBER_RGB = (20, 20, 20)
+_LANE = 0.228
+"""Middle of each direction's lane from the middle of a square, in shares of its width."""
+_WHEEL = 0.096
+"""Half the gauge of a car in the same shares."""
+
+
+def bake_stains(rng: np.random.Generator) -> NDArray[np.uint8]:
+    """The texture; uint8, shape (rows, columns, 4)."""
+    side = CELLS_ACROSS * _CELL_PIXELS
+    pixels = np.zeros((side, side, 4), dtype=np.uint8)
+    pixels[:, :, :3] = _RUBBER_RGB
+    for mark, cells in CELLS.items():
+        for cell in cells:
+            left, top, width, height = (int(value * _CELL_PIXELS) for value in cell)
+            window = pixels[top : top + height, left : left + width]
+            window[:, :, :3] = _INK_RGB.get(mark, _RUBBER_RGB)
+            share = _DRAWERS[mark](rng, (height, width))
+            window[:, :, 3] = np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
+    return pixels
+
+
+def _places(shape: tuple[int, int]) -> tuple[Field, Field]:
+    """How far down and across each pixel lies, 0 to 1."""
+    rows, columns = shape
+    down = ((np.arange(rows) + 0.5) / rows)[:, None] * np.ones(shape)
+    return down, ((np.arange(columns) + 0.5) / columns)[None, :] * np.ones(shape)
+
+
+def _length(down: Field, across: Field) -> Field:
+    length: Field = np.sqrt(down * down + across * across)
+    return length
+
+
+def _from_middle(shape: tuple[int, int]) -> Field:
+    """Distance from the middle, 1 at the nearest border."""
+    down, across = _places(shape)
+    return _length(2 * down - 1, 2 * across - 1)
+
+
+def _inside(shape: tuple[int, int], margin: float) -> Field:
+    """1 inside, 0 at the border."""
+    down, across = _places(shape)
+    away = np.minimum(np.minimum(down, 1 - down), np.minimum(across, 1 - across))
+    return ramp(away, 0.0, margin)
+
+
+def _oil(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    away = _from_middle(shape)
+    edge = 0.55 - away + 1.1 * (clouds(rng, shape, (3, 3), 4) - 0.5)
+    pool = 0.35 * ramp(edge, 0.0, 0.14) + 0.5 * ramp(edge, 0.1, 0.5)
+    drops = 0.75 * ramp(spots(rng, shape, 26, (1.5, 5.0)), 0.2, 0.5) * ramp(away, 0.95, 0.6)
+    grained = 0.75 + 0.5 * (clouds(rng, shape, (12, 12), 3) - 0.5)
+    return np.maximum(pool * grained, drops) * _inside(shape, 0.08)
+
+
+def _damp(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    edge = 0.6 - _from_middle(shape) + 1.3 * (clouds(rng, shape, (3, 3), 5) - 0.5)
+    return (0.32 * ramp(edge, 0.0, 0.06) + 0.12 * ramp(edge, 0.05, 0.4)) * _inside(shape, 0.06)
+
+
+def _drips(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    _, across = _places(shape)
+    bent = across + 0.5 * (noise(rng, (shape[0], 1), (3, 1)) - 0.5)
+    near = ramp(np.abs(bent - 0.5), 0.16, 0.04)
+    drops = ramp(spots(rng, shape, 240, (1.5, 5.5)), 0.2, 0.55)
+    return 0.75 * drops * near * _inside(shape, 0.08)
+
+
+def _patch(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    down, across = _places(shape)
+    ragged = 0.05 * (clouds(rng, shape, (6, 6), 4) - 0.5)
+    away = np.minimum(np.minimum(down, 1 - down), np.minimum(across, 1 - across)) + ragged
+    return ramp(away, 0.06, 0.085) * (0.62 + 0.7 * (clouds(rng, shape, (5, 5), 4) - 0.5))
+
+
+def _crack(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    rows, columns = shape
+    down, _ = _places(shape)
+    column = np.arange(columns, dtype=np.float64)[None, :]
+    lines = np.zeros(shape)
+    for spread, strength in ((0.35, 0.8), (0.6, 0.5)):
+        wander = clouds(rng, (rows, 1), (3, 1), 6) - 0.5
+        place = columns * (0.5 + spread * wander)
+        lines = np.maximum(lines, strength * ramp(np.abs(column - place), 1.6, 0.4))
+    broken = ramp(noise(rng, (rows, 1), (9, 1)), 0.1, 0.4)
+    ends = ramp(down, 0.02, 0.25) * ramp(down, 0.98, 0.7)
+    cracks: Field = lines * broken * ends * _inside(shape, 0.02)
+    return cracks
+
+
+def _tyre(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    down, across = _places(shape)
+    shoulders = ramp(np.abs(np.abs(across - 0.5) - 0.26), 0.17, 0.04)
+    ribs = 0.35 * ramp(np.abs(across - 0.5), 0.2, 0.1)
+    ends = ramp(down, 0.01, 0.3) * ramp(down, 0.99, 0.55)
+    patchy = 0.7 + 0.9 * (clouds(rng, shape, (10, 1), 3) - 0.5)
+    marks: Field = 0.5 * np.maximum(shoulders, ribs) * ends * patchy * (0.8 + 0.2 * grain(rng, shape))
+    return marks
+
+
+def _lanes(place: Field) -> Field:
+    """How much cars have worn a floor across their way; `place` from 0 to 1 across it."""
+    away = np.abs(np.abs(place - 0.5) - _LANE)
+    return 0.12 * ramp(away, 0.21, 0.08) + 0.24 * ramp(np.abs(away - _WHEEL), 0.075, 0.0)
+
+
+def _worn(rng: np.random.Generator, shape: tuple[int, int], ways: Field) -> Field:
+    """Uneven inside, but even on the border, where the next square goes on."""
+    uneven = 0.9 * (clouds(rng, shape, (7, 7), 5) - 0.5) + 0.12 * (grain(rng, shape) - 0.5)
+    return ways * (1.0 + uneven * _inside(shape, 0.12))
+
+
+def _around(shape: tuple[int, int], corner_down: int, corner_across: int) -> Field:
+    down, across = _places(shape)
+    return _lanes(_length(down - corner_down, across - corner_across))
+
+
+def _wear_straight(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    return _worn(rng, shape, _lanes(_places(shape)[1]))
+
+
+def _wear_bend(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    return _worn(rng, shape, _around(shape, 1, 1))
+
+
+def _wear_t(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    turns = np.maximum(_around(shape, 1, 1), _around(shape, 1, 0))
+    return _worn(rng, shape, np.maximum(_lanes(_places(shape)[0]), turns))
+
+
+def _wear_cross(rng: np.random.Generator, shape: tuple[int, int]) -> Field:
+    down, across = _places(shape)
+    ways = np.maximum(_lanes(down), _lanes(across))
+    for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        ways = np.maximum(ways, _around(shape, *corner))
+    return _worn(rng, shape, ways)
+
+
+_DRAWERS: dict[str, Callable[[np.random.Generator, tuple[int, int]], Field]] = {
+    "wear_straight": _wear_straight,
+    "wear_bend": _wear_bend,
+    "wear_t": _wear_t,
+    "wear_cross": _wear_cross,
+    "damp": _damp,
+    "oil": _oil,
+    "patch": _patch,
+    "drips": _drips,
+    "crack": _crack,
+    "tyre": _tyre,
+}
