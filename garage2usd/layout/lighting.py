@@ -65,8 +65,8 @@ def light_up(
     Notes
     -----
     ``E(p) = MF L sum dA h^2 / r^4`` for level tubes over a level floor, each tube in three pieces, without what stands
-    in the way. L is the least with which the mean direct light on lanes reaches
-    ``lane_lux`` and that on stalls ``stall_lux``. The lumen method has ``E = N Phi UF MF / A``.
+    in the way; beams cut off less than half a per cent. L is the least with which the mean direct light on lanes
+    reaches ``lane_lux`` and that on stalls ``stall_lux``. The lumen method has ``E = N Phi UF MF / A``.
     """
     lane_points = _lane_points(grid)
     stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
