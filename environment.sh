@@ -23,8 +23,10 @@ if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
     need "$("$python" -c 'import sys; print(f"python{sys.version_info[0]}.{sys.version_info[1]}-venv")')"
 fi
 if [ "$goal" = test ]; then
-    # git for the tests' clean clone, a browser for three.js, and what Blender's Python module links against
+    # git for the tests' clean clone, a C# compiler, a browser for three.js, and what Blender's Python module links against
     command -v git >/dev/null || need git
+    command -v mcs >/dev/null || need mono-mcs
+    command -v mono >/dev/null || need mono-runtime
     command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null ||
         command -v google-chrome-stable >/dev/null || need chromium
     for library in libGL.so.1:libgl1 libEGL.so.1:libegl1 libX11.so.6:libx11-6 libXrender.so.1:libxrender1 \

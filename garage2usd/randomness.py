@@ -18,6 +18,7 @@ class Step(IntEnum):
     CARS = 5
     SIGNS = 6
     SPEED_BUMPS = 7
+    CONES = 8
     FLOOR_STAINS = 12
     ARRANGEMENTS = 20
 

@@ -38,7 +38,11 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.size_m, spec.size_m)
         case s.TubeLightSpec():
             return _centred(spec.length_m, spec.width_m)
-        case s.DuctSpec():
+        case s.BeamSpec():
+            return _centred(spec.width_m, spec.length_m)
+        case s.BeamNodeSpec():
+            return shapely.union_all([shapely.box(*box) for box in spec.boxes])
+        case s.DuctSpec() | s.CableTraySpec():
             return _centred(spec.width_m, spec.length_m)
         case s.SpeedBumpSpec():
             return _centred(spec.length_m, 0.35)
@@ -59,6 +63,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(2 * spec.radius_m, 0.2)
         case s.ChargerSpec():
             return _centred(0.32, 0.1)
+        case s.ConeSpec():
+            return _centred(0.38, 0.38)
         case s.StainSpec():
             return _centred(spec.width_m, spec.depth_m)
         case s.TyreMarkSpec():

@@ -1,5 +1,6 @@
 """The building's shell: walls, vehicle doors, cores, columns, ceiling slabs."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -7,7 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, frame_faces, make_part
 
-__all__ = ["ceiling_panel", "column", "obstacle_block", "portal_wall", "wall_panel", "wall_post"]
+__all__ = ["beam", "beam_node", "ceiling_panel", "column", "obstacle_block", "portal_wall", "wall_panel", "wall_post"]
 
 _BAND_TOP_M = 1.1
 _STRIPE_M = 0.12
@@ -162,3 +163,24 @@ def ceiling_panel(width_m: float, depth_m: float, thickness_m: float) -> Asset:
     x, z = width_m / 2, depth_m / 2
     faces = box_faces((-x, 0, -z), (x, thickness_m, z))
     return Asset("ceiling", (make_part("Slab", faces, "ceiling_concrete", collider=Collider.BOX),))
+
+
+def beam(length_m: float, width_m: float, depth_m: float) -> Asset:
+    """A concrete beam, long along Z; origin in the middle of its top, which the slab covers."""
+    x, z = width_m / 2, length_m / 2
+    faces = box_faces((-x, -depth_m, -z), (x, 0, z), without="t")
+    return Asset("beam", (make_part("Concrete", faces, "ceiling_concrete", collider=Collider.BOX),))
+
+
+def beam_node(boxes: Sequence[tuple[float, float, float, float]], depth_m: float) -> Asset:
+    """Where beams meet: boxes (left, top, right, bottom in x and z) that touch; origin on the ceiling."""
+    parts = [
+        make_part(
+            f"Concrete{index}",
+            box_faces((left, -depth_m, top), (right, 0, bottom), without="t"),
+            "ceiling_concrete",
+            collider=Collider.BOX,
+        )
+        for index, (left, top, right, bottom) in enumerate(boxes, start=1)
+    ]
+    return Asset("beam", tuple(parts))

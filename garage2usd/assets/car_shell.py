@@ -1,31 +1,64 @@
 """The shell of a car body: rings of points lofted along the car, and places on its surface."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from garage2usd.assets.mesh import Face
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["SHAPES", "Shape", "Shell"]
+__all__ = ["SHAPES", "Contour", "Shape", "Shell", "both_sides", "grid_quads", "needed"]
 
 _GROUND_CLEARANCE_M = 0.18
 _ARCH_GAP_M = 0.045
+_ARCH_STEPS = 9
 _HALF_PILLAR_M = 0.045
 _MIN_STATION_STEP_M = 0.008
-_END_INSET_M = 0.012
+_MAX_STATION_STEP_M = 0.30
+_END_INSET_M = 0.010
 """Room for plates and lamps between the shell's ends and the footprint."""
+_END_STEPS_M = (0.012, 0.03, 0.06, 0.11, 0.17)
 _BONNET_CROWN_M = 0.045
-_END_DEPTH_M = 0.32
+_END_RUN_M = 0.42
 _BED_FLOOR_M = 0.82
-# points of a ring, see `Shell._ring`: faces below the sill are floor pan, one band is side window
+_PAN_TOLERANCE_M = 0.025
+_SIDE_TOLERANCE_M = 0.002
+# points of a ring, see `Shell._make_rings`: faces below the sill are floor pan, one band is side window
 _SILL, _BELT, _ROOF_EDGE = 4, 10, 12
 _SIDE_HEIGHT = (0.0, 0.12, 0.35, 0.58, 0.80, 0.94, 1.0)
-_SIDE_WIDTH = (0.955, 0.978, 0.993, 1.0, 0.988, 0.962, 0.925)
+_SIDE_WIDTH = (0.955, 0.978, 0.993, 1.0, 0.990, 0.962, 0.925)
 _CABIN = np.array([(0.985, 0.80), (0.945, 0.91), (0.84, 0.968), (0.62, 0.99), (0.32, 0.998), (0.0, 1.0)])
 _BONNET = np.array([(0.94, 0.15), (0.82, 0.40), (0.64, 0.66), (0.43, 0.86), (0.21, 0.97), (0.0, 1.0)])
+_BED = np.array([(0.915, 0.0), (0.87, 0.0), (0.86, 1.0), (0.55, 1.0), (0.28, 1.0), (0.0, 1.0)])
+# (metres from the shell's end, share of the way from the end's width to the largest)
+_NOSE_WIDTH = (
+    (0.0, 0.0),
+    (0.012, 0.25),
+    (0.03, 0.40),
+    (0.06, 0.56),
+    (0.11, 0.73),
+    (0.17, 0.86),
+    (0.35, 0.97),
+    (1.1, 1),
+)
+_TAIL_WIDTH = (
+    (0.0, 0.0),
+    (0.012, 0.28),
+    (0.03, 0.46),
+    (0.06, 0.63),
+    (0.11, 0.80),
+    (0.17, 0.90),
+    (0.30, 0.97),
+    (0.9, 1),
+)
+# heights of the second to fifth point of the side at the ends: the bumpers, and the step above them
+_NOSE_BUMPER_M = (0.30, 0.40, 0.51, 0.55)
+_TAIL_BUMPER_M = (0.34, 0.44, 0.55, 0.59)
+# how far each point of a ring lies behind the bumper: the floor pan, the seven points of the side, all above
+_NOSE_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.004, 0.026, 0.040, 0.055, *[0.06] * 6)
+_TAIL_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.003, 0.038, 0.042, 0.048, *[0.05] * 6)
 
 
 @dataclass(frozen=True)
@@ -44,12 +77,16 @@ class Shape:
         How much narrower the roof is than the belt, as a share of the half width.
     nose, tail
         Half width at the ends as a share of the largest.
+    window_run_out_m
+        From the rear end of the side windows to the foot of the rear window.
     bow_m
         How far the middles of nose and tail stand out before their corners.
     bed
         Shares of length between which a pickup's bed is open.
     closed_nose
         Whether there is no grille.
+    upright_tail
+        Whether the tail is a tailgate between tall lamps, else the lamps lie wide under a boot lid or rear window.
     """
 
     shoulder: tuple[tuple[float, float], ...]
@@ -58,9 +95,11 @@ class Shape:
     tumblehome: float
     nose: float
     tail: float
+    window_run_out_m: float
     bow_m: tuple[float, float] = (0.11, 0.07)
     bed: tuple[float, float] | None = None
     closed_nose: bool = False
+    upright_tail: bool = False
 
 
 SHAPES = {
@@ -71,6 +110,7 @@ SHAPES = {
         tumblehome=0.22,
         nose=0.80,
         tail=0.86,
+        window_run_out_m=0.34,
     ),
     "saloon": Shape(
         shoulder=(
@@ -88,6 +128,7 @@ SHAPES = {
         tumblehome=0.25,
         nose=0.80,
         tail=0.84,
+        window_run_out_m=0.34,
     ),
     "suv": Shape(
         shoulder=((0, 0.47), (0.015, 0.54), (0.1, 0.61), (0.25, 0.64), (0.6, 0.655), (0.9, 0.67), (1, 0.64)),
@@ -96,7 +137,9 @@ SHAPES = {
         tumblehome=0.19,
         nose=0.83,
         tail=0.90,
+        window_run_out_m=0.34,
         bow_m=(0.10, 0.06),
+        upright_tail=True,
     ),
     "van": Shape(
         shoulder=((0, 0.42), (0.015, 0.48), (0.08, 0.54), (0.19, 0.585), (0.6, 0.60), (0.9, 0.60), (1, 0.58)),
@@ -105,7 +148,9 @@ SHAPES = {
         tumblehome=0.14,
         nose=0.84,
         tail=0.94,
+        window_run_out_m=0.22,
         bow_m=(0.12, 0.04),
+        upright_tail=True,
     ),
     "pickup": Shape(
         shoulder=((0, 0.50), (0.012, 0.56), (0.09, 0.605), (0.25, 0.63), (0.6, 0.64), (0.9, 0.64), (1, 0.63)),
@@ -114,8 +159,10 @@ SHAPES = {
         tumblehome=0.18,
         nose=0.86,
         tail=0.96,
+        window_run_out_m=0.22,
         bow_m=(0.09, 0.02),
         bed=(0.65, 0.975),
+        upright_tail=True,
     ),
     "compact_ev": Shape(
         shoulder=((0, 0.46), (0.02, 0.52), (0.1, 0.575), (0.22, 0.61), (0.6, 0.63), (0.9, 0.65), (1, 0.62)),
@@ -124,10 +171,64 @@ SHAPES = {
         tumblehome=0.22,
         nose=0.80,
         tail=0.84,
+        window_run_out_m=0.34,
         bow_m=(0.13, 0.09),
         closed_nose=True,
     ),
 }
+
+
+class Contour:
+    """Nose or tail cut level: a line from the middle around the corner along the right side.
+
+    Parameters
+    ----------
+    line
+        Shape (points, 2): X and Z.
+    rear
+        Whether it is the tail's.
+    """
+
+    def __init__(self, line: NDArray[np.float64], *, rear: bool) -> None:
+        steps = np.diff(line, axis=0)
+        lengths = np.linalg.norm(steps, axis=1)
+        self.line = line
+        self.arc_m = np.concatenate(([0.0], np.cumsum(lengths)))
+        """Metres along the line of each of its points."""
+        outwards = steps[:, ::-1] * ((-1.0, 1.0) if rear else (1.0, -1.0)) / lengths[:, None]
+        self._normals = np.concatenate([outwards[:1], outwards[:-1] + outwards[1:], outwards[-1:]])
+        self._normals[0, 0] = 0.0
+        self._normals /= np.linalg.norm(self._normals, axis=1, keepdims=True)
+
+    @property
+    def corner_m(self) -> float:
+        """Metres along the line to where the flat end becomes the side."""
+        return float(self.arc_m[len(_BONNET)])
+
+    def arc_at_x(self, x: float) -> float:
+        """Metres along the line to where its X is `x`; negative on the left."""
+        return float(np.sign(x) * np.interp(abs(x), self.line[:, 0], self.arc_m))
+
+    def arc_at_depth(self, depth_m: float) -> float:
+        """Metres along the line to where it is `depth_m` behind its middle."""
+        depths = np.abs(self.line[:, 1] - self.line[0, 1])
+        return float(np.interp(depth_m, depths, self.arc_m))
+
+    def arc_at_points(self, numbers: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Metres along the line to points of it by number; negative on the left for negative ones."""
+        arcs: NDArray[np.float64] = np.sign(numbers) * self.arc_m[np.abs(numbers)]
+        return arcs
+
+    def place(self, arc_m: NDArray[np.float64], skin_m: float) -> NDArray[np.float64]:
+        """X and Z, shape (n, 2), of places along the line, `skin_m` outside it."""
+        along = np.abs(arc_m)
+        place: NDArray[np.float64] = np.stack(
+            [np.interp(along, self.arc_m, self.line[:, axis]) for axis in (0, 1)], axis=1
+        )
+        normal = np.stack([np.interp(along, self.arc_m, self._normals[:, axis]) for axis in (0, 1)], axis=1)
+        place += skin_m * normal / np.linalg.norm(normal, axis=1, keepdims=True)
+        place[:, 0] *= np.where(arc_m < 0, -1.0, 1.0)
+        return place
 
 
 class Shell:
@@ -152,28 +253,16 @@ class Shell:
                 self.shoulder(self.deck) + _BONNET_CROWN_M,
             ],
         )
-        self._width = PchipInterpolator(
-            np.array([0.0, 0.02, 0.045, 0.09, 0.17, 0.3, 0.7, 0.9, 0.96, 0.98, 1.0]) * length,
-            np.array(
-                [
-                    shape.nose * 0.96,
-                    shape.nose + 0.45 * (1 - shape.nose),
-                    shape.nose + 0.70 * (1 - shape.nose),
-                    shape.nose + 0.87 * (1 - shape.nose),
-                    shape.nose + 0.97 * (1 - shape.nose),
-                    1.0,
-                    1.0,
-                    shape.tail + 0.85 * (1 - shape.tail),
-                    shape.tail + 0.55 * (1 - shape.tail),
-                    shape.tail + 0.25 * (1 - shape.tail),
-                    shape.tail * 0.96,
-                ]
-            )
-            * body.width_m
-            / 2,
-        )
+        self._first = shape.bow_m[0] + _END_INSET_M
+        self._last = length - shape.bow_m[1] - _END_INSET_M
+        nose = [(self._first + away, shape.nose + way * (1 - shape.nose)) for away, way in _NOSE_WIDTH]
+        tail = [(self._last - away, shape.tail + way * (1 - shape.tail)) for away, way in _TAIL_WIDTH]
+        stations, shares = zip(*nose, *tail[::-1], strict=True)
+        self._half_width = PchipInterpolator(stations, np.array(shares) * body.width_m / 2)
         self.stations = self._make_stations()
-        self.rings = np.array([self._ring(s) for s in self.stations])
+        self.points = self._make_rings()
+        """Shape (stations, points of a half ring, 3)."""
+        self._caps = {rear: self._make_cap(rear=rear) for rear in (False, True)}
 
     @property
     def axles(self) -> tuple[float, float]:
@@ -185,151 +274,235 @@ class Shell:
         """Radius of the wheel arches."""
         return self.body.wheel_radius_m + _ARCH_GAP_M
 
+    @property
+    def side_window(self) -> tuple[float, float]:
+        """Metres from the nose between which the side is windows and pillars."""
+        return self.cowl + 0.36, self.deck - self.shape.window_run_out_m
+
     def shoulder(self, s: float) -> float:
         """Height of bonnet edge, belt line or boot lid edge, `s` metres from the nose."""
         return float(self._shoulder(s))
 
-    def z_at(self, s: float, x: float) -> float:
-        """Z of the point `s` metres from the nose and `x` off the middle: the ends bow outwards."""
-        length, (front, rear) = self.body.length_m, self.shape.bow_m
-        first, last = front + _END_INSET_M, length - rear - _END_INSET_M
-        back = [min(self.roof_rear, 0.86 * length), min(self.deck, 0.88 * length), 0.9 * length, last]
-        knots = [first, 0.12 * length, self.cowl, self.roof_front, *back]
-        bow = np.interp(s, knots, [front, 0.06, 0.07, 0.05, -0.03, -0.03, -0.02, -rear])
-        return float(s - length / 2 - bow * (1 - (2 * x / self.body.width_m) ** 2))
+    def end_top(self, *, rear: bool) -> float:
+        """Height of the upper edge of nose or tail."""
+        return float(self.points[-1 if rear else 0, _BELT, 1])
 
-    def side_x(self, s: float, y: float) -> float:
-        """Half width of the shell at a height, `s` metres from the nose."""
-        ring = self._ring(s)[_SILL : _ROOF_EDGE + 1]
-        return float(np.interp(y, ring[:, 1], ring[:, 0]))
+    def end_heights(self, *, rear: bool, around_corner: bool) -> NDArray[np.float64]:
+        """Heights at which nose or tail bend, upwards; around their corners they are others."""
+        end, corner = (-1, -len(_END_STEPS_M)) if rear else (0, len(_END_STEPS_M))
+        heights = [self.points[i, _SILL : _BELT + 1, 1] for i in ((end, corner) if around_corner else (end,))]
+        return np.sort(np.concatenate(heights))
 
-    def end_z(self, x: float, y: float, *, rear: bool) -> float:
-        """Z of the shell where a ray along the car through (x, y) enters it at the nose or the tail."""
+    def bumper_top(self, *, rear: bool) -> float:
+        """Height at which nose or tail begins to step back above the bumper."""
+        return float(self.points[-1 if rear else 0, _SILL + 3, 1])
+
+    def side_place(self, s: float, y: float) -> tuple[float, float]:
+        """X and Z of the right side at a height, `s` metres from the nose."""
+        ring = self._ring_at(s)[_SILL : _ROOF_EDGE + 1]
+        return float(np.interp(y, ring[:, 1], ring[:, 0])), float(np.interp(y, ring[:, 1], ring[:, 2]))
+
+    def surface(self, s: float, t: float) -> NDArray[np.float64]:
+        """The point `s` metres from the nose at the ring's point `t`, which need not be whole."""
+        ring = self._ring_at(s)
+        low = min(int(t), len(ring) - 2)
+        point: NDArray[np.float64] = ring[low] + (ring[low + 1] - ring[low]) * (t - low)
+        return point
+
+    def normal(self, s: float, t: float) -> NDArray[np.float64]:
+        """The unit normal of the surface at a place, outwards."""
+        along = self.surface(s + 0.01, t) - self.surface(s - 0.01, t)
+        around = self.surface(s, min(t + 0.05, 16.0)) - self.surface(s, t - 0.05)
+        normal = np.cross(around, along)
+        unit: NDArray[np.float64] = normal / np.linalg.norm(normal)
+        return unit
+
+    def contour(self, y: float, *, rear: bool) -> Contour:
+        """The level cut through nose or tail at a height of no more than its upper edge."""
+        cap = self._caps[rear]
+        rows = cap[:-1, 0, 1]
+        row = int(np.clip(np.searchsorted(rows, y) - 1, 0, len(rows) - 2))
+        share = np.clip((y - rows[row]) / (rows[row + 1] - rows[row]), 0.0, 1.0)
+        front = (cap[row] + (cap[row + 1] - cap[row]) * share)[::-1, [0, 2]]
         order = slice(None, None, -1) if rear else slice(None)
-        before, reach = float(self.stations[order][0]), -1.0
-        for s, ring in zip(self.stations[order], self.rings[order], strict=True):
-            side = ring[_SILL:]
-            half = float(np.interp(y, side[:, 1], side[:, 0], left=-1.0, right=-1.0))
-            if half >= abs(x):
-                share = (abs(x) - reach) / (half - reach) if reach >= 0 else 0.5
-                return self.z_at(before + (float(s) - before) * min(max(share, 0.0), 1.0), x)
-            before, reach = float(s), half
-        return self.z_at(before, x)
+        near = np.abs(self.stations[order] - self.stations[order][0]) < self.body.length_m / 4
+        rings = self.points[order][near][1:, _SILL : _BELT + 1]
+        k = np.clip((rings[:, :, 1] <= y).sum(axis=1) - 1, 0, len(rows) - 2)[:, None, None]
+        low, high = (np.take_along_axis(rings, k + step, axis=1)[:, 0] for step in (0, 1))
+        shares = np.clip((y - low[:, 1:2]) / (high[:, 1:2] - low[:, 1:2]), 0.0, 1.0)
+        side = (low + (high - low) * shares)[:, [0, 2]]
+        return Contour(np.concatenate([front, side]), rear=rear)
 
-    def end_reach(self, y: float, *, rear: bool) -> float:
-        """Half width at a height within `_END_DEPTH_M` of the nose or the tail."""
-        from_end = self.stations[-1] - self.stations if rear else self.stations - self.stations[0]
-        rings = self.rings[from_end < _END_DEPTH_M, _SILL:]
-        return max(float(np.interp(y, ring[:, 1], ring[:, 0], left=0.0, right=0.0)) for ring in rings)
+    def regions(self) -> dict[str, NDArray[np.float64]]:
+        """The faces of the shell by what they are: body, cabin, glass, pillar or under; each (n, 4, 3)."""
+        kinds, quads = self._kinds(), grid_quads(self.points)
+        # doors need fewer stations than the windows over them
+        middle = np.flatnonzero((self.stations >= self.cowl) & (self.stations <= self.deck))
+        side = self.points[middle, _SILL : _BELT + 1]
+        doors = side[needed(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
+        kinds[middle[0] : middle[-1], _SILL:_BELT] = ""
+        found = {kind: quads[kinds == kind] for kind in ("body", "cabin", "glass", "pillar")}
+        caps = [grid_quads(cap).reshape(-1, 4, 3) for cap in self._caps.values()]
+        found["body"] = np.concatenate([found["body"], grid_quads(doors).reshape(-1, 4, 3), caps[0], caps[1][:, ::-1]])
+        pan = self.points[:, : _SILL + 1]
+        kept = needed(self.stations, pan.reshape(len(pan), -1), _PAN_TOLERANCE_M)
+        found["under"] = grid_quads(pan[kept]).reshape(-1, 4, 3)
+        return {kind: both_sides(faces) for kind, faces in found.items()}
+
+    def _ring_at(self, s: float) -> NDArray[np.float64]:
+        """Half a ring anywhere, between two stations: shape (points, 3)."""
+        i = int(np.clip(np.searchsorted(self.stations, s) - 1, 0, len(self.stations) - 2))
+        share = (s - self.stations[i]) / (self.stations[i + 1] - self.stations[i])
+        ring: NDArray[np.float64] = self.points[i] + (self.points[i + 1] - self.points[i]) * share
+        return ring
 
     def _make_stations(self) -> NDArray[np.float64]:
         """Distances from the nose, close together at the ends, around wheel arches and windows."""
-        length, (front, rear) = self.body.length_m, self.shape.bow_m
-        first, last = front + _END_INSET_M, length - rear - _END_INSET_M
-        fixed = [first, last]
-        fixed += [first + step for step in (0.012, 0.03, 0.06, 0.11)] + [last - s for s in (0.012, 0.03, 0.06, 0.11)]
-        fixed += [self.cowl, self.roof_front - 0.12, self.roof_front, self.roof_front + 0.12]
-        fixed += [self.roof_rear - 0.1, self.roof_rear, self.roof_rear + 0.04, self.deck]
+        length, first, last = self.body.length_m, self._first, self._last
+        fixed = [first, last, *(first + step for step in _END_STEPS_M), *(last - step for step in _END_STEPS_M)]
+        fixed += [self.cowl, self.cowl + 0.03, self.roof_front - 0.12, self.roof_front, self.roof_front + 0.12]
+        fixed += [self.roof_rear - 0.1, self.roof_rear, self.roof_rear + 0.03, self.deck - 0.02, self.deck]
+        fixed += self.side_window
         for pillar in self.shape.pillars:
             fixed += [pillar * length - _HALF_PILLAR_M, pillar * length + _HALF_PILLAR_M]
         for edge in self.shape.bed or ():
             fixed += [edge * length, edge * length + 0.012]
         reach = self.arch_radius_m
         for axle in self.axles:
-            fixed += (axle - (reach + 0.001) * np.cos(np.linspace(0, np.pi, 17))).tolist()
+            fixed += (axle - (reach + 0.001) * np.cos(np.linspace(0, np.pi, _ARCH_STEPS))).tolist()
             fixed += [axle - reach - 0.012, axle + reach + 0.012]
-        stations = np.unique(np.round(np.concatenate([fixed, np.linspace(first, last, 36)]), 4))
+        stations = np.unique(np.round(fixed, 4))
         stations = stations[(stations >= round(first, 4)) & (stations <= round(last, 4))]
-        apart: NDArray[np.float64] = stations[np.concatenate(([True], np.diff(stations) > _MIN_STATION_STEP_M))]
-        return apart
+        stations = stations[np.concatenate(([True], np.diff(stations) > _MIN_STATION_STEP_M))]
+        filled = [
+            np.linspace(low, high, int(np.ceil((high - low) / _MAX_STATION_STEP_M)), endpoint=False)
+            for low, high in pairwise(stations.tolist())
+        ]
+        return np.concatenate([*filled, stations[-1:]])
 
-    def _sill(self, s: float) -> float:
+    def _make_rings(self) -> NDArray[np.float64]:
+        """The half rings at the stations: 0-4 pan and sill, 4-10 side, 10-11 window, 11-16 roof."""
+        s = self.stations
+        width, shoulder, sill, bottom = self._half_width(s), self._shoulder(s), self._sill(s), self._bottom(s)
+        heights = bottom[:, None] + np.array(_SIDE_HEIGHT) * (shoulder - bottom)[:, None]
+        for weight, bumper in zip(self._end_weights(s), (_NOSE_BUMPER_M, _TAIL_BUMPER_M), strict=True):
+            over = (bumper[-1] + shoulder) / 2
+            end = np.column_stack([bottom, np.tile(bumper, (len(s), 1)), over, shoulder])
+            heights += weight[:, None] * (end - heights)
+        shares = (heights - sill[:, None]) / (shoulder - sill)[:, None]
+        side = np.stack([np.interp(shares, _SIDE_HEIGHT, _SIDE_WIDTH) * width[:, None], heights], axis=2)
+        pan = np.stack(
+            [np.outer(width, (0.0, 0.58, 0.60, 0.90)), np.stack([sill, sill, bottom, bottom], axis=1) + 0.02], axis=2
+        )
+        flat = np.concatenate([pan, side, self._top(s, width, shoulder)], axis=1)
+        z = self._bowed_z(s, flat[:, :, 0]) + self._set_back(s)
+        return np.concatenate([flat, z[:, :, None]], axis=2)
+
+    def _bowed_z(self, s: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Z of points `s` metres from the nose, shape (n,), and `x` off the middle, (n, m): the ends bow outwards."""
+        length, (front, rear) = self.body.length_m, self.shape.bow_m
+        back = [min(self.roof_rear, 0.86 * length), min(self.deck, 0.88 * length), 0.9 * length, self._last]
+        knots = [self._first, 0.12 * length, self.cowl, self.roof_front, *back]
+        bow = np.interp(s, knots, [front, 0.06, 0.07, 0.05, -0.03, -0.03, -0.02, -rear])
+        z: NDArray[np.float64] = (s - length / 2)[:, None] - bow[:, None] * (1 - (2 * x / self.body.width_m) ** 2)
+        return z
+
+    def _set_back(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What the ends step back above and below their bumpers, in Z; shape (n, points of a half ring)."""
+        nose, tail = self._end_weights(s)
+        step: NDArray[np.float64] = np.outer(nose, _NOSE_SETBACK_M) - np.outer(tail, _TAIL_SETBACK_M)
+        return step
+
+    def _end_weights(self, s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """How much places belong to the nose and to the tail: 1 at its end, falling to 0."""
+        nose, tail = (np.maximum(1.0 - away / _END_RUN_M, 0.0) for away in (s - self._first, self._last - s))
+        return nose * nose, tail * tail
+
+    def _sill(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of the sill and of the bumpers' lower edges."""
         length = self.body.length_m
-        lift = 0.07 * max(0.0, 1 - s / (0.08 * length)) + 0.11 * max(0.0, 1 - (length - s) / (0.07 * length))
-        return _GROUND_CLEARANCE_M + lift
+        lift = 0.07 * np.clip(1 - s / (0.08 * length), 0, 1) + 0.11 * np.clip(1 - (length - s) / (0.07 * length), 0, 1)
+        height: NDArray[np.float64] = _GROUND_CLEARANCE_M + lift
+        return height
 
-    def _bottom(self, s: float) -> float:
+    def _bottom(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of the side's lower edge: the sill, raised over the wheels."""
-        level = self._sill(s)
+        level: NDArray[np.float64] = self._sill(s)
         for axle in self.axles:
             inside = self.arch_radius_m**2 - (s - axle) ** 2
-            if inside > 0:
-                level = max(level, self.body.wheel_radius_m + float(np.sqrt(inside)))
+            over = self.body.wheel_radius_m + np.sqrt(np.maximum(inside, 0.0))
+            level = np.where(inside > 0, np.maximum(level, over), level)
         return level
 
-    def _ring(self, s: float) -> NDArray[np.float64]:
-        """Half of a cross-section as (x, y), x >= 0: 0-4 pan and sill, 4-10 side, 10-11 window, 11-16 roof."""
-        width, shoulder, sill, bottom = float(self._width(s)), self.shoulder(s), self._sill(s), self._bottom(s)
-        heights = bottom + np.array(_SIDE_HEIGHT) * (shoulder - bottom)
-        widths = np.interp((heights - sill) / (shoulder - sill), _SIDE_HEIGHT, _SIDE_WIDTH) * width
-        pan = [(0.0, sill + 0.02), (width * 0.58, sill + 0.02), (width * 0.60, bottom + 0.02)]
-        pan.append((width * 0.90, bottom + 0.02))
-        return np.concatenate([pan, np.stack([widths, heights], axis=1), self._top(s, width, shoulder)])
-
-    def _top(self, s: float, width: float, shoulder: float) -> NDArray[np.float64]:
-        """The ring above the belt line: cabin, bonnet, boot lid or open bed."""
+    def _top(
+        self, s: NDArray[np.float64], width: NDArray[np.float64], shoulder: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """The rings above the belt line: cabin, bonnet, boot lid or open bed; X and Y."""
         length, bed = self.body.length_m, self.shape.bed
-        if bed and bed[0] * length + 0.006 < s < bed[1] * length + 0.006:
-            floor, rim = _BED_FLOOR_M, shoulder + 0.008
-            inside = [(0.915, rim), (0.87, rim), (0.86, floor), (0.55, floor), (0.28, floor), (0.0, floor)]
-            return np.array([(share * width, y) for share, y in inside])
-        crown = _BONNET_CROWN_M if not bed or s < self.cowl + 0.5 else 0.012
-        roof = float(self._roof(s)) if self.cowl < s < self.deck else 0.0
-        rise = max(roof - shoulder, crown)
-        share = float(np.clip((rise - crown) / (self.body.height_m * 0.2), 0.0, 1.0))
-        narrow = float(np.clip(rise / (self.body.height_m * 0.34), 0.0, 1.0))
-        points = _BONNET + (_CABIN - _BONNET) * share
+        low = s >= self.cowl + 0.5 if bed else np.zeros(len(s), bool)
+        crown = np.where(low, 0.012, _BONNET_CROWN_M)
+        roof = np.where((self.cowl < s) & (s < self.deck), self._roof(np.clip(s, self.cowl, self.deck)), 0.0)
+        rise = np.maximum(roof - shoulder, crown)
+        share = np.clip((rise - crown) / (self.body.height_m * 0.2), 0.0, 1.0)
+        narrow = np.clip(rise / (self.body.height_m * 0.34), 0.0, 1.0)
+        points = _BONNET + (_CABIN - _BONNET) * share[:, None, None]
         half = width * (0.925 - (self.shape.tumblehome - 0.03) * narrow)
-        return np.stack([points[:, 0] * half, shoulder + points[:, 1] * rise], axis=1)
-
-    def regions(self) -> dict[str, list[Face]]:
-        """The faces of the shell by what they are: body, cabin, glass or under; both sides."""
-        found: dict[str, list[Face]] = {name: [] for name in ("body", "cabin", "glass", "under")}
-        points = np.array(
-            [
-                [(x, y, self.z_at(s, x)) for x, y in ring]
-                for s, ring in zip(self.stations.tolist(), self.rings, strict=True)
-            ]
+        top: NDArray[np.float64] = np.stack(
+            [points[:, :, 0] * half[:, None], shoulder[:, None] + points[:, :, 1] * rise[:, None]], axis=2
         )
-        for i in range(len(points) - 1):
-            for j in range(points.shape[1] - 1):
-                quad = np.array([points[i, j], points[i, j + 1], points[i + 1, j + 1], points[i + 1, j]])
-                _add_both_sides(found[self._region(i, j)], quad)
-        self._add_ends(found["body"], points)
-        return found
+        if bed:
+            inside = (bed[0] * length + 0.006 < s) & (s < bed[1] * length + 0.006)
+            rim = shoulder[inside] + 0.008
+            heights = rim[:, None] + np.outer(_BED_FLOOR_M - rim, _BED[:, 1])
+            top[inside] = np.stack([np.outer(width[inside], _BED[:, 0]), heights], axis=2)
+        return top
 
-    @staticmethod
-    def _add_ends(faces: list[Face], points: NDArray[np.float64]) -> None:
-        """Close nose and tail with columns between the lower and the upper half of their rings."""
-        count = points.shape[1]
-        for ring, forward in ((points[0], True), (points[-1], False)):
-            for j in range(count // 2):
-                low, high = (j, j + 1), (count - 2 - j, count - 1 - j)
-                quad = ring[[low[0], low[1], high[0], high[1]]]
-                _add_both_sides(faces, quad[::-1] if forward else quad)
+    def _make_cap(self, *, rear: bool) -> NDArray[np.float64]:
+        """What closes nose or tail: rows up the side's heights and the crown, columns from the side to the middle."""
+        end = -1 if rear else 0
+        crown, side = self.points[end, _BELT:], self.points[end, _SILL : _BELT + 1]
+        x = np.outer(side[:, 0], crown[:, 0] / crown[0, 0])
+        s = np.full(len(x), self.stations[end])
+        z = self._bowed_z(s, x) + self._set_back(s)[0, _SILL : _BELT + 1, None]
+        return np.concatenate([np.stack([x, np.broadcast_to(side[:, 1:2], x.shape), z], axis=2), crown[None]])
 
-    def _region(self, i: int, j: int) -> str:
-        """What the face between stations i and i + 1 and ring points j and j + 1 is made of."""
-        s = float(self.stations[i] + self.stations[i + 1]) / 2
-        if j < _SILL:
-            return "under"
-        if j < _BELT or not self.cowl < s < self.deck:
-            return "body"
-        windscreen = self.cowl + 0.03 < s < self.roof_front
-        rear_window = self.roof_rear + 0.03 < s < self.deck - 0.02
-        if j >= _ROOF_EDGE and (windscreen or rear_window):
-            return "glass"
-        return "glass" if j == _BELT and self._is_side_window(s) else "cabin"
-
-    def _is_side_window(self, s: float) -> bool:
-        run_out = 0.22 if self.shape.bed or self.deck - self.roof_rear < 0.4 else 0.34  # noqa: PLR2004
-        between = self.cowl + 0.36 < s < self.deck - run_out
-        return between and all(abs(s - share * self.body.length_m) > _HALF_PILLAR_M for share in self.shape.pillars)
+    def _kinds(self) -> NDArray[np.str_]:
+        """What the faces are made of, for each pair of stations and of ring points."""
+        s = (self.stations[:-1] + self.stations[1:]) / 2
+        kinds = np.full((len(s), self.points.shape[1] - 1), "body", dtype="<U6")
+        kinds[:, :_SILL] = "under"
+        kinds[(self.cowl < s) & (s < self.deck), _BELT:] = "cabin"
+        windscreen = (self.cowl + 0.03 < s) & (s < self.roof_front)
+        rear_window = (self.roof_rear + 0.03 < s) & (s < self.deck - 0.02)
+        kinds[windscreen | rear_window, _ROOF_EDGE:] = "glass"
+        first, last = self.side_window
+        kinds[(first < s) & (s < last), _BELT] = "glass"
+        for pillar in self.shape.pillars:
+            kinds[np.abs(s - pillar * self.body.length_m) < _HALF_PILLAR_M, _BELT] = "pillar"
+        return kinds
 
 
-def _add_both_sides(faces: list[Face], quad: Face) -> None:
-    """A quad of the right side and its mirror image, as triangles, which stay flat."""
-    for triangle in (quad[[0, 1, 2]], quad[[0, 2, 3]]):
-        faces.append(triangle)
-        faces.append((triangle * (-1.0, 1.0, 1.0))[::-1])
+def grid_quads(grid: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The quads of a grid of points, shape (rows, columns, 3), as (rows - 1, columns - 1, 4, 3)."""
+    return np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=2)
+
+
+def both_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Faces of the right side, shape (n, corners, 3), and their mirror images."""
+    back = np.roll(np.arange(quads.shape[1])[::-1], 1)
+    return np.concatenate([quads, (quads * (-1.0, 1.0, 1.0))[:, back]])
+
+
+def needed(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
+    """Which rows of values suffice, so that between them no other is further than the tolerance off a straight line."""
+    kept = [0, len(rows) - 1]
+    spans = [(0, len(rows) - 1)]
+    while spans:
+        low, high = spans.pop()
+        share = ((at[low : high + 1] - at[low]) / (at[high] - at[low]))[:, None]
+        off = np.abs(rows[low : high + 1] - rows[low] - share * (rows[high] - rows[low])).max(axis=1)
+        worst = low + int(np.argmax(off))
+        if off.max() > tolerance:
+            kept.append(worst)
+            spans += [(low, worst), (worst, high)]
+    return sorted(kept)

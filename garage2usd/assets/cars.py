@@ -1,256 +1,450 @@
 """Car bodies: a lofted shell with glass, lamps, trim and plates, on four wheels."""
 
-from collections.abc import Sequence
-from itertools import pairwise
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
-from garage2usd.assets.car_shell import SHAPES, Shell
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part, moved
+from garage2usd.assets.car_shell import SHAPES, Contour, Shell, both_sides, grid_quads, needed
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
 __all__ = ["car"]
 
 _TYRE_WIDTH_M = 0.21
-_PLATE_M = (0.50, 0.11)
-_SKIN_M = 0.004
+_PLATE_M = (0.52, 0.11)
+_SKIN_M = 0.006
+_HOUSING_SKIN_M = 0.008
+_LENS_SKIN_M = 0.012
+_SLAB_M = 0.012
 _ARCH_LIP_M = 0.03
 _SEAM_M = 0.007
+_COLUMN_M = 0.01
+"""Least width of the columns at the ends of what is put on nose or tail."""
+_ROW_M = 0.006
+_TURN_TOLERANCE_M = 0.0012
+_FLATNESS_M = 0.001
+
+Faces = NDArray[np.float64]
+"""float64, shape (faces, corners, 3)."""
+Place = Callable[[Contour], float]
+"""Where along a level cut through nose or tail, in metres from its middle."""
+Row = tuple[float, Place, Place]
+"""Height, and from where to where."""
 
 
+@lru_cache(maxsize=32)
 def car(body: CarBody) -> Asset:
     """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
     shell = Shell(body, SHAPES[body.name])
     regions = shell.regions()
+    head, tail = _HeadLamps(shell), _TailLamps(shell)
     parts = [
-        make_part("Body", regions["body"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
-        make_part("Cabin", regions["cabin"], "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
-        make_part("Glass", regions["glass"], "glass", crease_deg=38),
-        make_part("Underbody", regions["under"], "trim_black"),
-        make_part("HeadLamps", _head_lamps(shell), "lamp_front", crease_deg=50),
-        make_part("TailLamps", _tail_lamps(shell), "lamp_rear", crease_deg=50),
-        make_part("Trim", _end_trim(shell), "trim_black"),
-        make_part("Arches", _arch_lips(shell), "trim_black", crease_deg=50),
-        make_part("Seams", _seams(shell), "trim_black"),
-        make_part("Handles", _handles(shell), "car_paint"),
-        make_part("Mirrors", _mirrors(shell), "car_paint", crease_deg=50),
-        make_part("Plates", _plates(shell), "number_plate"),
+        make_part("Body", _flat(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
+        make_part("Cabin", _flat(regions["cabin"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
+        make_part("Glass", _flat(regions["glass"]), "glass", crease_deg=38),
+        make_part("Pillars", _flat(regions["pillar"]), "trim_black", crease_deg=38),
+        make_part("Underbody", _flat(regions["under"]), "trim_black"),
+        make_part("HeadLamps", _flat(head.lights()), "lamp_front", crease_deg=50),
+        make_part("TailLamps", _flat(tail.lenses()), "lamp_rear", crease_deg=50),
+        make_part("ReverseLamps", _flat(tail.reverse_lamps()), "lamp_front", crease_deg=50),
+        make_part(
+            "LampHousings", _flat(np.concatenate([head.housings(), tail.housings()])), "lamp_housing", crease_deg=50
+        ),
+        make_part("Trim", _flat(_end_trim(shell)), "trim_black"),
+        make_part("Bright", _flat(_bright_trim(shell)), "chrome"),
+        make_part("Arches", _flat(_arch_lips(shell)), "trim_black", crease_deg=50),
+        make_part("Seams", _flat(_seams(shell)), "trim_black"),
+        make_part("Handles", _flat(_handles(shell)), "car_paint"),
+        make_part("Mirrors", _flat(_mirrors(shell)), "car_paint", crease_deg=50),
+        *_plates(shell),
         *_wheels(body),
     ]
     return Asset("car", tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
-def _both_sides(faces: list[Face]) -> list[Face]:
-    return faces + moved(faces, (0.0, 0.0, 0.0), mirror_x=True)
+def _flat(quads: Faces) -> list[Face]:
+    """Quads whose corners lie in one plane as they are, others as two triangles."""
+    a, b, c, d = quads.transpose(1, 0, 2)
+    across = np.cross(c - a, d - b)
+    size = np.linalg.norm(across, axis=1)
+    off = np.abs(((b - a) * across).sum(axis=1)) / np.where(size > 0, size, 1.0)
+    is_flat = (off < _FLATNESS_M) & (size > 0)
+    bent = quads[~is_flat]
+    return [*quads[is_flat], *bent[:, [0, 1, 2]], *bent[:, [0, 2, 3]]]
 
 
-def _slab(outer: Face, inner: Face) -> list[Face]:
+def _x(x_m: float) -> Place:
+    return lambda contour: contour.arc_at_x(x_m)
+
+
+def _depth(depth_m: float) -> Place:
+    return lambda contour: contour.arc_at_depth(depth_m)
+
+
+def _slab(outer: NDArray[np.float64], inner: NDArray[np.float64]) -> Faces:
     """A closed slab between two grids of points, shapes (rows, columns, 3); the outer one is seen counter-clockwise."""
-    faces: list[Face] = []
-    rows, columns = outer.shape[:2]
-    for r in range(rows - 1):
-        for c in range(columns - 1):
-            for grid, order in ((outer, 1), (inner, -1)):
-                quad = np.array([grid[r, c], grid[r, c + 1], grid[r + 1, c + 1], grid[r + 1, c]])
-                faces += [quad[[0, 1, 2]][::order], quad[[0, 2, 3]][::order]]
-    rim = [(0, c) for c in range(columns)] + [(r, columns - 1) for r in range(1, rows)]
-    rim += [(rows - 1, c) for c in range(columns - 2, -1, -1)] + [(r, 0) for r in range(rows - 2, -1, -1)]
-    for first, second in pairwise(rim):
-        quad = np.array([outer[second], outer[first], inner[first], inner[second]])
-        faces += [quad[[0, 1, 2]], quad[[0, 2, 3]]]
-    return faces
+    quads = [grid_quads(outer).reshape(-1, 4, 3), grid_quads(inner).reshape(-1, 4, 3)[:, ::-1]]
+    far, near = (np.concatenate([g[0], g[1:, -1], g[-1, -2::-1], g[-2::-1, 0]]) for g in (outer, inner))
+    quads.append(np.stack([far[1:], far[:-1], near[:-1], near[1:]], axis=1))
+    return np.concatenate(quads)
 
 
-def _end_patch(
-    shell: Shell, edge: Sequence[tuple[float, float, float]], *, rear: bool, columns: int = 7, skin_m: float = _SKIN_M
-) -> list[Face]:
-    """A slab that follows nose or tail: for each row, upwards, its height and its range in X."""
-    sign = 1.0 if rear else -1.0
-    outer = np.empty((len(edge), columns, 3))
-    inner = np.empty_like(outer)
-    for row, (y, x0, x1) in enumerate(edge):
-        reach = 0.965 * shell.end_reach(y, rear=rear)
-        for column, x in enumerate(np.linspace(max(x0, -reach), min(x1, reach), columns).tolist()):
-            z = shell.end_z(x, y, rear=rear)
-            outer[row, column] = (x + np.sign(x) * skin_m * 0.5, y, z + sign * skin_m)
-            inner[row, column] = (x, y, z - sign * 0.02)
-    if not rear:
-        outer, inner = outer[:, ::-1], inner[:, ::-1]
-    return _slab(outer, inner)
-
-
-def _side_ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float, *, along: bool) -> list[Face]:
-    """A thin strip on both sides through (metres from the nose, height); wide in Y if it runs `along` the car."""
+def _end_patch(shell: Shell, rows: Sequence[Row], *, rear: bool, skin_m: float = _SKIN_M) -> Faces:
+    """A slab that follows nose or tail around its corners; its rows go upwards."""
+    low, high = rows[0][0], rows[-1][0]
+    wide = shell.contour(high, rear=rear)
+    around_corner = rows[-1][2](wide) > wide.corner_m
+    between = shell.end_heights(rear=rear, around_corner=around_corner)
+    outline = np.array([y for y, _, _ in rows])
+    apart = np.abs(between[:, None] - outline).min(axis=1) > _ROW_M
+    heights = np.sort(np.concatenate([outline, between[apart & (between > low) & (between < high)]]))
+    contours = [shell.contour(y, rear=rear) for y in heights.tolist()]
+    ends = [_ends_at(rows, y, contour) for y, contour in zip(heights.tolist(), contours, strict=True)]
+    turns = _turns(contours[len(heights) // 2], min(f for f, _ in ends), max(e for _, e in ends), skin_m)
     grids = []
-    for skin in (0.0025, -0.012):
-        rows = []
-        for s, y in line:
-            ds, dy = (0.0, width_m / 2) if along else (width_m / 2, 0.0)
-            ends = []
-            for sign in (1, -1):
-                x = shell.side_x(s + sign * ds, y + sign * dy)
-                ends.append((x + skin, y + sign * dy, shell.z_at(s + sign * ds, x)))
-            rows.append(ends)
-        grids.append(np.array(rows))
-    if along:
-        grids = [grid[:, ::-1] for grid in grids]
-    return _both_sides(_slab(grids[0], grids[1]))
+    for skin in (skin_m, -_SLAB_M):
+        grid = np.empty((len(heights), len(turns) + 2, 3))
+        for row, (contour, (first, last)) in enumerate(zip(contours, ends, strict=True)):
+            arcs = np.array([first, *np.clip(contour.arc_at_points(turns), first, last), last])
+            grid[row, :, [0, 2]] = contour.place(arcs, skin).T
+            grid[row, :, 1] = heights[row]
+        grids.append(grid if rear else grid[:, ::-1])
+    return _slab(grids[0], grids[1])
 
 
-def _nose_m(shell: Shell) -> tuple[float, float]:
-    """Half width of the fascia and the height of the bonnet edge over it."""
-    return shell.body.width_m / 2, shell.shoulder(shell.stations[0])
+def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, float]:
+    """From where to where a patch goes along a contour at a height, between the rows below and above."""
+    above = min(next(i for i, row in enumerate(rows) if row[0] >= y), len(rows) - 1)
+    low, high = rows[max(above - 1, 0)], rows[above]
+    share = (y - low[0]) / (high[0] - low[0]) if high[0] > low[0] else 1.0
+    first = low[1](contour) * (1 - share) + high[1](contour) * share
+    return first, low[2](contour) * (1 - share) + high[2](contour) * share
 
 
-def _head_lamps(shell: Shell) -> list[Face]:
-    """Head lamps around the corners of the nose."""
-    half, top = _nose_m(shell)
-    rows = [
-        (top - 0.16, 0.58 * half, 0.88 * half),
-        (top - 0.125, 0.52 * half, 0.93 * half),
-        (top - 0.07, 0.50 * half, 0.945 * half),
-        (top - 0.035, 0.56 * half, 0.92 * half),
+def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArray[np.int64]:
+    """The numbers of a contour's points between two places at which a patch has columns, lest it cut corners."""
+    numbers = np.arange(1 - len(contour.line), len(contour.line))
+    arcs = contour.arc_at_points(numbers)
+    numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]
+    arcs = np.array([first, *contour.arc_at_points(numbers), last])
+    kept = needed(arcs, contour.place(arcs, 0.0), skin_m / 4)
+    chosen: NDArray[np.int64] = numbers[np.array(kept[1:-1], dtype=int) - 1]
+    return chosen
+
+
+def _ribbon(shell: Shell, line: Sequence[tuple[float, float]], width_m: float) -> Faces:
+    """A thin strip on both sides along places of the shell's surface: (metres from the nose, point of the ring)."""
+    places = np.array([shell.surface(s, t) for s, t in line])
+    kept = needed(np.sum(line, axis=1), places, _TURN_TOLERANCE_M)
+    places, normals = places[kept], np.array([shell.normal(*line[i]) for i in kept])
+    across = np.cross(np.gradient(places, axis=0), normals)
+    across *= width_m / 2 / np.linalg.norm(across, axis=1, keepdims=True)
+    grids = [
+        np.stack([places + normals * lift + side for side in (-across, across)], axis=1) for lift in (0.003, -0.01)
     ]
-    return _both_sides(_end_patch(shell, rows, rear=False, columns=10, skin_m=0.008))
+    return both_sides(_slab(grids[0], grids[1]))
 
 
-def _tail_lamps(shell: Shell) -> list[Face]:
-    """Tail lamps: tall ones on upright tails, wide ones under a boot lid."""
-    half, top = shell.body.width_m / 2, shell.shoulder(shell.stations[-1])
-    tall = shell.body.name in {"van", "pickup", "suv"}
-    height, inner = (0.34, 0.74) if tall else (0.15, 0.50)
-    rows = [(top - 0.03 - height * (1 - u), inner * half, 0.945 * half) for u in (0.0, 0.3, 0.7, 1.0)]
-    rows[0] = (rows[0][0], (inner + 0.05) * half, 0.92 * half)
-    return _both_sides(_end_patch(shell, rows, rear=True, columns=10, skin_m=0.008))
+def _polygon_patch(shell: Shell, middle: tuple[float, float], radius_m: float, *, rear: bool, skin_m: float) -> Faces:
+    """A flat disc of eight corners on nose or tail, around (x, y)."""
+    x, y = middle
+    wide, narrow = radius_m, radius_m * 0.45
+    rows = [
+        (y + dy, _x(x - dx), _x(x + dx))
+        for dy, dx in ((-wide, narrow), (-narrow, wide), (narrow, wide), (wide, narrow))
+    ]
+    return _end_patch(shell, rows, rear=rear, skin_m=skin_m)
 
 
-def _end_trim(shell: Shell) -> list[Face]:
-    """Grille, lower intake, lines of bonnet and boot lid, plate recess and rear bumper insert."""
-    half, top = _nose_m(shell)
-    faces: list[Face] = []
+class _HeadLamps:
+    """Head lamps around the corners of the nose: dark housings with two reflectors and a strip of daytime light."""
+
+    def __init__(self, shell: Shell) -> None:
+        self._shell = shell
+        self._half, self._top = shell.body.width_m / 2, shell.end_top(rear=False) - 0.022
+
+    def housings(self) -> Faces:
+        half, top = self._half, self._top
+        rows = [
+            (top - 0.135, _x(0.60 * half), _depth(0.17)),
+            (top - 0.115, _x(0.53 * half), _depth(0.24)),
+            (top - 0.055, _x(0.50 * half), _depth(0.33)),
+            (top, _x(0.52 * half), _depth(0.37)),
+        ]
+        return both_sides(_end_patch(self._shell, rows, rear=False, skin_m=_HOUSING_SKIN_M))
+
+    def lights(self) -> Faces:
+        shell, half, top = self._shell, self._half, self._top
+        strip = [(top - 0.022, _x(0.535 * half), _depth(0.33)), (top - 0.008, _x(0.545 * half), _depth(0.34))]
+        faces = [_end_patch(shell, strip, rear=False, skin_m=_LENS_SKIN_M)]
+        for share in (0.61, 0.735):
+            lens = (share * half, top - 0.077)
+            faces.append(_polygon_patch(shell, lens, 0.040, rear=False, skin_m=_LENS_SKIN_M))
+        return both_sides(np.concatenate(faces))
+
+
+class _TailLamps:
+    """Tail lamps in dark housings, tall on upright tails, else wide: red lenses with a reversing lamp between."""
+
+    def __init__(self, shell: Shell) -> None:
+        self._shell = shell
+        half, top = shell.body.width_m / 2, shell.end_top(rear=True) - 0.03
+        tall = shell.shape.upright_tail
+        self._height, self._inner = (0.36, 0.77 * half) if tall else (0.155, 0.48 * half)
+        self._wrap, self._top = shell.shape.bow_m[1] + (0.12 if tall else 0.20), top
+
+    def _patch(self, low: float, high: float, edge_m: float, *, skin_m: float, inner_m: float = 0.0) -> Faces:
+        """Part of the lamps between two shares of their height, an edge's width within their outline."""
+        first, last = self._top - self._height + edge_m, self._top - edge_m
+        inner, wrap = self._inner + edge_m + inner_m, self._wrap - edge_m
+        rows = [
+            (first + (last - first) * u, _x(inner + 0.05 * (1 - u)), _depth(wrap - 0.05 * (1 - u))) for u in (low, high)
+        ]
+        return both_sides(_end_patch(self._shell, rows, rear=True, skin_m=skin_m))
+
+    def housings(self) -> Faces:
+        return self._patch(0.0, 1.0, 0.0, skin_m=_HOUSING_SKIN_M)
+
+    def lenses(self) -> Faces:
+        low, high = (0.34, 0.48) if self._shell.shape.upright_tail else (0.20, 0.44)
+        bands = [self._patch(*band, 0.012, skin_m=_LENS_SKIN_M) for band in ((0.0, low), (high, 1.0))]
+        half, y = self._shell.body.width_m / 2, self._shell.bumper_top(rear=True) - 0.045
+        reflector = [(y, _x(0.66 * half), _x(0.82 * half)), (y + 0.028, _x(0.66 * half), _x(0.82 * half))]
+        return np.concatenate([*bands, both_sides(_end_patch(self._shell, reflector, rear=True))])
+
+    def reverse_lamps(self) -> Faces:
+        low, high = (0.375, 0.445) if self._shell.shape.upright_tail else (0.245, 0.395)
+        return self._patch(low, high, 0.012, skin_m=_LENS_SKIN_M)
+
+
+def _across(low: float, high: float, below_m: float, above_m: float) -> list[Row]:
+    """Two rows that reach as far to the left as to the right."""
+    return [(low, _x(-below_m), _x(below_m)), (high, _x(-above_m), _x(above_m))]
+
+
+def _end_trim(shell: Shell) -> Faces:
+    """Grille, air intakes, plate recess, lower edges of the bumpers, lines of bonnet and tailgate."""
+    half, top = shell.body.width_m / 2, shell.end_top(rear=False)
+    bumper = shell.bumper_top(rear=False)
+    faces: list[Faces] = []
+    if shell.shape.closed_nose:
+        faces.append(_end_patch(shell, _across(top - 0.075, top - 0.045, 0.485 * half, 0.50 * half), rear=False))
+    else:
+        low = max(top - 0.30, bumper + 0.055)
+        faces.append(_end_patch(shell, _across(low, top - 0.045, 0.36 * half, 0.455 * half), rear=False))
+    faces.append(_end_patch(shell, _across(0.275, 0.375, 0.60 * half, 0.52 * half), rear=False))
+    pocket = [(0.29, _x(0.66 * half), _depth(0.17)), (0.40, _x(0.70 * half), _depth(0.20))]
+    faces.append(both_sides(_end_patch(shell, pocket, rear=False)))
+    faces.append(
+        _end_patch(shell, _across(top - 0.014, top - 0.007, 0.66 * half, 0.66 * half), rear=False, skin_m=0.003)
+    )
+
+    rear_top, bumper = shell.end_top(rear=True), shell.bumper_top(rear=True)
+    plate = _rear_plate_m(shell)
+    faces.append(
+        _end_patch(shell, _across(plate - 0.03, plate + _PLATE_M[1] + 0.03, 0.33 * half, 0.36 * half), rear=True)
+    )
+    valance = [(0.30, _depth_left(0.30), _depth(0.30)), (0.385, _depth_left(0.34), _depth(0.34))]
+    faces.append(_end_patch(shell, valance, rear=True))
+    gate = bumper + 0.03
+    faces.append(_end_patch(shell, _across(gate, gate + 0.012, 0.70 * half, 0.70 * half), rear=True, skin_m=0.003))
+    heights = np.linspace(gate + 0.02, rear_top - 0.012, 4)
+    seam = [(float(y), _x(0.715 * half), _x(0.715 * half + _SEAM_M)) for y in heights]
+    faces.append(both_sides(_end_patch(shell, seam, rear=True, skin_m=0.003)))
+    return np.concatenate(faces)
+
+
+def _depth_left(depth_m: float) -> Place:
+    return lambda contour: -contour.arc_at_depth(depth_m)
+
+
+def _rear_plate_m(shell: Shell) -> float:
+    """Height of the lower edge of the rear plate."""
+    return max(shell.end_top(rear=True) - 0.31, shell.bumper_top(rear=True) + 0.075)
+
+
+def _bright_trim(shell: Shell) -> Faces:
+    """Slats of the grille, the strip over the rear plate, badges."""
+    half, top = shell.body.width_m / 2, shell.end_top(rear=False)
+    faces: list[Faces] = []
     if not shell.shape.closed_nose:
-        rows = [(top - 0.20, -0.38 * half, 0.38 * half), (top - 0.06, -0.46 * half, 0.46 * half)]
-        faces += _end_patch(shell, rows, rear=False, columns=11)
-    intake = [(0.275, -0.66 * half, 0.66 * half), (0.37, -0.58 * half, 0.58 * half)]
-    faces += _end_patch(shell, intake, rear=False, columns=13)
-    rear_top = shell.shoulder(shell.stations[-1])
-    recess = [(rear_top - 0.33, -0.33 * half, 0.33 * half), (rear_top - 0.17, -0.36 * half, 0.36 * half)]
-    faces += _end_patch(shell, recess, rear=True, columns=9, skin_m=0.003)
-    faces += _end_patch(shell, [(0.31, -0.70 * half, 0.70 * half), (0.40, -0.74 * half, 0.74 * half)], rear=True)
-    bumper = max(rear_top - 0.42, 0.46)
-    seam = [(bumper, -0.80 * half, 0.80 * half), (bumper + 0.012, -0.80 * half, 0.80 * half)]
-    return faces + _end_patch(shell, seam, rear=True, columns=13, skin_m=0.003)
+        low, high = max(top - 0.30, shell.bumper_top(rear=False) + 0.055), top - 0.045
+        for share in (0.2, 0.5, 0.8):
+            y, reach = low + (high - low) * share, (0.34 + 0.095 * share) * half
+            faces.append(_end_patch(shell, _across(y - 0.006, y + 0.006, reach, reach), rear=False, skin_m=0.009))
+    strip = _rear_plate_m(shell) + _PLATE_M[1] + 0.04
+    faces.append(_end_patch(shell, _across(strip, strip + 0.02, 0.30 * half, 0.30 * half), rear=True, skin_m=0.009))
+    faces.append(
+        _polygon_patch(
+            shell, (0.0, top - 0.1 if shell.shape.closed_nose else top - 0.14), 0.045, rear=False, skin_m=0.014
+        )
+    )
+    faces.append(_polygon_patch(shell, (0.0, strip + 0.065), 0.035, rear=True, skin_m=0.008))
+    return np.concatenate(faces)
 
 
-def _arch_lips(shell: Shell) -> list[Face]:
+def _arch_lips(shell: Shell) -> Faces:
     """Lips around the four wheel arches, which follow the side."""
-    faces: list[Face] = []
+    angles = np.linspace(0.02, np.pi - 0.02, 17).tolist()
+    faces: list[Faces] = []
     for axle in shell.axles:
-        grids = []
-        for skin in (0.006, -0.03):
-            rows = []
-            for angle in np.linspace(0.02, np.pi - 0.02, 25):
-                ends = []
-                for radius in (shell.arch_radius_m - 0.004, shell.arch_radius_m + _ARCH_LIP_M):
-                    s = axle - radius * np.cos(angle)
-                    y = shell.body.wheel_radius_m + radius * np.sin(angle)
-                    x = shell.side_x(s, y)
-                    ends.append((x + skin, y, shell.z_at(s, x)))
-                rows.append(ends)
-            grids.append(np.array(rows))
-        faces += _slab(grids[0], grids[1])
-    return _both_sides(faces)
+        outer, inner = np.empty((len(angles), 2, 3)), np.empty((len(angles), 2, 3))
+        for row, angle in enumerate(angles):
+            for column, radius in enumerate((shell.arch_radius_m - 0.008, shell.arch_radius_m + _ARCH_LIP_M)):
+                y = shell.body.wheel_radius_m + radius * np.sin(angle)
+                x, z = shell.side_place(axle - radius * np.cos(angle), y)
+                outer[row, column], inner[row, column] = (x + 0.006, y, z), (x - 0.03, y, z)
+        faces.append(_slab(outer, inner))
+    return both_sides(np.concatenate(faces))
 
 
 def _door_lines(shell: Shell) -> list[float]:
     """Where doors end, in metres from the nose."""
-    length = shell.body.length_m
     front = max(shell.cowl + 0.30, shell.axles[0] + shell.arch_radius_m + 0.10)
-    rear = shell.axles[1] - shell.arch_radius_m - 0.04
-    return [front, shell.shape.pillars[0] * length, rear]
+    return [front, shell.shape.pillars[0] * shell.body.length_m, shell.axles[1] - shell.arch_radius_m - 0.04]
 
 
-def _seams(shell: Shell) -> list[Face]:
-    """Shut lines of the doors, and the line of the sills between the arches."""
-    faces: list[Face] = []
-    for s in _door_lines(shell):
-        heights = np.linspace(0.30, shell.shoulder(s) - 0.03, 8)
-        faces += _side_ribbon(shell, [(s, float(y)) for y in heights], _SEAM_M, along=False)
-    first, second = (
-        axle + sign * (shell.arch_radius_m + 0.05) for axle, sign in zip(shell.axles, (1, -1), strict=True)
-    )
-    sill = [(float(s), 0.25) for s in np.linspace(first, second, 10)]
-    return faces + _side_ribbon(shell, sill, 0.05, along=True)
+def _seams(shell: Shell) -> Faces:
+    """Shut lines of doors and bonnet, the strip under the side windows, and the sills between the arches."""
+    up = (4.8, 5.0, 6.0, 7.0, 8.0, 9.0, 9.85)
+    faces = [_ribbon(shell, [(s, t) for t in up], _SEAM_M) for s in _door_lines(shell)]
+    stations = shell.stations
+    bonnet = stations[(stations > stations[0] + 0.05) & (stations < shell.cowl - 0.02)]
+    faces.append(_ribbon(shell, [(s, 11.15) for s in bonnet.tolist()], _SEAM_M))
+    first, last = shell.side_window
+    window = stations[(stations >= first - 1e-3) & (stations <= last + 1e-3)]
+    faces.append(_ribbon(shell, [(s, 10.0) for s in window.tolist()], 0.022))
+    reach = shell.arch_radius_m + 0.05
+    sill = np.linspace(shell.axles[0] + reach, shell.axles[1] - reach, 5)
+    faces.append(_ribbon(shell, [(s, 4.75) for s in sill.tolist()], 0.06))
+    return np.concatenate(faces)
 
 
-def _handles(shell: Shell) -> list[Face]:
+def _handles(shell: Shell) -> Faces:
     """A handle at the rear end of each door."""
-    faces: list[Face] = []
+    faces: list[Faces] = []
     for s in _door_lines(shell)[1:]:
-        middle, y = s - 0.17, shell.shoulder(s) - 0.12
-        x, z = shell.side_x(middle, y), shell.z_at(middle, shell.side_x(middle, y))
-        faces += box_faces((x - 0.02, y - 0.016, z - 0.09), (x + 0.018, y + 0.016, z + 0.09))
-    return _both_sides(faces)
+        y = shell.shoulder(s) - 0.12
+        x, z = shell.side_place(s - 0.17, y)
+        faces.append(np.array(box_faces((x - 0.02, y - 0.016, z - 0.09), (x + 0.018, y + 0.016, z + 0.09))))
+    return both_sides(np.concatenate(faces))
 
 
-def _plates(shell: Shell) -> list[Face]:
-    """Number plates in front and behind."""
+# a letter or digit as strokes: three level ones, left and right ones above and below the middle
+_STROKES = {
+    "top": (0.0, 1.76, 1.0, 2.0),
+    "middle": (0.26, 0.88, 0.74, 1.12),
+    "bottom": (0.0, 0.0, 1.0, 0.24),
+    "upper_left": (0.0, 1.02, 0.24, 1.74),
+    "upper_right": (0.76, 1.02, 1.0, 1.74),
+    "lower_left": (0.0, 0.26, 0.24, 0.98),
+    "lower_right": (0.76, 0.26, 1.0, 0.98),
+}
+_MISSING_STROKES = {
+    "A": {"bottom"},
+    "C": {"middle", "upper_right", "lower_right"},
+    "E": {"upper_right", "lower_right"},
+    "F": {"upper_right", "lower_right", "bottom"},
+    "P": {"lower_right", "bottom"},
+    "U": {"top", "middle"},
+    "0": {"middle"},
+    "2": {"upper_left", "lower_right"},
+    "3": {"upper_left", "lower_left"},
+    "4": {"top", "lower_left", "bottom"},
+    "5": {"upper_right", "lower_left"},
+    "6": {"upper_right"},
+    "7": {"middle", "upper_left", "lower_left", "bottom"},
+    "8": set(),
+    "9": {"lower_left"},
+}
+_PLATE_TEXTS = {
+    "hatchback": "FA 2740",
+    "saloon": "CE 8365",
+    "suv": "PU 4927",
+    "van": "AC 6053",
+    "pickup": "UF 7482",
+    "compact_ev": "EP 3594",
+}
+
+
+def _lettering(text: str) -> Faces:
+    """Upright letters facing +Z, around the origin but for the band on the left, as rectangles."""
+    wide, high, gap = 0.042, 0.036, 0.016
+    left = -(len(text) * (wide + gap) - gap) / 2 + 0.02
+    faces = []
+    for place, letter in enumerate(text):
+        for name, (x0, y0, x1, y1) in _STROKES.items() if letter != " " else ():
+            if name not in _MISSING_STROKES[letter]:
+                x = left + place * (wide + gap) + np.array((x0, x1, x1, x0)) * wide
+                faces.append(np.stack([x, (np.array((y0, y0, y1, y1)) - 1) * high, np.zeros(4)], axis=1))
+    return np.array(faces)
+
+
+def _plates(shell: Shell) -> list[Part]:
+    """Number plates in front and behind, with their letters and a band."""
     half, high = _PLATE_M[0] / 2, _PLATE_M[1]
-    front, rear = 0.39, shell.shoulder(shell.stations[-1]) - 0.305
-    nose = min(shell.end_z(x, front + y, rear=False) for x in (0.0, half) for y in (0.0, high))
-    tail = max(shell.end_z(x, rear + y, rear=True) for x in (0.0, half) for y in (0.0, high))
-    faces = box_faces((-half, front, nose - 0.009), (half, front + high, nose + 0.03))
-    return faces + box_faces((-half, rear, tail - 0.03), (half, rear + high, tail + 0.009))
+    sheet = np.array(box_faces((-half, -high / 2, -0.03), (half, high / 2, 0.0)))
+    band = np.array([[(x, y, 0.0006) for x, y in ((-half, -1), (-half + 0.042, -1), (-half + 0.042, 1), (-half, 1))]])
+    band *= (1.0, high / 2, 1.0)
+    letters = _lettering(_PLATE_TEXTS[shell.body.name]) + np.array((0.0, 0.0, 0.0006))
+    found: dict[str, list[Faces]] = {"Plates": [], "PlateBands": [], "PlateLetters": []}
+    for rear, low in ((False, 0.385), (True, _rear_plate_m(shell))):
+        outermost = max(
+            abs(_end_z(shell, x, low + y, rear=rear)) for x in np.linspace(0.0, half, 5) for y in (0.0, high / 2, high)
+        )
+        turn = (1.0, 1.0, 1.0) if rear else (-1.0, 1.0, -1.0)
+        for name, faces in zip(found, (sheet, band, letters), strict=True):
+            found[name].append(faces * turn + (0.0, low + high / 2, turn[2] * (outermost + 0.008)))
+    materials = ("number_plate", "sign_blue", "trim_black")
+    return [
+        make_part(name, np.concatenate(faces), material)
+        for (name, faces), material in zip(found.items(), materials, strict=True)
+    ]
 
 
-def _mirrors(shell: Shell) -> list[Face]:
+def _end_z(shell: Shell, x: float, y: float, *, rear: bool) -> float:
+    contour = shell.contour(y, rear=rear)
+    return float(contour.place(np.array([contour.arc_at_x(x)]), 0.0)[0, 1])
+
+
+def _mirrors(shell: Shell) -> Faces:
     """Two rounded mirrors on short arms."""
     s = shell.cowl + 0.40
     y = shell.shoulder(s) + 0.075
-    inner, outer = shell.side_x(s, shell.shoulder(s)) - 0.04, shell.body.overall_width_m / 2
+    inner, outer = shell.side_place(s, shell.shoulder(s))[0] - 0.04, shell.body.overall_width_m / 2
     span = outer - inner
-    profile = [(0.0, 0.0), (0.02, 0.03), (0.06, 0.05), (0.09, 0.08), (span - 0.03, 0.078), (span - 0.008, 0.05)]
-    faces = lathe_faces([*profile, (span, 0.0)], segments=14)
-    faces = [face * (1.0, 0.9, 0.75) for face in faces]
-    return _both_sides(moved(faces, (inner, y, s - shell.body.length_m / 2)))
+    profile = [(0.0, 0.0), (0.02, 0.03), (0.06, 0.05), (0.09, 0.08), (span - 0.025, 0.076)]
+    faces = np.array(lathe_faces([*profile, (span, 0.0)], segments=10)) * (1.0, 0.9, 0.75)
+    return both_sides(faces + np.array((inner, y, s - shell.body.length_m / 2)))
 
 
 def _wheels(body: CarBody) -> list[Part]:
     """Four wheels that stand on the floor: tyre, dished rim with spokes, cap."""
     radius, half = body.wheel_radius_m, _TYRE_WIDTH_M / 2
-    rim = radius * 0.68
-    tyre_profile = [
-        (-half, rim),
-        (-half, radius - 0.03),
-        (-half + 0.03, radius),
-        (half - 0.03, radius),
-        (half, radius - 0.03),
-        (half, rim),
-        (half - 0.02, rim - 0.012),
-    ]
-    tyre = lathe_faces([(-half, 0.0), *tyre_profile, (half - 0.10, rim - 0.02), (half - 0.10, 0.0)], segments=36)
+    rim = radius * 0.69
+    tread = [(-half, radius), (half - 0.03, radius), (half, radius - 0.03), (half, rim)]
+    tyre = lathe_faces([(-half, 0.0), *tread, (half - 0.10, rim - 0.02), (half - 0.10, 0.0)], segments=26)
     lip = lathe_faces(
-        [(half - 0.06, rim - 0.03), (half - 0.004, rim - 0.008), (half, rim), (half - 0.02, rim + 0.003)], segments=36
+        [(half - 0.05, rim - 0.03), (half - 0.002, rim - 0.008), (half + 0.001, rim + 0.004)], segments=24
     )
     hub = lathe_faces(
-        [(half - 0.1, 0.07), (half - 0.018, 0.062), (half - 0.006, 0.04), (half - 0.006, 0.0)], segments=20
+        [(half - 0.08, 0.075), (half - 0.016, 0.066), (half - 0.004, 0.04), (half - 0.004, 0.0)], segments=12
     )
-    spokes: list[Face] = []
-    for angle in np.arange(10) * (2 * np.pi / 10):
-        spoke = box_faces((half - 0.045, 0.04, -0.022), (half - 0.014, rim - 0.012, 0.022))
+    # a spoke is a wedge: its face, and two sides to an edge behind
+    (near, far), (back, face) = (0.04, rim - 0.012), (half - 0.045, half - 0.012)
+    left, right = ([(face, far, z), (face, near, z)] for z in (-0.02, 0.02))
+    edge = [(back, far, 0.0), (back, near, 0.0)]
+    spoke = np.array([[*a, *b[::-1]] for a, b in ((right, left), (left, edge), (edge, right))])
+    spokes = []
+    for angle in np.arange(10) * (2 * np.pi / 10) + np.tile((0.09, -0.09), 5):
         cos, sin = np.cos(angle), np.sin(angle)
-        turn = np.array([(1, 0, 0), (0, cos, sin), (0, -sin, cos)])
-        spokes += [face @ turn for face in spoke]
+        spokes.append(spoke @ np.array([(1, 0, 0), (0, cos, sin), (0, -sin, cos)]))
+    metal = np.concatenate([lip, hub, *spokes])
     front = -body.length_m / 2 + body.front_overhang_m
-    x = body.width_m / 2 - half - 0.012
-    rubber: list[Face] = []
-    metal: list[Face] = []
-    for z in (front, front + body.wheelbase_m):
-        for sign in (1, -1):
-            at = (sign * x, radius, z)
-            rubber += moved(tyre, at, mirror_x=sign < 0)
-            metal += moved([*lip, *hub, *spokes], at, mirror_x=sign < 0)
+    hubs = [(body.width_m / 2 - half - 0.012, radius, z) for z in (front, front + body.wheelbase_m)]
     return [
-        make_part("Tyres", rubber, "tyre", crease_deg=40),
-        make_part("Rims", metal, "rim", crease_deg=35),
+        make_part(name, both_sides(np.concatenate([faces + at for at in hubs])), material, crease_deg=38)
+        for name, faces, material in (("Tyres", np.array(tyre), "tyre"), ("Rims", metal, "rim"))
     ]

@@ -1,23 +1,27 @@
 """Lights, ducts, speed bumps, wheel stops and signs."""
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 
 from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, box_faces, lathe_faces, make_part, ring_faces
 
-__all__ = ["charger", "duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
+__all__ = ["charger", "cone", "duct", "no_parking_sign", "speed_bump", "tube_light", "wheel_stop"]
 
 SPEED_BUMP_WIDTH_M, SPEED_BUMP_HEIGHT_M = 0.35, 0.05
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
 _HOUSING_HEIGHT_M = 0.06
 _TUBE_RADIUS_M = 0.016
-_LIGHT_DROP_M = 0.115
 _FLANGE_PITCH_M = 1.35
 _FLANGE_M = 0.025
 _SEGMENT_M = 0.5
+_CONE_BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
+"""Heights where a cone's colours change, orange first."""
 
 
-def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asset:
-    """A batten with two bare tubes, long along X; origin in the middle of its top."""
+def tube_light(length_m: float, width_m: float, *, drop_m: float, luminance_nit: float) -> Asset:
+    """A batten with two bare tubes, long along X, that shine from `drop_m` below; origin in the middle of its top."""
     x, z = length_m / 2, width_m / 2
     housing = box_faces((-x, -_HOUSING_HEIGHT_M, -z), (x, 0, z))
     ends: list[Face] = []
@@ -27,7 +31,7 @@ def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asse
     for side in (-z / 2, z / 2):
         ring = lathe_faces([(-x + 0.03, _TUBE_RADIUS_M), (x - 0.03, _TUBE_RADIUS_M)], segments=10)
         tubes += [face + np.array((0.0, -_HOUSING_HEIGHT_M - 0.024, side)) for face in ring]
-    light = RectLight(length_m, width_m, -_LIGHT_DROP_M, luminance_nit)
+    light = RectLight(length_m, width_m, -drop_m, luminance_nit)
     return Asset(
         "light",
         (
@@ -39,8 +43,18 @@ def tube_light(length_m: float, width_m: float, *, luminance_nit: float) -> Asse
     )
 
 
-def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float) -> Asset:
-    """A rectangular duct with flanges, hangers and an outlet, long along Z; origin in the middle of its top."""
+def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float, hangers_at_m: Sequence[float]) -> Asset:
+    """A rectangular duct with flanges, hangers and an outlet, long along Z; origin in the middle of its top.
+
+    Parameters
+    ----------
+    length_m, width_m, height_m
+        Its measures.
+    hanger_m
+        Length of the hangers from its top to the ceiling.
+    hangers_at_m
+        Places of the hangers along Z.
+    """
     x, z = width_m / 2, length_m / 2
     body = box_faces((-x, -height_m, -z), (x, 0, z))
     count = max(1, round(length_m / _FLANGE_PITCH_M))
@@ -50,13 +64,11 @@ def duct(length_m: float, width_m: float, height_m: float, *, hanger_m: float) -
         middle = -z + (index + 0.5) * length_m / count
         f = _FLANGE_M
         flanges += ring_faces((-x, -height_m, middle - 0.02), (x, 0, middle + 0.02), f)
-        if index % 2 == 0:
-            for side in (-x - 0.05, x + 0.03):
-                rod = box_faces((side, -height_m - f - 0.03, middle + 0.05), (side + 0.02, hanger_m, middle + 0.07))
-                hangers += rod
-            hangers += box_faces(
-                (-x - 0.09, -height_m - f - 0.05, middle + 0.04), (x + 0.09, -height_m - f - 0.02, middle + 0.08)
-            )
+    for at in hangers_at_m:
+        bar_low, bar_high = -height_m - _FLANGE_M - 0.05, -height_m - _FLANGE_M - 0.02
+        hangers += box_faces((-x - 0.09, bar_low, at - 0.02), (x + 0.09, bar_high, at + 0.02))
+        for side in (-x - 0.05, x + 0.03):
+            hangers += box_faces((side, bar_high, at - 0.01), (side + 0.02, hanger_m, at + 0.01))
     parts = [
         make_part("Body", body, "steel_galvanised", collider=Collider.BOX),
         make_part("Flanges", flanges, "steel_galvanised"),
@@ -131,6 +143,28 @@ def charger() -> Asset:
             make_part("Cable", cable, "rubber_black"),
         ),
     )
+
+
+def cone() -> Asset:
+    """An orange traffic cone 0.75 m high with two reflective bands on a rubber foot; origin in the foot's middle."""
+    foot = box_faces((-0.19, 0.0, -0.19), (0.19, 0.03, 0.19))
+    orange: list[Face] = []
+    white: list[Face] = []
+    for index, (low, high) in enumerate(pairwise(_CONE_BANDS_M)):
+        piece = _upright_lathe([(low, _cone_radius_m(low)), (high, _cone_radius_m(high))], segments=20)
+        (white if index % 2 else orange).extend(piece)
+    return Asset(
+        "traffic_cone",
+        (
+            make_part("Foot", foot, "rubber_black", collider=Collider.CONVEX_HULL),
+            make_part("Body", orange, "sign_orange", collider=Collider.CONVEX_HULL),
+            make_part("Bands", white, "sign_white"),
+        ),
+    )
+
+
+def _cone_radius_m(height_m: float) -> float:
+    return 0.14 - 0.11 * (height_m - _CONE_BANDS_M[0]) / (_CONE_BANDS_M[-1] - _CONE_BANDS_M[0])
 
 
 def no_parking_sign() -> Asset:

@@ -117,7 +117,7 @@ class Asset:
 
 def make_part(
     name: str,
-    faces: Sequence[Face],
+    faces: Sequence[Face] | NDArray[np.float64],
     material: str,
     *,
     collider: Collider | None = None,
@@ -138,8 +138,8 @@ def make_part(
         Texture coordinates in metres of corners, given the normal of each one's face; along the main axis if left out.
     """
     corners = np.round(np.concatenate(faces), _WELD_DECIMALS) + 0.0
-    points, indices = np.unique(corners, axis=0, return_inverse=True)
-    flat, counts = _clean_loops(points, indices.ravel(), np.array([len(face) for face in faces]))
+    points, indices = _unique_rows(corners)
+    flat, counts = _clean_loops(points, indices, np.array([len(face) for face in faces]))
     used, flat = np.unique(flat, return_inverse=True)
     points, flat = points[used], flat.ravel()
 
@@ -150,7 +150,7 @@ def make_part(
     look = MATERIALS[material]
     repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
     coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
-    st, st_indices = np.unique(np.round(coordinates, _WELD_DECIMALS) + 0.0, axis=0, return_inverse=True)
+    st, st_indices = _unique_rows(np.round(coordinates, _WELD_DECIMALS) + 0.0)
     return Part(
         name=name,
         points=points.astype(np.float32),
@@ -158,7 +158,7 @@ def make_part(
         face_indices=flat.astype(np.int32),
         normals=normals.astype(np.float32),
         st=st.astype(np.float32),
-        st_indices=st_indices.ravel().astype(np.int32),
+        st_indices=st_indices.astype(np.int32),
         material=material,
         collider=collider,
     )
@@ -246,6 +246,15 @@ def moved(faces: Iterable[Face], offset: ArrayLike, *, mirror_x: bool = False) -
     return [face + step for face in faces]
 
 
+def _unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The distinct rows in their order, and for each row which of them it is."""
+    order = np.lexsort(rows.T[::-1])
+    is_new = np.concatenate(([True], (np.diff(rows[order], axis=0) != 0).any(axis=1)))
+    which = np.empty(len(rows), dtype=np.int64)
+    which[order] = np.cumsum(is_new) - 1
+    return rows[order][is_new], which
+
+
 def _clean_loops(
     points: NDArray[np.float64], flat: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -285,13 +294,17 @@ def _corner_normals(
     """For each corner the mean of the faces around its point that meet its own at less than the crease."""
     face_of = np.repeat(np.arange(len(counts)), counts)
     order = np.argsort(flat, kind="stable")
-    bounds = np.flatnonzero(np.diff(flat[order])) + 1
-    limit = np.cos(np.radians(crease_deg))
+    around = np.bincount(flat)
+    # every corner beside every corner of its point, in the order of the points
+    each = np.repeat(around, around)
+    pair_starts = np.cumsum(each) - each
+    group_starts = np.repeat(np.cumsum(around) - around, around)
+    partners = np.arange(each.sum()) + np.repeat(group_starts - pair_starts, each)
+    own, other = face_of[order][np.repeat(np.arange(len(order)), each)], face_of[order][partners]
+    cosine = (unit[own] * unit[other]).sum(axis=1)
+    shares = area[other] * (cosine > np.cos(np.radians(crease_deg)))[:, None]
     normals = np.empty((len(flat), 3))
-    for corners in np.split(order, bounds):
-        faces = face_of[corners]
-        near = unit[faces] @ unit[faces].T > limit
-        normals[corners] = near @ area[faces]
+    normals[order] = np.add.reduceat(shares, pair_starts)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), unit[face_of])
 

@@ -30,16 +30,22 @@ class FittingsConfig(Settings):
     """Wanted mean direct illuminance on the lanes' floor; tubes get the luminance for it."""
     stall_lux: float = Field(30.0, gt=0, le=2000)
     """The same on the stalls."""
+    beams: bool = True
+    """Beams from column to column, as deep as the room that services leave over the clear height."""
     ducts: bool = True
-    """Ventilation ducts along the aisles."""
+    """Ventilation ducts along the aisles, where they find room over the clear height."""
+    cable_trays: bool = True
+    """Cable trays along the aisles, where they find room."""
     sprinklers: bool = True
-    """Sprinkler pipes along the aisles."""
+    """Sprinkler pipes along the aisles, where they find room."""
     exit_signs: bool = True
     """Lit signs at junctions, where the ceiling leaves room over the clear height."""
     mirrors: bool = True
-    """A convex mirror on a column at each junction."""
+    """Convex mirrors at blind corners, on columns and walls."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)
     """Share of straight lane squares that carry a speed bump."""
+    cone_rate: float = Field(0.04, ge=0, le=1)
+    """Share of the standard stalls without a car that cones close, and of the hatched squares with cones."""
     wheel_stops: bool = True
     """A wheel stop in each stall."""
     floor_stain_rate: float = Field(0.5, ge=0, le=1)
@@ -60,7 +66,8 @@ class ParkingConfig(Settings):
     ev_share: float = Field(0.08, ge=0, le=1)
     """Share of the stalls that have a charger."""
     accessible_share: float = Field(0.02, ge=0, le=1)
-    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0."""
+    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0.
+    Each has a hatched access aisle beside it, that two of them share and that takes the place of a stall."""
     reversed_share: float = Field(0.3, ge=0, le=1)
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)

@@ -1,7 +1,7 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,15 +10,17 @@ from garage2usd.config.plan import DeadEnds
 from garage2usd.dead_ends import dead_ends
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
-from garage2usd.layout.access import barriers, with_ramps
+from garage2usd.layout.access import barriers, ramp_lights, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
+from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.fittings import ducts, no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.fittings import TUBE, cones, no_parking_signs, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
-from garage2usd.layout.overhead import exit_signs, mirrors, sprinklers
+from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.specs import Point
 from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.table import KINDS, ObjectTable
@@ -93,6 +95,8 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     stalls = with_numbers(stalls, zones)
     tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
 
+    levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
         bumps = speed_bumps(grid, graph, fittings, seed=seed)
@@ -106,7 +110,9 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
         yield wheel_stops(stalls, fittings)
-        yield parked_cars(stalls, config.parking, draws)
+        cars = parked_cars(stalls, config.parking, draws)
+        yield cars
+        yield cones(grid, stalls, cars, fittings, draws)
         yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
         yield bumps
@@ -115,14 +121,17 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         pillars = columns(structure, bay, fittings)
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield tubes
-        yield ducts(structure, grid, fittings)
-        yield sprinklers(structure, grid, fittings)
-        yield exit_signs(grid, graph, fittings)
-        yield mirrors(grid, graph, pillars, bay.column_size_m, fittings)
+        yield beams(structure, bay, ceiling, levels.beam_depth_m)
+        yield ducts(structure, grid, ceiling, levels)
+        yield cable_trays(structure, grid, ceiling, levels)
+        yield sprinklers(structure, grid, ceiling, levels)
+        yield exit_signs(grid, graph, fittings, levels)
+        yield mirrors(grid, pillars, bay.column_size_m, fittings, levels)
 
         walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
         yield walls
         yield barriers(walls, fittings)
+        yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)
         yield obstacles(structure, fittings)
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()

@@ -1,5 +1,6 @@
 """Ramps from the ground outside to the portals, and the barrier gates in them."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +8,9 @@ import shapely
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.placement import ObjectKind, Placement, to_world
-from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec
+from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, TubeLightSpec
 
-__all__ = ["barriers", "with_ramps"]
+__all__ = ["barriers", "ramp_lights", "with_ramps"]
 
 MAX_SLOPE = 0.15
 TRANSITION_M = 3.6
@@ -25,6 +26,8 @@ _BARRIER_GAP_M = 0.32
 _BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
 _ELBOW_MAX_M = 2.75
 _ELBOW_BELOW_CEILING_M = 0.35
+_LIGHTS_AT = (0.25, 0.6)
+"""Places of the lights, as shares of the covered part's length."""
 _ARM_HALF_M = 0.04
 
 
@@ -106,6 +109,26 @@ def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
     x, _, z = wall.position_m
     corners = ((-half, near), (half, near), (half, far), (-half, far))
     return shapely.Polygon([to_world(corner, (x, z), wall.yaw_rad) for corner in corners])
+
+
+def ramp_lights(walls: Iterable[Placement], tube: TubeLightSpec, fittings: FittingsConfig) -> list[Placement]:
+    """Tubes across each ramp's covered part, where they hang over the clear height."""
+    lights: list[Placement] = []
+    for ramp in walls:
+        spec = ramp.spec
+        if not isinstance(spec, RampSpec) or not tube.luminance_nit:
+            continue
+        runs, heights = zip(*spec.profile, strict=True)
+        for number, share in enumerate(_LIGHTS_AT, start=1):
+            run = runs[0] + share * (spec.cover_end_m - runs[0])
+            floor = float(np.interp(run, runs, heights))
+            if spec.cover_height_m - tube.drop_m - floor < fittings.clear_height_m:
+                continue
+            x, z = to_world((0.0, -run), (ramp.position_m[0], ramp.position_m[2]), ramp.yaw_rad)
+            position = (round(x, 6), spec.cover_height_m, round(z, 6))
+            name = f"{ramp.name.replace('Ramp', 'Tube')}_{number}"
+            lights.append(Placement(name, ObjectKind.LIGHT, tube, position, ramp.yaw_rad))
+    return lights
 
 
 def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:

@@ -21,7 +21,15 @@ _SYMBOL_Z_M = 0.35
 def with_designated_stalls(
     stalls: tuple[Stall, ...], anchors: Iterable[Point], parking: ParkingConfig
 ) -> tuple[Stall, ...]:
-    """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones."""
+    """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones.
+
+    Notes
+    -----
+    An accessible stall needs an access aisle of 1.2 m (GB 50763, 3.14.3) or 60 in (ADA 502.3) beside it. Between the
+    columns there is no such room but another stall's: the standard stall beside becomes the aisle, and where one more
+    accessible stall is wanted, it is the one on the aisle's other side. A stall without such a neighbour in its row
+    is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's.
+    """
     anchors = list(anchors)
     accessible = round(parking.accessible_share * len(stalls))
     if parking.accessible_share > 0 and len(stalls) >= _ACCESSIBLE_FROM_STALLS:
@@ -31,11 +39,37 @@ def with_designated_stalls(
         (index for index, stall in enumerate(stalls) if stall.use is StallUse.STANDARD),
         key=lambda index: (round(min(math.dist(stalls[index].centre_m, anchor) for anchor in anchors), 6), index),
     )
-    designated = list(stalls)
-    for rank, index in enumerate(order[: accessible + charging]):
-        use = StallUse.ACCESSIBLE if rank < accessible else StallUse.EV
-        designated[index] = replace(stalls[index], use=use)
-    return tuple(designated)
+    uses = [stall.use for stall in stalls]
+    for index in order:
+        if accessible <= 0:
+            break
+        aisle = _access_aisle(index, stalls, uses)
+        if uses[index] is StallUse.STANDARD and aisle is not None:
+            shared = 2 * aisle - index
+            uses[index], uses[aisle] = StallUse.ACCESSIBLE, StallUse.ACCESS_AISLE
+            accessible -= 1
+            if accessible and _is_standard_beside(aisle, shared, stalls, uses):
+                uses[shared] = StallUse.ACCESSIBLE
+                accessible -= 1
+    for index in [index for index in order if uses[index] is StallUse.STANDARD][:charging]:
+        uses[index] = StallUse.EV
+    return tuple(
+        stall if use is stall.use else replace(stall, use=use) for stall, use in zip(stalls, uses, strict=True)
+    )
+
+
+def _access_aisle(index: int, stalls: tuple[Stall, ...], uses: list[StallUse]) -> int | None:
+    """The standard stall beside one that its access aisle may take, rather one that has another on its other side."""
+    beside = [other for other in (index - 1, index + 1) if _is_standard_beside(index, other, stalls, uses)]
+    return max(beside, key=lambda aisle: _is_standard_beside(aisle, 2 * aisle - index, stalls, uses), default=None)
+
+
+def _is_standard_beside(index: int, other: int, stalls: tuple[Stall, ...], uses: list[StallUse]) -> bool:
+    """Whether `other` is a standard stall in the same row as the stall of an index next to it."""
+    if not 0 <= other < len(stalls) or uses[other] is not StallUse.STANDARD:
+        return False
+    first, second = stalls[index], stalls[other]
+    return (first.square, first.edge) == (second.square, second.edge)
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:

@@ -1,44 +1,54 @@
-"""What hangs from the ceiling or lies on the lanes: tube lights, ducts, speed bumps, signs."""
+"""What hangs over single squares or stands on them: tube lights, speed bumps, signs, cones."""
+
+from collections import Counter
+from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.lanes import LaneGraph, LaneKind, Square
-from garage2usd.layout.placement import ObjectKind, Placement
-from garage2usd.layout.specs import DuctSpec, NoParkingSignSpec, SpeedBumpSpec, TubeLightSpec
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["ducts", "no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
-_TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
+TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
+"""The tube light, before it is known how bright it must be."""
+_CONES_ACROSS_M = (-0.75, 0.0, 0.75)
+_CONES_FROM_MOUTH_M = 0.9
+_CONES_FROM_EDGE_M = 0.95
+_TUBE_GAP_M = 0.1
 _JUNCTION_TUBE_OFFSET_M = 1.2
-_DUCT_WIDTH_M = 0.8
-_DUCT_HEIGHT_M = 0.35
-_HANGER_M = 0.15
-_DUCT_WALL_GAP_M = 0.3
 
 
 def tube_lights(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
-    """Tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal."""
+    """Tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
+
+    There are no more of them in a line than find room between the beams.
+    """
     lights: list[Placement] = []
     for tile in grid:
         count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         along_x = _tube_along_x(tile, grid)
         length = tile.width_m if along_x else tile.depth_m
-        pitch = length / max(count, 1)
+        room = length - 2 * grid.setback_m - TUBE.length_m
+        least_pitch = TUBE.length_m + _TUBE_GAP_M
+        count = min(count, 1 + max(int(room / least_pitch), 0))
+        pitch = min(length / max(count, 1), room / max(count - 1, 1))
         if tile.axis_is_x is None:
             pitch = min(pitch, 2 * _JUNCTION_TUBE_OFFSET_M)
         for index in range(count):
-            offset = (index - (count - 1) / 2) * max(pitch, _TUBE.length_m + 0.1)
+            offset = (index - (count - 1) / 2) * max(pitch, least_pitch)
             x = tile.x_m + (offset if along_x else 0.0)
             z = tile.z_m + (0.0 if along_x else offset)
             position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
             yaw = 0.0 if along_x else _QUARTER_TURN
-            lights.append(Placement(f"Tube_{index + 1}", ObjectKind.LIGHT, _TUBE, position, yaw, tile.square))
+            lights.append(Placement(f"Tube_{index + 1}", ObjectKind.LIGHT, TUBE, position, yaw, tile.square))
     return lights
 
 
@@ -47,65 +57,6 @@ def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
         rows = grid.rows_by_square.get(tile.square)
         return not rows or NEIGHBOUR_STEPS[rows[0].edge][0] != 0
     return tile.axis_is_x is not False
-
-
-def ducts(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
-    """Ventilation ducts along the aisles: trunks along rows of lanes, and along columns between them.
-
-    A trunk hangs over the side of its aisle, so that lights hang free. Where a duct along a column meets a trunk along
-    a row, a branch leads on to the trunk's side.
-    """
-    if not fittings.ducts:
-        return []
-    lane = structure.cells == Cell.LANE
-    trunk = _in_runs(lane)
-    riser = _in_runs((lane & ~trunk).T).T
-    top_m = fittings.ceiling_height_m - _HANGER_M
-    placements: list[Placement] = []
-    for tile in grid:
-        if trunk[tile.square]:
-            spec = _duct(tile.width_m)
-            position = (tile.x_m, top_m, round(tile.z_m - _side_offset_m(tile.half_z_m, grid), 6))
-            placements.append(Placement("Duct", ObjectKind.DUCT, spec, position, _QUARTER_TURN, tile.square))
-        elif riser[tile.square]:
-            x = round(tile.x_m + _side_offset_m(tile.half_x_m, grid), 6)
-            placements.append(
-                Placement("Duct", ObjectKind.DUCT, _duct(tile.depth_m), (x, top_m, tile.z_m), 0.0, tile.square)
-            )
-            placements += _branches(tile, x, top_m, trunk, grid)
-    return placements
-
-
-def _branches(riser: Tile, x: float, top_m: float, trunk: NDArray[np.bool_], grid: TileGrid) -> list[Placement]:
-    """The pieces that join the end of a duct along a column to the sides of the trunks above and below it."""
-    branches = []
-    for name, step in (("BranchDown", 1), ("BranchUp", -1)):
-        tile = grid.tiles.get((riser.square[0] + step, riser.square[1]))
-        if tile is None or not trunk[tile.square]:
-            continue
-        trunk_z = tile.z_m - _side_offset_m(tile.half_z_m, grid)
-        start = tile.z_m - step * tile.half_z_m
-        end = trunk_z - step * _DUCT_WIDTH_M / 2
-        spec = _duct(abs(end - start))
-        position = (x, top_m, round((start + end) / 2, 6))
-        branches.append(Placement(f"Duct{name}", ObjectKind.DUCT, spec, position, 0.0, riser.square))
-    return branches
-
-
-def _duct(length_m: float) -> DuctSpec:
-    return DuctSpec(round(length_m, 6), _DUCT_WIDTH_M, _DUCT_HEIGHT_M, _HANGER_M)
-
-
-def _side_offset_m(half_width_m: float, grid: TileGrid) -> float:
-    """Distance of a duct's middle from the aisle's middle."""
-    return max(half_width_m - grid.setback_m - _DUCT_WALL_GAP_M - _DUCT_WIDTH_M / 2, 0.0)
-
-
-def _in_runs(lane: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Lane squares with a lane beside them in their own row."""
-    padded = np.pad(lane, ((0, 0), (1, 1)))
-    run: NDArray[np.bool_] = lane & (padded[:, :-2] | padded[:, 2:])
-    return run
 
 
 def speed_bumps(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, seed: int) -> list[Placement]:
@@ -142,3 +93,34 @@ def no_parking_signs(grid: TileGrid, fittings: FittingsConfig, *, seed: int) -> 
                 Placement("NoParkingSign", ObjectKind.NO_PARKING_SIGN, NoParkingSignSpec(), position, yaw, tile.square)
             )
     return signs
+
+
+def cones(
+    grid: TileGrid, stalls: tuple[Stall, ...], cars: Iterable[Placement], fittings: FittingsConfig, draws: SquareDraws
+) -> list[Placement]:
+    """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
+    taken = {(car.square, car.name) for car in cars}
+    most = max(Counter(stall.square for stall in stalls).values(), default=0)
+    numbers = draws.of_step(Step.CONES, most + 1)
+    place_on_square: Counter[Square] = Counter()
+    placed: list[Placement] = []
+
+    def place(name: str, points: Iterable[Point], middle: Point, yaw_rad: float, square: Square) -> None:
+        for number, point in enumerate(points, start=1):
+            x, z = to_world(point, middle, yaw_rad)
+            position = (round(x, 6), 0.0, round(z, 6))
+            placed.append(Placement(f"{name}_{number}", ObjectKind.CONE, ConeSpec(), position, yaw_rad, square))
+
+    for stall in stalls:
+        place_on_square[stall.square] += 1
+        is_drawn = numbers[stall.square][place_on_square[stall.square]] < fittings.cone_rate
+        if is_drawn and stall.use is StallUse.STANDARD and (stall.square, stall.named("Car")) not in taken:
+            along = stall.length_m / 2 - _CONES_FROM_MOUTH_M
+            points = [(across, along) for across in _CONES_ACROSS_M]
+            place(stall.named("Cone"), points, stall.centre_m, stall.yaw_rad, stall.square)
+    for tile in grid:
+        x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
+        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.rows_by_square
+        if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
+            place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), (tile.x_m, tile.z_m), 0.0, tile.square)
+    return placed

@@ -22,7 +22,6 @@ _POINTS_AT_ONCE = 4096
 """Bounds the memory that pairs of points and tubes take."""
 _SEGMENTS = 3
 _POINTS_A_SIDE = 3
-_LIGHT_DROP_M = 0.115
 
 
 @dataclass(frozen=True)
@@ -118,7 +117,7 @@ def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np
             along = ((index + 0.5) / _SEGMENTS - 0.5) * spec.length_m
             middles.append((x + along * np.cos(tube.yaw_rad), z - along * np.sin(tube.yaw_rad)))
             areas.append(spec.length_m * spec.width_m / _SEGMENTS)
-            heights.append(y - _LIGHT_DROP_M)
+            heights.append(y - spec.drop_m)
     return np.array(middles), np.array(areas), np.array(heights)
 
 

@@ -130,8 +130,10 @@ def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tup
 
 
 @lru_cache(maxsize=256)
-def hatching(half_x: float, half_z: float, *, margin_m: float = _HATCH_MARGIN_M) -> tuple[Marking, ...]:
-    """The yellow frame and diagonal stripes where nobody may park, `margin_m` from the edges."""
+def hatching(
+    half_x: float, half_z: float, *, margin_m: float = _HATCH_MARGIN_M, surface: Surface = Surface.PAINT_YELLOW
+) -> tuple[Marking, ...]:
+    """The painted frame and diagonal stripes where nobody may park, `margin_m` from the edges."""
     x, z = half_x - margin_m, half_z - margin_m
     if min(x, z) < _MIN_HATCHED_M / 2:
         return ()
@@ -152,6 +154,4 @@ def hatching(half_x: float, half_z: float, *, margin_m: float = _HATCH_MARGIN_M)
         rectangle(x - LINE_WIDTH_M, -z + LINE_WIDTH_M, x, z - LINE_WIDTH_M),
     )
     shapes = [*frame, *(tuple(s.exterior.coords)[:-1] for s in stripes if s.geom_type == "Polygon" and s.area > 1e-6)]  # noqa: PLR2004
-    return tuple(
-        Marking(tuple((round(px, 6), round(pz, 6)) for px, pz in shape), Surface.PAINT_YELLOW) for shape in shapes
-    )
+    return tuple(Marking(tuple((round(px, 6), round(pz, 6)) for px, pz in shape), surface) for shape in shapes)

@@ -1,4 +1,4 @@
-"""Sprinkler pipes along the aisles, exit signs over them, and mirrors at junctions."""
+"""Exit signs over the aisles, and mirrors at junctions."""
 
 import math
 from collections.abc import Iterable
@@ -6,90 +6,35 @@ from collections.abc import Iterable
 import networkx as nx
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.lanes import LaneGraph, LaneKind
+from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
-from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, SprinklerSpec, Turn
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, Turn
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
 from garage2usd.stalls import Edge
 
-__all__ = ["exit_signs", "mirrors", "sprinklers"]
+__all__ = ["exit_signs", "mirrors"]
 
-_QUARTER_TURN = math.pi / 2
-_PIPE_DROP_M = 0.075
-_PIPE_RADIUS_M = 0.03
-_PIPE_WALL_GAP_M = 0.5
-_HEAD_PITCH_M = 3.3
-_SIGN_TOP_BELOW_CEILING_M = 0.58
 _SIGN_HEIGHT_M = 0.2
 _SIGN_FROM_EDGE_M = 0.45
 _MIRROR_RADIUS_M = 0.25
-_MIRROR_FROM_COLUMN_M = 0.12
+_MIRROR_GAP_M = 0.05
+_MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
+_ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
+"""Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
+_TUBE_DEPTH_M = 0.105
+_CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
-def sprinklers(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
-    """Sprinkler pipes under the ceiling, on the side of each aisle where no duct hangs, over ducts where they cross.
-
-    A pipe along a column of squares leads on to the pipes along rows above and below it.
-    """
-    if not fittings.sprinklers:
-        return []
-    pipes: list[Placement] = []
-    for tile in grid:
-        if tile.cell is not Cell.LANE:
-            continue
-        if _in_row(structure, tile.square):
-            z = tile.z_m + _offset_m(tile.half_z_m, grid)
-            pipes.append(_pipe("Sprinkler", tile, (tile.x_m, z), tile.width_m, fittings, along_x=True))
-            continue
-        x = tile.x_m - _offset_m(tile.half_x_m, grid)
-        pipes.append(_pipe("Sprinkler", tile, (x, tile.z_m), tile.depth_m, fittings, along_x=False))
-        for name, edge, step in (("SprinklerUp", Edge.UP, -1), ("SprinklerDown", Edge.DOWN, 1)):
-            other = grid.neighbour(tile, edge)
-            if other is None or other.cell is not Cell.LANE or not _in_row(structure, other.square):
-                continue
-            start = tile.z_m + step * tile.half_z_m
-            end = other.z_m + _offset_m(other.half_z_m, grid) - step * _PIPE_RADIUS_M
-            length = abs(end - start)
-            pipes.append(_pipe(name, tile, (x, (start + end) / 2), length, fittings, along_x=False, has_heads=False))
-    return pipes
-
-
-def _pipe(
-    name: str,
-    tile: Tile,
-    middle: Point,
-    length_m: float,
-    fittings: FittingsConfig,
-    *,
-    along_x: bool,
-    has_heads: bool = True,
-) -> Placement:
-    heads = max(1, round(length_m / _HEAD_PITCH_M)) if has_heads else 0
-    spec = SprinklerSpec(round(length_m, 6), _PIPE_RADIUS_M, _PIPE_DROP_M, heads)
-    position = (round(middle[0], 6), fittings.ceiling_height_m, round(middle[1], 6))
-    return Placement(name, ObjectKind.SPRINKLER, spec, position, _QUARTER_TURN if along_x else 0.0, tile.square)
-
-
-def _in_row(structure: Structure, square: Square) -> bool:
-    """Whether a lane square has a lane beside it in its own row."""
-    row, col = square
-    cells = structure.cells[row]
-    return any(0 <= c < len(cells) and cells[c] == Cell.LANE for c in (col - 1, col + 1))
-
-
-def _offset_m(half_width_m: float, grid: TileGrid) -> float:
-    return max(half_width_m - grid.setback_m - _PIPE_WALL_GAP_M, 0.0)
-
-
-def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig) -> list[Placement]:
+def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
     """A lit sign over each way into a junction, that points along the shortest way to an exit.
 
     There are none where the ceiling leaves no room over the clear height.
     """
-    height = fittings.ceiling_height_m - _SIGN_TOP_BELOW_CEILING_M
-    if not fittings.exit_signs or height - _SIGN_HEIGHT_M < fittings.clear_height_m:
+    foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
+    if not fittings.exit_signs or foot < fittings.clear_height_m:
         return []
     exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
     distance = nx.multi_source_dijkstra_path_length(graph.graph, exits, weight="length_m")
@@ -97,52 +42,93 @@ def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig) -> li
     for tile in grid:
         if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
             continue
-        ways = {edge: distance.get(_beyond(tile.square, edge), math.inf) for edge in lane_edges(tile)}
+        ways = {edge: distance.get(neighbour(tile.square, edge), math.inf) for edge in lane_edges(tile)}
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         signs += [
-            _exit_sign(tile, edge, out, fittings)
+            _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways
-            if edge is not out and graph.kind(_beyond(tile.square, edge)) is not LaneKind.EXIT
+            if edge is not out and graph.kind(neighbour(tile.square, edge)) is not LaneKind.EXIT
         ]
     return signs
 
 
-def _exit_sign(tile: Tile, edge: Edge, out: Edge, fittings: FittingsConfig) -> Placement:
+def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
     """The sign over one edge of a junction, looking out over it at who comes in."""
     (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
     # the driver comes along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
     turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
     x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
     z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
-    position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
-    spec = ExitSignSpec(turn, _SIGN_TOP_BELOW_CEILING_M, _SIGN_HEIGHT_M)
+    position = (round(x, 6), ceiling_m, round(z, 6))
+    spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
     return Placement(name, ObjectKind.EXIT_SIGN, spec, position, edge_yaw_rad(edge), tile.square)
 
 
 def mirrors(
-    grid: TileGrid, graph: LaneGraph, columns: Iterable[Placement], column_size_m: float, fittings: FittingsConfig
+    grid: TileGrid,
+    columns: Iterable[Placement],
+    column_size_m: float,
+    fittings: FittingsConfig,
+    levels: CeilingLevels,
 ) -> list[Placement]:
-    """A convex mirror on a column at the lower side of each junction, looking up the plan along it."""
+    """Convex mirrors on columns and walls at the blind corners of junctions and bends, looking across the square.
+
+    Notes
+    -----
+    Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
+    that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
+    """
     if not fittings.mirrors:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    inset = column_size_m / 2 + _MIRROR_FROM_COLUMN_M
-    centre = min(fittings.clear_height_m + _MIRROR_RADIUS_M + 0.05, fittings.ceiling_height_m - _MIRROR_RADIUS_M - 0.1)
+    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, _TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
+    height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
     placed: list[Placement] = []
     for tile in grid:
-        if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS:
+        if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
-        for side in (-1, 1):
-            x, z = tile.x_m + side * tile.half_x_m, tile.z_m + tile.half_z_m
-            if (round(x, 4), round(z, 4)) in feet:
-                position = (round(x, 6), round(centre, 6), round(z - inset, 6))
-                spec, yaw = MirrorSpec(_MIRROR_RADIUS_M), edge_yaw_rad(Edge.UP)
-                placed.append(Placement("Mirror", ObjectKind.MIRROR, spec, position, yaw, tile.square))
+        unserved = {edge for edge in lane_edges(tile) if _is_blind(edge, tile, grid)}
+        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet, column_size_m))}
+        while mounts:
+            corner = max(mounts, key=lambda corner: len(unserved.intersection(_served(corner))))
+            inset, arm = mounts.pop(corner)
+            if not unserved.intersection(_served(corner)):
                 break
+            unserved.difference_update(_served(corner))
+            side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+            x = tile.x_m + side_x * (tile.half_x_m - inset)
+            z = tile.z_m + side_z * (tile.half_z_m - inset)
+            position = (round(x, 6), round(height, 6), round(z, 6))
+            name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
+            yaw = round(math.atan2(-side_x, -side_z), 6)
+            spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
+            placed.append(Placement(name, ObjectKind.MIRROR, spec, position, yaw, tile.square))
     return placed
 
 
-def _beyond(square: Square, edge: Edge) -> Square:
-    dr, dc = NEIGHBOUR_STEPS[edge]
-    return square[0] + dr, square[1] + dc
+def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
+    """Whether who comes in over an edge sees a way to the side only from inside the square."""
+    sides = (Edge.LEFT, Edge.RIGHT) if edge in {Edge.UP, Edge.DOWN} else (Edge.UP, Edge.DOWN)
+    between = (grid.neighbour(tile, edge, side) for side in sides if tile.drivable[side])
+    return any(other is None or other.cell is Cell.FREE for other in between)
+
+
+def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
+    """The edges from which a driver has a corner before him."""
+    return set(Edge) - set(corner)
+
+
+def _mount_m(
+    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: set[Point], column_size_m: float
+) -> tuple[float, float] | None:
+    """How far a mirror's middle is from both sides of a corner, and how long its arm; None if nothing holds it."""
+    side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+    point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
+    if point in feet:
+        return round(column_size_m / 2 + _MIRROR_FROM_COLUMN_M, 6), _ARM_TO_COLUMN_M
+    if any(grid.neighbour(tile, edge) is None for edge in corner):
+        return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
+    if grid.neighbour(tile, *corner) is None:
+        return _MIRROR_FROM_COLUMN_M, _ARM_TO_EDGE_M
+    return None

@@ -12,14 +12,13 @@ from scipy.spatial import KDTree
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.errors import ConfigError
-from garage2usd.grid import NEIGHBOUR_STEPS
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
 from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
-from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
+from garage2usd.layout.tiles import Tile, TileGrid, neighbour, stall_rectangle
 from garage2usd.randomness import Step
 
 __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
@@ -32,16 +31,21 @@ _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
 _REAR_CLEARANCE_M = 0.12
 _DRAWS_A_CAR = 7
-_COATINGS = {StallUse.EV: Surface.STALL_EV, StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE}
+_COATINGS = {
+    StallUse.EV: Surface.STALL_EV,
+    StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE,
+    StallUse.ACCESS_AISLE: Surface.STALL_ACCESSIBLE,
+}
+_HATCHES = {StallUse.TURNING: Surface.PAINT_YELLOW, StallUse.ACCESS_AISLE: Surface.PAINT_WHITE}
 
 
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     stalls: list[Stall] = []
+    squares = {square: square for square in grid.tiles}  # one tuple for each square
     for tile in grid:
         number = 0
         for row in grid.rows_by_square.get(tile.square, []):
-            dr, dc = NEIGHBOUR_STEPS[row.edge]
             for index in range(row.count):
                 number += 1
                 stalls.append(
@@ -50,7 +54,7 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
                         square=tile.square,
                         edge=row.edge,
                         stall_type=graph.stall_types[tile.square],
-                        access_square=(row.row + dr, row.col + dc),
+                        access_square=squares[neighbour((row.row, row.col), row.edge)],
                         centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
                         yaw_rad=edge_yaw_rad(row.edge),
                         width_m=bay.stall_width_m,
@@ -92,8 +96,8 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
 @lru_cache
 def _stall_panel(width_m: float, length_m: float, use: StallUse) -> PanelSpec:
     lines = stall_lines(width_m, length_m)
-    if use is StallUse.TURNING:
-        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M)
+    if not use.takes_cars:
+        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
     return PanelSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
@@ -103,7 +107,7 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
         return []
     placements = []
     for stall in stalls:
-        if stall.use is StallUse.TURNING:
+        if not stall.use.takes_cars:
             continue
         x, z = to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
         name = stall.named("WheelStop")
@@ -130,7 +134,7 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
         drawn = numbers[stall.square][place_on_square[stall.square]].tolist()
         place_on_square[stall.square] += 1
         occupied, reverse, yaw_share, side_share, along_share, body_index, paint_index = drawn
-        if not holds_car.get(stall.name, occupied < parking.occupancy) or stall.use is StallUse.TURNING:
+        if not holds_car.get(stall.name, occupied < parking.occupancy) or not stall.use.takes_cars:
             continue
         room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
         bodies = [
@@ -174,8 +178,10 @@ def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, b
         for name in getattr(parking, field) or ():
             if name not in uses:
                 raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
-            if holds_car and uses[name] is StallUse.TURNING:
-                raise ConfigError(f"parking.{field}", name, "stalls that are not kept free for turning")
+            if holds_car and not uses[name].takes_cars:
+                raise ConfigError(
+                    f"parking.{field}", name, "stalls that are not kept free for turning or for wheelchairs"
+                )
             named[name] = holds_car
     if parking.occupied_stalls is not None:
         return dict.fromkeys(uses, False) | named

@@ -22,10 +22,13 @@ class ObjectKind(StrEnum):
     OBSTACLE = "obstacle"
     COLUMN = "column"
     LIGHT = "light"
+    BEAM = "beam"
     DUCT = "duct"
+    CABLE_TRAY = "cable_tray"
     SPEED_BUMP = "speed_bump"
     WHEEL_STOP = "wheel_stop"
     NO_PARKING_SIGN = "no_parking_sign"
+    CONE = "cone"
     CAR = "car"
     RAMP = "ramp"
     SKY = "sky"
@@ -48,7 +51,14 @@ class StallUse(StrEnum):
     EV = "ev"
     """With a charger."""
     ACCESSIBLE = "accessible"
-    """For people with a disability."""
+    """For people with a disability, beside an access aisle."""
+    ACCESS_AISLE = "access_aisle"
+    """Hatched and kept free, so that wheelchairs get to the accessible stalls beside it."""
+
+    @property
+    def takes_cars(self) -> bool:
+        """Whether cars park there."""
+        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE}
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,15 @@ from functools import cached_property
 __all__ = [
     "GLYPH_PITCH",
     "BarrierSpec",
+    "BeamNodeSpec",
+    "BeamSpec",
+    "Box",
+    "CableTraySpec",
     "CarSpec",
     "CeilingSpec",
     "ChargerSpec",
     "ColumnSpec",
+    "ConeSpec",
     "DuctSpec",
     "ExitSignSpec",
     "Marking",
@@ -43,6 +48,8 @@ __all__ = [
 Point = tuple[float, float]
 Polygon = tuple[Point, ...]
 """Corners (x, z) in metres from the panel's centre, without holes."""
+Box = tuple[float, float, float, float]
+"""An axis-aligned rectangle: left, top, right, bottom, in x and z."""
 
 
 class Surface(StrEnum):
@@ -208,13 +215,33 @@ class TubeLightSpec:
 
     Attributes
     ----------
+    drop_m
+        From its top down to its lit face.
     luminance_nit
-        Of its downward face, cd/m2.
+        Of that face, which looks down, cd/m2.
     """
 
     length_m: float
     width_m: float
+    drop_m: float = 0.115
     luminance_nit: float = 0.0
+
+
+@dataclass(frozen=True)
+class BeamSpec:
+    """A beam under the ceiling, long along Z; origin in the middle of its top."""
+
+    length_m: float
+    width_m: float
+    depth_m: float
+
+
+@dataclass(frozen=True)
+class BeamNodeSpec:
+    """Where beams meet without a column: rectangles that touch, `depth_m` deep; origin on the ceiling."""
+
+    boxes: tuple[Box, ...]
+    depth_m: float
 
 
 @dataclass(frozen=True)
@@ -225,12 +252,36 @@ class DuctSpec:
     ----------
     hanger_m
         Length of the hangers from its top to the ceiling.
+    hangers_at_m
+        Places of the hangers along it, from its middle.
     """
 
     length_m: float
     width_m: float
     height_m: float
     hanger_m: float
+    hangers_at_m: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class CableTraySpec:
+    """A cable ladder with its cables, long along Z; origin over its middle, on the ceiling.
+
+    Attributes
+    ----------
+    height_m
+        Of its rails.
+    drop_m
+        From the ceiling down to its bottom.
+    rods_at_m
+        Places of its pairs of rods along it, from its middle.
+    """
+
+    length_m: float
+    width_m: float
+    height_m: float
+    drop_m: float
+    rods_at_m: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -250,6 +301,11 @@ class WheelStopSpec:
 @dataclass(frozen=True)
 class NoParkingSignSpec:
     """A free-standing no-parking sign that looks to +Z; origin in the middle of its foot."""
+
+
+@dataclass(frozen=True)
+class ConeSpec:
+    """A traffic cone; origin in the middle of its foot."""
 
 
 GLYPH_PITCH = 0.71
@@ -288,12 +344,21 @@ class Turn(StrEnum):
 
 @dataclass(frozen=True)
 class SprinklerSpec:
-    """A sprinkler pipe, long along Z; origin over its middle, on the ceiling; `drop_m` down to the pipe's middle."""
+    """A sprinkler pipe, long along Z; origin over its middle, on the ceiling.
+
+    Attributes
+    ----------
+    drop_m
+        From the ceiling down to the pipe's middle.
+    rods_at_m, heads_at_m
+        Places of its rods and of its heads along it, from its middle.
+    """
 
     length_m: float
     radius_m: float
     drop_m: float
-    heads: int
+    rods_at_m: tuple[float, ...]
+    heads_at_m: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -307,9 +372,10 @@ class ExitSignSpec:
 
 @dataclass(frozen=True)
 class MirrorSpec:
-    """A convex traffic mirror that looks to +Z; origin in the middle of its rim."""
+    """A convex traffic mirror that looks to +Z; origin in the middle of its rim, which an arm holds from behind."""
 
     radius_m: float
+    arm_m: float
 
 
 class StainMark(StrEnum):
@@ -374,10 +440,14 @@ Spec = (
     | ObstacleSpec
     | ColumnSpec
     | TubeLightSpec
+    | BeamSpec
+    | BeamNodeSpec
     | DuctSpec
+    | CableTraySpec
     | SpeedBumpSpec
     | WheelStopSpec
     | NoParkingSignSpec
+    | ConeSpec
     | CarSpec
     | NumberSpec
     | ZonePlateSpec

@@ -138,7 +138,7 @@ def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64]
     """Oil where engines stand, and the marks of wheels that rolled in."""
     for index, stall in enumerate(stalls):
         (there, variant, _, across, along), (driven, tyre, _, aside, end) = drawn[2 * index : 2 * index + 2].tolist()
-        if stall.use in {StallUse.TURNING, StallUse.EV}:
+        if not stall.use.takes_cars or stall.use is StallUse.EV:
             continue
         rear = -stall.length_m / 2
         number = stall.name.rpartition("_")[2]

@@ -22,7 +22,7 @@ from garage2usd.layout.placement import ObjectKind, Placement
 from garage2usd.layout.specs import CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
 from garage2usd.stalls import Edge, StallRow
 
-__all__ = ["Tile", "TileGrid", "ceiling_panel", "floor_panel", "lane_edges", "stall_rectangle"]
+__all__ = ["Tile", "TileGrid", "ceiling_panel", "floor_panel", "lane_edges", "neighbour", "stall_rectangle"]
 
 CEILING_THICKNESS_M = 0.25
 _OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
@@ -90,7 +90,7 @@ class TileGrid:
         self.rows_by_square: dict[Square, list[StallRow]] = {}
         for row in graph.stall_rows:
             self.rows_by_square.setdefault((row.row, row.col), []).append(row)
-        mouths = {(*_neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows}
+        mouths = {(*neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows}
         x, z = structure.column_edges_m, structure.row_edges_m
         self.tiles = {
             (row, col): Tile(
@@ -100,9 +100,7 @@ class TileGrid:
                 z_m=float(z[row] + z[row + 1]) / 2,
                 width_m=float(structure.column_widths_mm[col]) / 1000,
                 depth_m=float(structure.row_depths_mm[row]) / 1000,
-                drivable=_by_edge(
-                    row, col, lambda square, edge: graph.graph.has_edge(square, _neighbour(square, edge))
-                ),
+                drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, neighbour(square, edge))),
                 stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
             )
             for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
@@ -116,7 +114,7 @@ class TileGrid:
         """The tile beyond one edge, or beyond a corner of two; None outside and on obstacles."""
         square = tile.square
         for edge in edges:
-            square = _neighbour(square, edge)
+            square = neighbour(square, edge)
         return self.tiles.get(square)
 
     def clear_width_m(self, tile: Tile) -> float:
@@ -220,7 +218,8 @@ def _portal_markings(tile: Tile) -> tuple[Marking, ...]:
     return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else _OPPOSITE[inwards]),)
 
 
-def _neighbour(square: Square, edge: Edge) -> Square:
+def neighbour(square: Square, edge: Edge) -> Square:
+    """The square beyond an edge of one."""
     dr, dc = NEIGHBOUR_STEPS[edge]
     return square[0] + dr, square[1] + dc
 

@@ -11,7 +11,7 @@ import numpy as np
 from garage2usd.config import FittingsConfig
 from garage2usd.grid import Structure
 from garage2usd.lanes import Square
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, to_world
 from garage2usd.layout.specs import GLYPH_PITCH, NumberSpec, ZonePlateSpec
 
 __all__ = ["Zone", "Zones", "stall_numbers", "with_numbers", "zone_plates"]
@@ -58,7 +58,7 @@ def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, .
     counts: Counter[Zone | None] = Counter()
     numbered = []
     for stall in stalls:
-        if stall.use is StallUse.TURNING:
+        if not stall.use.takes_cars:
             numbered.append(stall)
             continue
         zone = zones.of(stall.square) if zones else None

@@ -24,6 +24,7 @@ _BUILDING_GROUPS = {
     ObjectKind.ZONE_PLATE: "Columns",
     ObjectKind.RAMP: "Ramps",
     ObjectKind.SKY: "Ramps",
+    ObjectKind.LIGHT: "Ramps",
     ObjectKind.BARRIER: "Ramps",
 }
 """Group of each kind of object that belongs to the building, not to a tile."""

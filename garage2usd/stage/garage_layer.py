@@ -4,8 +4,8 @@ The many instances are written as text, which USD parses faster than Python can 
 inside one change block. No stage is open, so that nothing is composed while writing.
 """
 
-from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain, groupby
 from pathlib import Path
 
 from pxr import Sdf, Vt
@@ -19,7 +19,7 @@ from garage2usd.stage.authoring import define, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, write_lane_graph
-from garage2usd.stage.prim_text import group_text, moved_text, place_text, reference_text, rounded_m
+from garage2usd.stage.prim_text import group_pieces, group_text, moved_text, place_text, reference_text, rounded_m
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
@@ -28,8 +28,7 @@ from garage2usd.stage.variants import SWITCHES, variant_texts
 __all__ = ["write_garage_layer"]
 
 _CLASSES = "Classes"
-"""Scope of the classes that all objects of a variant set, and all shared tiles, inherit from."""
-_TILE_CLASS = "Tile"
+"""Scope of the classes that all objects of a variant set, and all tiles that share a prototype, inherit from."""
 
 
 def write_garage_layer(
@@ -85,20 +84,21 @@ def write_garage_layer(
         shared = share_tiles(layout, arrangement, labels, inner)
         write_tile_prototypes(shared, folder / TILES_FILE)
         tiles = _shared_tiles(arrangement, shared, asset_folder)
-        variants = variant_texts(class_names, groups=[_TILE_CLASS], within=_CLASSES)
+        shared_followers = shared.followers
     else:
-        tiles = _tiles(arrangement, labels, writer)
-        variants = variant_texts(class_names, within=_CLASSES)
-    groups = "".join(group_text(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
-    names = [switch.class_name for switch in class_names] + [_TILE_CLASS] * arrangement.nested
+        tiles, shared_followers = _tiles(arrangement, labels, writer), {}
+    variants = variant_texts(class_names, shared_followers, within=_CLASSES)
+    groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
+    names = (*(switch.class_name for switch in class_names), *shared_followers)
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
-    files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = "".join(_part_text(asset_folder, file) for file in files)
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString(
+    head = (
         f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
-        f'class "{_CLASSES}"\n{{\n{classes}}}\n{tiles}{groups}{parts}}}\n'
+        f'class "{_CLASSES}"\n{{\n{classes}}}\n'
     )
+    files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
+    parts = (_part_text(asset_folder, file) for file in files)
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    layer.ImportFromString("".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"])))
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
     with Sdf.ChangeBlock():
         layer.defaultPrim = ROOT_NAME
@@ -117,37 +117,39 @@ def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
     return [kinds.get(square) or stalls[square] for square in squares]
 
 
-def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> str:
+def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> Iterator[str]:
     """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
-    rows: dict[int, list[str]] = defaultdict(list)
-    for square, (x, z), objects, label in zip(
-        arrangement.squares, rounded_m(arrangement.origins_m), arrangement.on_tiles(), labels, strict=True
-    ):
-        place, children = place_text(x, 0.0, z), writer.texts(objects, (x, z))
-        rows[square[0]].append(group_text(tile_name(square), children, label=label, place=place))
-    return _in_rows(rows)
+    places = rounded_m(arrangement.origins_m)
+    tiles = zip(arrangement.squares, places, arrangement.on_tiles(), labels, strict=True)
+    for row, in_row in groupby(tiles, key=lambda tile: tile[0][0]):
+        texts = (
+            group_text(tile_name(square), writer.texts(objects, (x, z)), label=label, place=place_text(x, 0.0, z))
+            for square, (x, z), objects, label in in_row
+        )
+        yield from group_pieces(row_name(row), texts)
 
 
-def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder: str) -> str:
-    """Row groups, and an instance of a prototype for each tile.
+def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder: str) -> Iterator[str]:
+    """Row groups, and an instance of a prototype for each tile, which inherits what variants say of it from its class.
 
     What all instances have in common stands in the prototypes, whose layer is so much smaller.
     """
-    asset, base = f"./{asset_folder}/{TILES_FILE}", f"/{ROOT_NAME}/{_CLASSES}/{_TILE_CLASS}"
-    headers = {name: reference_text(asset, prim=f"/{name}", base=base) for name in shared.texts}
-    rows: dict[int, list[str]] = defaultdict(list)
-    for square, (x, z), name in zip(arrangement.squares, rounded_m(arrangement.origins_m), shared.name_of, strict=True):
-        rows[square[0]].append(f'def "{tile_name(square)}" (\n{headers[name]})\n{{\n{moved_text(x, z)}}}\n')
-    return _in_rows(rows)
+    asset = f"./{asset_folder}/{TILES_FILE}"
+    headers = {
+        name: reference_text(asset, prim=f"/{name}", base=f"/{ROOT_NAME}/{_CLASSES}/{name}") for name in shared.texts
+    }
+    tiles = zip(arrangement.squares, rounded_m(arrangement.origins_m), shared.name_of, strict=True)
+    for row, in_row in groupby(tiles, key=lambda tile: tile[0][0]):
+        texts = (
+            f'def "{tile_name(square)}" (\n{headers[name]})\n{{\n{moved_text(x, z)}}}\n'
+            for square, (x, z), name in in_row
+        )
+        yield from group_pieces(row_name(row), texts)
 
 
 def _part_text(asset_folder: str, file: str) -> str:
     """A prim that stands in a layer of its own beside the assets."""
     return f'def "{Path(file).stem}" (\n{reference_text(f"./{asset_folder}/{file}")})\n{{\n}}\n'
-
-
-def _in_rows(rows: Mapping[int, list[str]]) -> str:
-    return group_text("Tiles", (group_text(row_name(row), tiles) for row, tiles in rows.items()))
 
 
 def _matrices(structure: Structure) -> dict[str, object]:

@@ -1,12 +1,13 @@
 """Prims as USDA text: a garage places so many that authoring them one by one in Python takes three times as long."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "group_pieces",
     "group_text",
     "header_text",
     "instance_text",
@@ -46,12 +47,20 @@ def group_text(
     name: str, children: Iterable[str], *, label: str | None = None, metadata: str = "", place: str = ""
 ) -> str:
     """A group with its children, and its semantic class."""
+    return "".join(group_pieces(name, children, label=label, metadata=metadata, place=place))
+
+
+def group_pieces(
+    name: str, children: Iterable[str], *, label: str | None = None, metadata: str = "", place: str = ""
+) -> Iterator[str]:
+    """The text of a group piece by piece, so that a large one is put together once."""
     schemas, labels = "", ""
     if label is not None:
         schemas = 'prepend apiSchemas = ["SemanticsLabelsAPI:class"]\n'
         labels = f'token[] semantics:labels:class = ["{label}"]\n'
-    body = "".join(children)
-    return f'def Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}{body}}}\n'
+    yield f'def Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}'
+    yield from children
+    yield "}\n"
 
 
 def place_text(x: float, y: float, z: float, yaw_deg: float = 0.0) -> str:

@@ -152,9 +152,10 @@ def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShad
     shading = primvars.CreatePrimvar("normals", Sdf.ValueTypeNames.Normal3fArray, UsdGeom.Tokens.faceVarying)
     shading.Set(Vt.Vec3fArray.FromNumpy(normals.astype(np.float32)))
     shading.SetIndices(Vt.IntArray.FromNumpy(normal_indices.ravel().astype(np.int32)))
-    coordinates = primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
-    coordinates.Set(Vt.Vec2fArray.FromNumpy(part.st))
-    coordinates.SetIndices(Vt.IntArray.FromNumpy(part.st_indices))
+    if MATERIALS[part.material].textures():
+        coordinates = primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
+        coordinates.Set(Vt.Vec2fArray.FromNumpy(part.st))
+        coordinates.SetIndices(Vt.IntArray.FromNumpy(part.st_indices))
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
     return mesh.GetPrim()
 

@@ -168,12 +168,29 @@ def _(spec: s.ColumnSpec) -> Asset:
 
 @_make.register
 def _(spec: s.TubeLightSpec) -> Asset:
-    return assets.tube_light(spec.length_m, spec.width_m, luminance_nit=spec.luminance_nit)
+    return assets.tube_light(spec.length_m, spec.width_m, drop_m=spec.drop_m, luminance_nit=spec.luminance_nit)
+
+
+@_make.register
+def _(spec: s.BeamSpec) -> Asset:
+    return assets.beam(spec.length_m, spec.width_m, spec.depth_m)
+
+
+@_make.register
+def _(spec: s.BeamNodeSpec) -> Asset:
+    return assets.beam_node(spec.boxes, spec.depth_m)
 
 
 @_make.register
 def _(spec: s.DuctSpec) -> Asset:
-    return assets.duct(spec.length_m, spec.width_m, spec.height_m, hanger_m=spec.hanger_m)
+    return assets.duct(
+        spec.length_m, spec.width_m, spec.height_m, hanger_m=spec.hanger_m, hangers_at_m=spec.hangers_at_m
+    )
+
+
+@_make.register
+def _(spec: s.CableTraySpec) -> Asset:
+    return assets.cable_tray(spec.length_m, spec.width_m, spec.height_m, spec.drop_m, rods_at_m=spec.rods_at_m)
 
 
 @_make.register
@@ -189,6 +206,11 @@ def _(spec: s.WheelStopSpec) -> Asset:
 @_make.register
 def _(_spec: s.NoParkingSignSpec) -> Asset:
     return assets.no_parking_sign()
+
+
+@_make.register
+def _(_spec: s.ConeSpec) -> Asset:
+    return assets.cone()
 
 
 @_make.register
@@ -217,7 +239,9 @@ _ARROW_DEG = {s.Turn.LEFT: -90.0, s.Turn.AHEAD: 0.0, s.Turn.RIGHT: 90.0}
 
 @_make.register
 def _(spec: s.SprinklerSpec) -> Asset:
-    return assets.sprinkler(spec.length_m, spec.radius_m, spec.drop_m, heads=spec.heads)
+    return assets.sprinkler(
+        spec.length_m, spec.radius_m, spec.drop_m, rods_at_m=spec.rods_at_m, heads_at_m=spec.heads_at_m
+    )
 
 
 @_make.register
@@ -227,7 +251,7 @@ def _(spec: s.ExitSignSpec) -> Asset:
 
 @_make.register
 def _(spec: s.MirrorSpec) -> Asset:
-    return assets.mirror(spec.radius_m)
+    return assets.mirror(spec.radius_m, arm_m=spec.arm_m)
 
 
 @_make.register

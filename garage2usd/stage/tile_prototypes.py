@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Sdf
 
 from garage2usd.layout import Layout
@@ -15,7 +16,7 @@ from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.authoring import set_units
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.prim_text import group_text, place_text
-from garage2usd.stage.variants import SWITCHES, Switch, variant_texts
+from garage2usd.stage.variants import SWITCHES, Switch
 
 __all__ = ["TILES_FILE", "TilePrototypes", "share_tiles", "write_tile_prototypes"]
 
@@ -35,10 +36,13 @@ class TilePrototypes:
         Name of the prototype of each tile, in the arrangement's order.
     texts
         USDA text of each prototype by its name.
+    followers
+        Names of the objects on each prototype that follow each variant set.
     """
 
     name_of: list[str]
     texts: dict[str, str]
+    followers: dict[str, dict[Switch, list[str]]]
 
 
 def share_tiles(
@@ -72,6 +76,7 @@ def share_tiles(
     )
     names: dict[tuple[str, bytes], str] = {}
     texts: dict[str, str] = {}
+    followers: dict[str, dict[Switch, list[str]]] = {}
     name_of: list[str] = []
     spans = pairwise((borders - borders[0]).tolist())
     for tile, (label, (start, end)) in enumerate(zip(labels, spans, strict=True)):
@@ -79,29 +84,23 @@ def share_tiles(
         name = names.get(key)
         if name is None:
             name = names[key] = f"Tile_{len(names) + 1:04d}"
-            texts[name] = _prototype_text(name, tile, label, layout, arrangement, writer)
+            rows = arrangement.on_tile(tile)
+            children = writer.texts(rows, tuple(arrangement.origins_m[tile].tolist()))
+            place = place_text(0, 0, 0)
+            texts[name] = group_text(name, children, label=label, metadata="instanceable = true\n", place=place)
+            followers[name] = _followers(layout, arrangement, rows)
         name_of.append(name)
-    return TilePrototypes(name_of, texts)
+    return TilePrototypes(name_of, texts, followers)
 
 
-def _prototype_text(
-    name: str, tile: int, label: str, layout: Layout, arrangement: Arrangement, writer: InstanceWriter
-) -> str:
-    rows = arrangement.on_tile(tile)
+def _followers(layout: Layout, arrangement: Arrangement, rows: NDArray[np.intp]) -> dict[Switch, list[str]]:
+    """Names of the objects in some rows that follow each variant set."""
     followers: dict[Switch, list[str]] = defaultdict(list)
     for row in rows.tolist():
         switch = SWITCHES.get(KINDS[layout.placements.kind[row]])
         if switch is not None:
             followers[switch].append(arrangement.names[arrangement.name[row]])
-    variants = variant_texts(followers)
-    x, z = arrangement.origins_m[tile].tolist()
-    return group_text(
-        name,
-        [variants.body, *writer.texts(rows, (x, z))],
-        label=label,
-        metadata=f"instanceable = true\n{variants.metadata}",
-        place=place_text(0, 0, 0),
-    )
+    return dict(followers)
 
 
 def write_tile_prototypes(shared: TilePrototypes, path: Path) -> None:

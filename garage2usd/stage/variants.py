@@ -42,7 +42,14 @@ SWITCHES: Mapping[ObjectKind, Switch] = {
     ObjectKind.CAR: _CARS,
     ObjectKind.LIGHT: _LIGHTS,
     **dict.fromkeys(
-        (ObjectKind.CEILING, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN),
+        (
+            ObjectKind.CEILING,
+            ObjectKind.BEAM,
+            ObjectKind.DUCT,
+            ObjectKind.CABLE_TRAY,
+            ObjectKind.SPRINKLER,
+            ObjectKind.EXIT_SIGN,
+        ),
         _OVERHEAD,
     ),
 }
@@ -57,7 +64,10 @@ class VariantTexts(NamedTuple):
 
 
 def variant_texts(
-    followers: Mapping[Switch, Iterable[str]], groups: Iterable[str] = (), within: str = ""
+    followers: Mapping[Switch, Iterable[str]],
+    groups: Mapping[str, Mapping[Switch, Iterable[str]]],
+    *,
+    within: str,
 ) -> VariantTexts:
     """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
@@ -66,25 +76,24 @@ def variant_texts(
     followers
         Names of the prims that follow each.
     groups
-        Names of prims that have the same variant sets themselves, to which the choice is handed on.
+        The same for the children of prims beside those.
     within
-        Name of the child that holds all these prims; empty where the prim itself does.
+        Name of the child that holds all these prims.
     """
     switches = dict.fromkeys(SWITCHES.values())
-    groups = list(groups)
     bodies = []
     for switch in switches:
-        overs = [_over(name, switch.metadata, switch.attribute) for name in followers.get(switch, ())]
-        handed_on = f'variants = {{\nstring {switch.variant_set} = "{switch.other}"\n}}\n'
-        overs += [_over(name, handed_on, "") for name in groups]
-        inner = "".join(overs)
-        if within and inner:
-            inner = _over(within, "", inner)
-        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{inner}}}\n'
+        inner = _overs(switch, followers)
+        inner += "".join(_over(name, "", _overs(switch, group)) for name, group in groups.items() if group.get(switch))
+        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{_over(within, "", inner)}}}\n'
         bodies.append(f'variantSet "{switch.variant_set}" = {{\n{choices}}}\n')
     selections = "".join(f'string {switch.variant_set} = "{switch.usual}"\n' for switch in switches)
     names = ", ".join(f'"{switch.variant_set}"' for switch in switches)
     return VariantTexts(f"variants = {{\n{selections}}}\nprepend variantSets = [{names}]\n", "".join(bodies))
+
+
+def _overs(switch: Switch, followers: Mapping[Switch, Iterable[str]]) -> str:
+    return "".join(_over(name, switch.metadata, switch.attribute) for name in followers.get(switch, ()))
 
 
 def _over(name: str, metadata: str, body: str) -> str:

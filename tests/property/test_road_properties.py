@@ -1,8 +1,9 @@
-"""200 random seeds over sizes 7x9 to 20x30: every garage builds, and every stall is reached."""
+"""200 random seeds over sizes 7x9 to 20x30: every garage builds, every stall is reached, nothing overhead meets."""
 
 import networkx as nx
 import numpy as np
 import pytest
+from overlaps import assert_nothing_overhead_meets
 
 from garage2usd.config import GarageConfig
 from garage2usd.grid import Cell
@@ -45,9 +46,11 @@ def reached(cells, kind):
 
 
 @pytest.mark.parametrize("block", range(20))
-def test_every_seed_builds_and_every_stall_is_reached(block):
+def test_every_seed_builds_every_stall_is_reached_and_nothing_overhead_meets(block):
     for seed in range(10 * block, 10 * block + 10):
-        garage = generate(GarageConfig(**settings(seed)))
+        config = GarageConfig(**settings(seed))
+        garage = generate(config)
+        assert_nothing_overhead_meets(garage.layout, config)
         cells = garage.plan.structure.cells
         both = reached(cells, Cell.ENTRANCE) & reached(cells, Cell.EXIT)
         assert garage.layout.stalls

@@ -4,6 +4,7 @@ import pytest
 from garage2usd import assets
 from garage2usd.assets import Collider
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.stage.prototype_layer import write_prototype
 
 each_body = pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
 NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "Plates", "Tyres", "Rims", "Mirrors", "Arches"}
@@ -65,9 +66,114 @@ def test_a_car_fills_its_footprint_and_nothing_is_below_the_floor(body):
 @each_body
 def test_what_is_put_on_the_shell_is_closed_and_turned_outwards(body):
     parts = parts_of(body)
-    for name in ("HeadLamps", "TailLamps", "Trim", "Arches", "Seams", "Handles", "Plates", "Mirrors"):
+    for name in (
+        "HeadLamps",
+        "TailLamps",
+        "ReverseLamps",
+        "LampHousings",
+        "Trim",
+        "Bright",
+        "Arches",
+        "Seams",
+        "Handles",
+        "Plates",
+        "Mirrors",
+    ):
         assert open_edges(parts[name]) == [], name
         assert signed_volume(parts[name]) > 0, name
+
+
+def triangles(*parts):
+    """The faces of parts, shape (n, 3, 3)."""
+    found = []
+    for part in parts:
+        for loop in np.split(part.face_indices, np.cumsum(part.face_counts)[:-1]):
+            found += [part.points[[loop[0], loop[k], loop[k + 1]]] for k in range(1, len(loop) - 1)]
+    return np.array(found, dtype=float)
+
+
+def unit_normals(faces):
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def first_hit(origin, direction, faces):
+    """Distance along a ray to the first face that it meets, and whether it meets its outside (Moeller-Trumbore)."""
+    first, second = faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]
+    across = np.cross(direction, second)
+    size = (first * across).sum(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = origin - faces[:, 0]
+        u = (away * across).sum(axis=1) / size
+        turned = np.cross(away, first)
+        v = (turned @ direction) / size
+        distance = (second * turned).sum(axis=1) / size
+    meets = (u >= 0) & (v >= 0) & (u + v <= 1) & (distance > -1e-9)
+    if not meets.any():
+        return np.inf, False
+    nearest = np.flatnonzero(meets)[np.argmin(distance[meets])]
+    return distance[nearest], bool(size[nearest] > 0)
+
+
+@each_body
+def test_lamps_stand_out_of_the_body_on_both_sides(body):
+    parts = parts_of(body)
+    shell = triangles(*(parts[name] for name in ("Body", "Cabin", "Glass")))
+    for name in ("HeadLamps", "TailLamps", "ReverseLamps", "LampHousings"):
+        faces = triangles(parts[name])
+        middles, normals = faces.mean(axis=1), unit_normals(faces)
+        inner = np.sign(middles[:, 2]) * (body.length_m / 2 - 0.8)
+        outwards = (middles - np.stack([0 * inner, middles[:, 1], inner], axis=1)) * (1.0, 0.0, 1.0)
+        outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
+        outer = (normals * outwards).sum(axis=1) > 0.8
+        assert (middles[outer, 0] > 0).sum() == (middles[outer, 0] < 0).sum() > 0
+        for corners, normal in zip(faces[outer], normals[outer], strict=True):
+            for place in (corners.mean(axis=0), *(corners * 0.98 + corners.mean(axis=0) * 0.02)):
+                distance, from_outside = first_hit(place, -normal, shell)
+                assert from_outside, (name, place)
+                assert distance >= 0.002, (name, place)
+
+
+@each_body
+def test_tail_lamps_are_tall_on_upright_tails_and_wide_under_boots(body):
+    lamps = parts_of(body)["TailLamps"].points
+    right = lamps[(lamps[:, 0] > 0) & (lamps[:, 1] > 0.62)]
+    width, height = np.ptp(right[:, 0]), np.ptp(right[:, 1])
+    if body.name in {"suv", "van", "pickup"}:
+        assert height > 0.3
+        assert width < 0.25
+    else:
+        assert width > 0.3
+        assert height < 0.2
+
+
+@each_body
+def test_a_car_keeps_within_its_measures(body):
+    parts = parts_of(body)
+    points = np.concatenate([part.points for part in parts.values()])
+    sides = np.concatenate([part.points for name, part in parts.items() if name != "Mirrors"])
+    assert np.abs(points[:, 2]).max() <= body.length_m / 2 + 1e-6
+    assert np.abs(points[:, 0]).max() <= body.overall_width_m / 2 + 1e-6
+    assert np.abs(sides[:, 0]).max() <= body.width_m / 2 + 0.02  # handles and lips
+    assert points[:, 1].max() <= body.height_m + 1e-6
+
+
+@each_body
+def test_each_wheel_stands_on_the_floor(body):
+    tyres = parts_of(body)["Tyres"].points
+    for side in (-1, 1):
+        for axle in (body.front_overhang_m, body.front_overhang_m + body.wheelbase_m):
+            near = np.abs(tyres[:, 2] - (axle - body.length_m / 2)) < body.wheel_radius_m + 0.01
+            wheel = tyres[near & (tyres[:, 0] * side > 0)]
+            assert wheel[:, 1].min() == pytest.approx(0.0, abs=1e-6)
+            assert np.ptp(wheel[:, 1]) == pytest.approx(2 * body.wheel_radius_m, abs=1e-5)
+
+
+@each_body
+def test_a_car_takes_150_kb(body, tmp_path):
+    path = tmp_path / "Car.usdc"
+    write_prototype(assets.car(body), path)
+    assert path.stat().st_size <= 150_000
 
 
 @each_body

@@ -47,6 +47,35 @@ def test_accessible_and_charging_stalls_lie_nearest_to_the_core_doors():
     assert farthest[1] <= min(reach(stall) for stall in of_use(layout, StallUse.STANDARD)) + 1e-6
 
 
+@pytest.mark.parametrize("share", [0.02, 0.06, 0.5, 1.0])
+def test_every_accessible_stall_has_a_hatched_aisle_beside_it_that_two_share(share):
+    layout = laid_out(parking={"accessible_share": share, "occupancy": 1.0, "ev_share": 0})
+    plain = laid_out(parking={"accessible_share": 0})
+    assert [stall.name for stall in layout.stalls] == [stall.name for stall in plain.stalls]
+    accessible, aisles = of_use(layout, StallUse.ACCESSIBLE), of_use(layout, StallUse.ACCESS_AISLE)
+    wanted = max(1, round(share * len(layout.stalls)))
+    most = sum(len(row) // 3 * 2 + (len(row) % 3 == 2) for row in rows_of(layout))
+    assert len(accessible) == wanted if share <= 0.5 else 0.5 * most < len(accessible) <= most
+    assert len(accessible) / 2 <= len(aisles) <= len(accessible)
+    ground = [shapely.Polygon(aisle.corners_m()) for aisle in aisles]
+    assert min(stall.width_m for stall in aisles) >= 1.52
+    for stall in accessible:
+        # a whole side of the stall lies on the aisle
+        reach = shapely.Polygon(stall.corners_m()).buffer(0.01, join_style="mitre")
+        assert max(reach.intersection(aisle).length for aisle in ground) > 2 * stall.length_m
+    kept_free = [*layout.of_kind(ObjectKind.CAR), *layout.of_kind(ObjectKind.WHEEL_STOP)]
+    kept_free += [*layout.of_kind(ObjectKind.CONE), *layout.of_kind(ObjectKind.STALL_NUMBER)]
+    taken = shapely.union_all([footprint(place) for place in kept_free])
+    assert taken.intersection(shapely.union_all(ground)).area < 1e-6
+
+
+def rows_of(layout):
+    rows = {}
+    for stall in layout.stalls:
+        rows.setdefault((stall.square, stall.edge), []).append(stall)
+    return rows.values()
+
+
 def test_shares_of_zero_leave_every_stall_standard():
     layout = laid_out(parking={"ev_share": 0, "accessible_share": 0})
     assert {stall.use for stall in layout.stalls} <= {StallUse.STANDARD, StallUse.TURNING}
@@ -69,7 +98,7 @@ def test_numbers_are_painted_at_the_mouth_of_their_stall():
     panels = {(place.square, place.name): place for place in layout.of_kind(ObjectKind.STALL)}
     digits = layout.of_kind(ObjectKind.STALL_NUMBER)
     numbered = {(*stall.square, stall.named("StallNumber")): stall.number for stall in layout.stalls if stall.number}
-    assert len(numbered) == sum(stall.use is not StallUse.TURNING for stall in layout.stalls)
+    assert len(numbered) == sum(stall.use.takes_cars for stall in layout.stalls)
     painted = {(*place.square, place.name.rsplit("_", 1)[0]): place.spec.digits for place in digits}
     assert painted == {key: number.split("-")[1] for key, number in numbered.items()}
     marked = {

@@ -35,7 +35,7 @@ E======...
 
 @pytest.fixture(scope="module")
 def layout():
-    return laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 1.0, "max_yaw_deg": 5.0}))
+    return laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 1.0, "max_yaw_deg": 5.0, "accessible_share": 0}))
 
 
 def union(placements):
@@ -162,7 +162,10 @@ def test_settings_decide_what_is_there():
         IRREGULAR,
         GarageConfig(
             fittings={
+                "beams": False,
                 "ducts": False,
+                "cable_trays": False,
+                "cone_rate": 0,
                 "wheel_stops": False,
                 "speed_bump_rate": 0,
                 "no_parking_sign_rate": 0,
@@ -178,6 +181,9 @@ def test_settings_decide_what_is_there():
         ),
     ).counts()
     empty = {
+        "beam",
+        "cable_tray",
+        "cone",
         "duct",
         "wheel_stop",
         "speed_bump",
@@ -192,6 +198,28 @@ def test_settings_decide_what_is_there():
     }
     empty |= {"sprinkler", "exit_sign", "mirror", "floor_stain"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
+
+
+def test_cones_close_stalls_without_cars_and_never_stand_on_lanes():
+    layout = laid_out(IRREGULAR, GarageConfig(fittings={"cone_rate": 1.0}))
+    cones = layout.of_kind(ObjectKind.CONE)
+    occupied = {(car.square, car.name.replace("Car", "Stall")) for car in layout.of_kind(ObjectKind.CAR)}
+    standard = {(s.square, s.named("Stall")) for s in layout.stalls if s.use is StallUse.STANDARD}
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    closed = [panels[key] for key in standard - occupied]
+    for panel in closed:
+        assert sum(panel.contains(footprint(cone)) for cone in cones) == 3
+    hatched = [
+        place
+        for place in layout.of_kind(ObjectKind.FLOOR)
+        if layout.structure.cells[place.square] == Cell.FREE and not place.spec.openings
+    ]
+    assert len(cones) == 3 * len(closed) + 4 * len(hatched) > 20
+    assert shapely.union_all([*closed, *map(footprint, hatched)]).buffer(1e-6).contains(union(cones))
+    signs = [place for place in layout.placements if place.kind in {ObjectKind.NO_PARKING_SIGN, ObjectKind.CAR}]
+    digits = layout.of_kind(ObjectKind.STALL_NUMBER)
+    stops = layout.of_kind(ObjectKind.WHEEL_STOP)
+    assert union(cones).intersection(union([*signs, *digits, *stops])).area < 1e-6
 
 
 def test_cars_of_other_stalls_do_not_move_with_the_occupancy():
@@ -222,11 +250,12 @@ def test_names_are_unique_among_siblings(layout):
 
 def test_a_long_dead_end_keeps_a_turning_stall():
     text = ".......\n=======\n=.X....\nE......"
-    free = laid_out(text, GarageConfig(parking={"occupancy": 1.0}))
+    parking = {"occupancy": 1.0, "accessible_share": 0}
+    free = laid_out(text, GarageConfig(parking=parking))
     turning = [stall for stall in free.stalls if stall.use is StallUse.TURNING]
     assert [stall.access_square for stall in turning] == [(1, 6)]  # four squares of 8.1 m past the exit's junction
     assert len(free.of_kind(ObjectKind.CAR)) == len(free.of_kind(ObjectKind.WHEEL_STOP)) == len(free.stalls) - 1
-    allowed = laid_out(text, GarageConfig(parking={"occupancy": 1.0}, plan={"dead_ends": "allow"}))
+    allowed = laid_out(text, GarageConfig(parking=parking, plan={"dead_ends": "allow"}))
     assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind(ObjectKind.CAR))
 
     def is_turning(place):

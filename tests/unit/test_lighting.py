@@ -8,7 +8,7 @@ from garage2usd.layout.placement import Placement
 from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.pipeline import generate
 
-SPEC = TubeLightSpec(1.5, 0.12, 1000.0)
+SPEC = TubeLightSpec(1.5, 0.12, luminance_nit=1000.0)
 
 
 def tube(x, z, yaw=0.0, height=3.2):

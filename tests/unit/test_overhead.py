@@ -1,77 +1,23 @@
-"""Exact boxes of every piece of every mesh: nothing overhead meets anything, nothing hangs below the clear height."""
-
 import numpy as np
 import pytest
+import shapely
+from footprints import footprint
+from overlaps import HANGING, assert_nothing_overhead_meets
 from sample_files import each_sample
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.grid import Structure, cells_from_text
+from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.layout.specs import Turn
 from garage2usd.pipeline import generate
-from garage2usd.stage.prototypes import asset_of
-
-HANGING = (ObjectKind.LIGHT, ObjectKind.DUCT, ObjectKind.SPRINKLER, ObjectKind.EXIT_SIGN)
-SOLID = (*HANGING, ObjectKind.MIRROR, ObjectKind.COLUMN, ObjectKind.BARRIER, ObjectKind.CAR)
-TOUCH_M = 1e-4
-
-
-def pieces(spec):
-    """Points of each connected piece of each part."""
-    for part in asset_of(spec).parts:
-        loops = np.split(part.face_indices, np.cumsum(part.face_counts)[:-1])
-        edges = np.concatenate([np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops])
-        size = len(part.points)
-        count, label = connected_components(coo_array((np.ones(len(edges)), edges.T), (size, size)), directed=False)
-        yield from (part.points[label == index] for index in range(count))
-
-
-def boxes(placements):
-    """float64, shape (B, 2, 3), and the placement of each box."""
-    known, found, owners = {}, [], []
-    for index, place in enumerate(placements):
-        if place.spec not in known:
-            known[place.spec] = list(pieces(place.spec))
-        cos, sin = np.cos(place.yaw_rad), np.sin(place.yaw_rad)
-        turn = np.array([[cos, 0, -sin], [0, 1, 0], [sin, 0, cos]])
-        for points in known[place.spec]:
-            world = points @ turn + np.array(place.position_m)
-            found.append((world.min(axis=0), world.max(axis=0)))
-            owners.append(index)
-    return np.array(found), np.array(owners)
-
-
-def clashes(placements):
-    found, owners = boxes(placements)
-    order = np.argsort(found[:, 0, 0])
-    found, owners = found[order], owners[order]
-    for i, (low, high) in enumerate(found):
-        end = np.searchsorted(found[:, 0, 0], high[0] - TOUCH_M)
-        other = found[i + 1 : end]
-        meets = ((other[:, 0] < high - TOUCH_M) & (other[:, 1] > low + TOUCH_M)).all(axis=1)
-        for j in np.flatnonzero(meets) + i + 1:
-            first, second = placements[owners[i]], placements[owners[j]]
-            if owners[i] != owners[j] and not {first.kind, second.kind} <= {ObjectKind.DUCT}:
-                yield first, second
-
-
-def checked(layout, config):
-    placements = [place for place in layout.placements if place.kind in SOLID]
-    assert not [(a.name, a.square, b.name, b.square) for a, b in clashes(placements)]
-    hanging = [place for place in placements if place.kind in HANGING]
-    found, owners = boxes(hanging)
-    lowest = found[:, 0, 1]
-    assert lowest.min() >= config.fittings.clear_height_m - TOUCH_M, hanging[owners[lowest.argmin()]]
-    assert found[:, 1, 1].max() <= layout.ceiling_height_m + TOUCH_M
+from garage2usd.stalls import Edge
 
 
 @each_sample
 def test_nothing_overhead_meets_anything_or_hangs_into_the_way(sample):
     config = load_config(sample)
-    checked(generate(config).layout, config)
+    assert_nothing_overhead_meets(generate(config).layout, config)
 
 
 def laid_out(text, **fittings):
@@ -90,8 +36,8 @@ E======X
 
 @pytest.mark.parametrize("ceiling_m", [2.4, 3.2, 4.0])
 def test_any_ceiling_leaves_the_clear_height(ceiling_m):
-    layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, ducts=ceiling_m > 3)
-    checked(layout, config)
+    layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m)
+    assert_nothing_overhead_meets(layout, config)
     assert bool(layout.of_kind(ObjectKind.EXIT_SIGN)) == (ceiling_m > 3)
 
 
@@ -103,11 +49,105 @@ def test_exit_signs_point_to_the_exit():
     assert turns[(1, 5), "ExitSign_Up"] is Turn.LEFT
 
 
-def test_every_junction_with_a_column_has_a_mirror_on_it():
-    layout, _ = laid_out(CROSS)
-    columns = [place.position_m for place in layout.of_kind(ObjectKind.COLUMN)]
+def ways_seen(place):
+    """The edges from which a driver has a mirror before him."""
+    x, z = np.sin(place.yaw_rad), np.cos(place.yaw_rad)
+    return {Edge.DOWN if z > 0 else Edge.UP, Edge.RIGHT if x > 0 else Edge.LEFT}
+
+
+def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
+    layout, config = laid_out(CROSS)
+    assert_nothing_overhead_meets(layout, config)
+    seen = {}
+    for place in layout.of_kind(ObjectKind.MIRROR):
+        seen.setdefault(place.square, set()).update(ways_seen(place))
+    assert seen[1, 2] == seen[1, 5] == set(Edge)
+    assert seen[3, 2] >= {Edge.LEFT, Edge.UP, Edge.RIGHT}
+    bend, _ = laid_out("""
+....
+.==X
+.=..
+.E..
+""")
+    (mirror,) = bend.of_kind(ObjectKind.MIRROR)
+    assert (mirror.square, ways_seen(mirror)) == ((1, 1), {Edge.DOWN, Edge.RIGHT})
+
+
+def test_mirrors_hang_on_columns_and_walls():
+    layout, _ = laid_out(
+        """
+E====X
+.=.=..
+.=#=..
+.====.
+"""
+    )
+    solid = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    holding = shapely.union_all([footprint(place) for place in layout.placements if place.kind in solid])
     placed = layout.of_kind(ObjectKind.MIRROR)
-    assert {place.square for place in placed} >= {(1, 2), (1, 5)}
+    assert {place.spec.arm_m for place in placed} >= {0.12, 0.29}
     for place in placed:
         x, _, z = place.position_m
-        assert min(np.hypot(x - cx, z - cz) for cx, _, cz in columns) < 0.7
+        tip = shapely.Point(x - place.spec.arm_m * np.sin(place.yaw_rad), z - place.spec.arm_m * np.cos(place.yaw_rad))
+        assert tip.distance(holding) < 0.025
+
+
+def test_ramps_are_lit_under_their_cover():
+    layout, config = laid_out(CROSS)
+    tubes = [place for place in layout.of_kind(ObjectKind.LIGHT) if place.square is None]
+    ramps = layout.of_kind(ObjectKind.RAMP)
+    assert len(tubes) == 2 * len(ramps) > 0
+    assert {place.spec for place in tubes} == {place.spec for place in layout.of_kind(ObjectKind.LIGHT)}
+    for place in tubes:
+        (ramp,) = [ramp for ramp in ramps if footprint(ramp).contains(footprint(place))]
+        run = np.hypot(place.position_m[0] - ramp.position_m[0], place.position_m[2] - ramp.position_m[2])
+        assert run < ramp.spec.cover_end_m
+        floor = np.interp(run, *zip(*ramp.spec.profile, strict=True))
+        assert place.position_m[1] - place.spec.drop_m - floor >= config.fittings.clear_height_m
+
+
+def test_beams_and_columns_cover_every_border_between_squares_once():
+    layout, _ = laid_out(
+        """
+##..=...
+E======X
+..#.=...
+.=====..
+"""
+    )
+    beams = [footprint(place) for place in layout.of_kind(ObjectKind.BEAM)]
+    columns = [footprint(place) for place in layout.of_kind(ObjectKind.COLUMN)]
+    concrete = shapely.union_all([*beams, *columns])
+    assert concrete.area == pytest.approx(sum(shape.area for shape in [*beams, *columns]), abs=1e-6)
+    structure = layout.structure
+    x, z = structure.column_edges_m, structure.row_edges_m
+    inside = structure.cells != Cell.OBSTACLE
+    lines = [
+        shapely.LineString([(x[col + 1], z[row]), (x[col + 1], z[row + 1])])
+        for row, col in np.argwhere(inside[:, :-1] & inside[:, 1:]).tolist()
+    ]
+    lines += [
+        shapely.LineString([(x[col], z[row + 1]), (x[col + 1], z[row + 1])])
+        for row, col in np.argwhere(inside[:-1] & inside[1:]).tolist()
+    ]
+    assert shapely.union_all(lines).difference(concrete.buffer(1e-6)).length < 1e-6
+    ground = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.CEILING)])
+    assert concrete.difference(ground.buffer(1e-6)).area < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("ceiling_m", "switches", "depth_m", "absent"),
+    [
+        (3.2, {}, 0.4, set()),
+        (3.2, {"cable_trays": False}, 0.5, {ObjectKind.CABLE_TRAY}),
+        (3.2, {"ducts": False}, 0.6, {ObjectKind.DUCT}),
+        (3.2, {"beams": False}, 0.0, {ObjectKind.BEAM}),
+        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
+        (2.4, {}, 0.0, {ObjectKind.BEAM, ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
+    ],
+)
+def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
+    layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, **switches)
+    assert_nothing_overhead_meets(layout, config)
+    assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent
+    assert {place.spec.depth_m for place in layout.of_kind(ObjectKind.BEAM)} == ({depth_m} if depth_m else set())

@@ -1,0 +1,128 @@
+"""One layer at a time: the C# readers against ``pxr``, every opinion of every spec."""
+
+import random
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+import values_of_pxr
+from pxr import Sdf, Tf, Usd
+
+STAGES = Path(__file__).parent / "stages"
+
+
+def same(reader, path) -> None:
+    """Both readers say the same of a layer, or both refuse it."""
+    layer = Sdf.Layer.FindOrOpen(str(path))
+    wanted = values_of_pxr.layer_dump(layer)
+    found = reader.ask("layer", path)
+    assert "refused" not in found, found
+    values_of_pxr.agreed(wanted["root"], found["root"])
+    assert not values_of_pxr.differences(wanted, found)
+
+
+def opens(path: Path) -> bool:
+    """Whether ``pxr`` reads the file: some of the validator's examples are bad on purpose."""
+    try:
+        return Sdf.Layer.FindOrOpen(str(path)) is not None
+    except Tf.ErrorException:
+        return False
+
+
+def installed(package: str, endings: tuple[str, ...]) -> list[Path]:
+    spec = find_spec(package)
+    folders = [] if spec is None else spec.submodule_search_locations
+    return sorted(path for folder in folders for path in Path(folder).rglob("*") if path.suffix in endings)
+
+
+@pytest.mark.parametrize("ending", ["usda", "usdc"])
+@pytest.mark.parametrize("path", sorted(STAGES.rglob("*.usda")), ids=lambda path: path.stem)
+def test_layer_of_the_tests(usd_dump, tmp_path, path, ending):
+    if ending == "usdc":
+        crate = tmp_path / f"{path.stem}.usdc"
+        Sdf.Layer.FindOrOpen(str(path)).Export(str(crate))
+        path = crate
+    same(usd_dump, path)
+
+
+@pytest.mark.parametrize("package", ["pxr", "usd_validation_nvidia", "newton", "warp"])
+def test_layers_of_installed_packages(usd_dump, package):
+    paths = installed(package, (".usda", ".usdc", ".usd"))
+    if not paths:
+        pytest.skip(f"{package} is not installed or carries no layers")
+    for path in paths:
+        if path.stat().st_size < 300_000 and opens(path):
+            same(usd_dump, path)
+
+
+def test_numbers_of_crates_in_every_coding(usd_dump, tmp_path):
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "numbers.usdc"))
+    prim = Sdf.CreatePrimInLayer(layer, "/A")
+    draw = random.Random(1)  # noqa: S311 - of test inputs
+    for name, least, most in (
+        ("Int", -(2**31), 2**31), ("UInt", 0, 2**32), ("Int64", -(2**63), 2**63), ("UInt64", 0, 2**64),
+        ("UChar", 0, 256), ("Float", -9, 9), ("Double", -(2**31), 2**31 - 1), ("Half", -9, 9), ("TimeCode", 0, 9),
+    ):  # fmt: skip
+        for count in (0, 1, 15, 16, 17, 1000):
+            values = {
+                "wide": [draw.randrange(least, most) for _ in range(count)],
+                "same": [5] * count,
+                "rising": [index % 200 for index in range(count)],
+                "twos": [2 if index % 2 else 8 for index in range(count)],
+                "fractions": [index % 3 / 10 for index in range(count)],
+            }
+            for kind, items in values.items():
+                if kind != "fractions" or name in {"Float", "Double", "Half", "TimeCode"}:
+                    kind_of = getattr(Sdf.ValueTypeNames, f"{name}Array")
+                    Sdf.AttributeSpec(prim, f"{name}_{kind}_{count}", kind_of).default = items
+        for index, value in enumerate((0, 1, most - 1, least, -1 if least else 7)):
+            value_of = Sdf.TimeCode if name == "TimeCode" else int
+            Sdf.AttributeSpec(prim, f"{name}_{index}", getattr(Sdf.ValueTypeNames, name)).default = value_of(value)
+    layer.Save()
+    same(usd_dump, layer.identifier)
+
+
+def decimal(draw: random.Random) -> str:
+    """Numbers of all lengths and sizes, many of them close to the middle between two doubles."""
+    if draw.random() < 0.3:
+        return repr(draw.uniform(-1, 1) * 10.0 ** draw.randint(-320, 300))
+    digits = "".join(draw.choice("0123456789") for _ in range(draw.randint(1, 40)))
+    point = draw.randint(0, len(digits))
+    exponent = draw.choice(["", f"e{draw.randint(-340, 300)}", f"E+{draw.randint(0, 20)}"])
+    return f"{draw.choice(['', '-'])}{digits[:point] or '0'}.{digits[point:]}{exponent}"
+
+
+def test_numbers_are_the_nearest(usd_dump, tmp_path):
+    draw = random.Random(5)  # noqa: S311 - of test inputs
+    text = ", ".join(decimal(draw) for _ in range(20000))
+    path = tmp_path / "numbers.usda"
+    path.write_text(f'#usda 1.0\ndef "A" {{\n double[] d = [{text}]\n float[] f = [{text}]\n half[] h = [{text}]\n}}\n')
+    same(usd_dump, path)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("#sdf 1.4.32\n", "neither a text nor a crate layer"),
+        ('#usda 1.0\ndef "A" {', "expected a name"),
+        ('#usda 1.0\ndef "A" { float a = x }', "expected a number"),
+        ('#usda 1.0\ndef "A" { int a = 3000000000 }', "is not between"),
+        ('#usda 1.0\ndef "A" { string a = "x\n" }', "does not end on its line"),
+        ('#usda 1.0\ndef "A" { rel a = <../../B> }', "leads out of the layer"),
+        ('#usda 1.0\ndef "A" {}\ndef "A" {}', "a second prim 'A'"),
+        ("#usda 1.0\n(\n relocates = { </A/B>: </A/C> }\n)", "relocates are not supported"),
+        ('#usda 1.0\ndef "A" { int[] a = edit [ append 1 ] }', "edits of arrays are not supported"),
+        ("#usda 1.0\n" + 'def "A" {' * 2000, "nested more than"),
+        ("#usda 1.0\n(a = " + "[" * 5000, "nested more than"),
+        ("#usda 1.0\n(customLayerData = " + "{ dictionary a = " * 5000, "nested more than"),
+    ],
+)
+def test_refuses(usd_dump, tmp_path, text, reason):
+    path = tmp_path / "bad.usda"
+    path.write_text(text)
+    file, place, found = usd_dump.ask("layer", path)["refused"]
+    assert (file, place.split()[0]) == (str(path), "byte" if "crate" in reason else "line")
+    assert reason in found
+
+
+assert Usd  # registers the fields of prims

@@ -1,0 +1,836 @@
+using System;
+using System.Collections.Generic;
+
+namespace Garage.Usd
+{
+    /// <summary>Reads text layers (.usda).</summary>
+    sealed class UsdaReader : UsdaScanner
+    {
+        const int DeepestPrim = 400;
+        const int DeepestValue = 40;
+
+        readonly Layer layer;
+        readonly List<string> names = new List<string>();
+        readonly UsdaValues values;
+        string primPath;
+
+        UsdaReader(byte[] bytes, string identifier) : base(bytes, identifier)
+        {
+            layer = new Layer(identifier);
+            values = new UsdaValues();
+        }
+
+        public static bool Knows(byte[] bytes)
+        {
+            return bytes.Length >= 6 && bytes[0] == '#' && bytes[1] == 'u' && bytes[2] == 's' && bytes[3] == 'd'
+                && bytes[4] == 'a' && bytes[5] == ' ';
+        }
+
+        /// <summary>The layer in these bytes. Throws UsdFormatException.</summary>
+        public static Layer Read(byte[] bytes, string identifier)
+        {
+            if (!Knows(bytes)) { throw new UsdFormatException(identifier, "line 1", "does not begin with '#usda 1.0'"); }
+            return new UsdaReader(bytes, identifier).ReadLayer();
+        }
+
+        Layer ReadLayer()
+        {
+            at = 6;
+            if (text[at] != '1' || text[at + 1] != '.') { throw Unexpected("version 1.x of the format"); }
+            while (text[at] != '\n' && at < end) { at++; }
+            if (Take('(')) { ReadPrimMetadata(layer.Root); }
+            for (;;)
+            {
+                SkipSeparators();
+                if (at >= end) { break; }
+                string word = TryName();
+                Specifier specifier;
+                if (TrySpecifier(word, out specifier))
+                {
+                    ReadPrim(layer.Root, specifier);
+                }
+                else if (word == "reorder" && TryName() == "rootPrims")
+                {
+                    Expect('=');
+                    layer.Root.ChildOrder = NameList();
+                }
+                else
+                {
+                    throw Unexpected("a prim");
+                }
+            }
+            return layer;
+        }
+
+        static bool TrySpecifier(string word, out Specifier specifier)
+        {
+            specifier = word == "def" ? Specifier.Def : word == "class" ? Specifier.Class : Specifier.Over;
+            return word == "def" || word == "over" || word == "class";
+        }
+
+        void ReadPrim(PrimSpec parent, Specifier specifier)
+        {
+            if (names.Count >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
+            string typeName = AtQuote() ? "" : Name();
+            string name = QuotedString();
+            if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0) { throw Error("'" + name + "' is no name of a prim"); }
+            var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
+            if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
+            layer.SpecCount++;
+            names.Add(name);
+            primPath = null;
+            if (Take('(')) { ReadPrimMetadata(prim); }
+            Expect('{');
+            ReadBody(prim);
+            names.RemoveAt(names.Count - 1);
+            primPath = null;
+        }
+
+        void ReadBody(PrimSpec prim)
+        {
+            for (;;)
+            {
+                SkipSeparators();
+                if (text[at] == '}')
+                {
+                    at++;
+                    return;
+                }
+                string word = Name();
+                Specifier specifier;
+                if (TrySpecifier(word, out specifier))
+                {
+                    ReadPrim(prim, specifier);
+                }
+                else if (word == "variantSet")
+                {
+                    ReadVariantSet(prim);
+                }
+                else if (word == "reorder" && AtReorder())
+                {
+                    string what = Name();
+                    Expect('=');
+                    if (what == "nameChildren") { prim.ChildOrder = NameList(); }
+                    else { prim.PropertyOrder = NameList(); }
+                }
+                else
+                {
+                    ReadProperty(prim, word);
+                }
+            }
+        }
+
+        bool AtReorder()
+        {
+            int before = at;
+            string word = TryName();
+            at = before;
+            return word == "nameChildren" || word == "properties";
+        }
+
+        void ReadVariantSet(PrimSpec prim)
+        {
+            string name = QuotedString();
+            VariantSetSpec set = prim.FindVariantSet(name);
+            if (set == null)
+            {
+                prim.VariantSets = prim.VariantSets ?? new List<VariantSetSpec>();
+                set = new VariantSetSpec(name);
+                prim.VariantSets.Add(set);
+            }
+            Expect('=');
+            Expect('{');
+            if (variantDepth >= DeepestValue) { throw Error("variants are nested more than " + DeepestValue + " deep"); }
+            variantDepth++;
+            while (!Take('}'))
+            {
+                string selection = QuotedString();
+                PrimSpec variant = set.Find(selection);
+                if (variant == null)
+                {
+                    variant = new PrimSpec(selection);
+                    set.Variants.Add(variant);
+                    layer.SpecCount++;
+                }
+                if (Take('(')) { ReadPrimMetadata(variant); }
+                Expect('{');
+                ReadBody(variant);
+                SkipSeparators();
+            }
+            variantDepth--;
+        }
+
+        int variantDepth;
+
+        // ---- properties
+
+        void ReadProperty(PrimSpec prim, string word)
+        {
+            string edit = null;
+            bool custom = false, uniform = false;
+            if (IsEdit(word))
+            {
+                edit = word;
+                word = Name();
+            }
+            if (word == "custom")
+            {
+                custom = true;
+                word = Name();
+            }
+            if (word == "uniform" || word == "varying" || word == "config")
+            {
+                uniform = word == "uniform";
+                word = Name();
+            }
+            bool isRelationship = word == "rel";
+            string typeName = word;
+            if (!isRelationship && text[at] == '[' && text[at + 1] == ']')
+            {
+                at += 2;
+                typeName = values.ArrayName(word);
+            }
+            string name = Name();
+            PropertySpec property = prim.FindProperty(name);
+            if (property == null)
+            {
+                property = new PropertySpec(name) { IsRelationship = isRelationship, TypeName = isRelationship ? "" : typeName };
+                prim.AddProperty(property);
+            }
+            else if (property.IsRelationship != isRelationship)
+            {
+                throw Error("'" + name + "' is both an attribute and a relationship");
+            }
+            property.IsCustom |= custom;
+            property.IsUniform |= uniform;
+            string part = "default";
+            if (text[at] == '.')
+            {
+                at++;
+                part = Name();
+            }
+            if (isRelationship || part == "connect")
+            {
+                if (Take('=')) { property.Targets = Edited(property.Targets, edit, PathList()); }
+            }
+            else if (part == "default")
+            {
+                if (Take('=')) { property.Default = ReadValue(typeName); }
+            }
+            else if (part == "timeSamples")
+            {
+                Expect('=');
+                property.Samples = ReadSamples(typeName);
+            }
+            else if (part == "spline")
+            {
+                Expect('=');
+                SkipBraces();
+            }
+            else
+            {
+                throw Error("'" + part + "' is no part of a property");
+            }
+            if (Next() == '(')
+            {
+                at++;
+                ReadPropertyMetadata(property);
+            }
+        }
+
+        static bool IsEdit(string word)
+        {
+            return word == "prepend" || word == "append" || word == "delete" || word == "add" || word == "reorder";
+        }
+
+        void ReadPropertyMetadata(PropertySpec property)
+        {
+            for (;;)
+            {
+                SkipSeparators();
+                if (Take(')')) { return; }
+                if (AtQuote())
+                {
+                    property.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
+                    continue;
+                }
+                string key = Name();
+                if (IsEdit(key)) { key = Name(); }
+                Expect('=');
+                property.AddField(key == "doc" ? "documentation" : key, ReadAnything(0));
+            }
+        }
+
+        TimeSamples ReadSamples(string typeName)
+        {
+            Expect('{');
+            var times = new List<double>();
+            var samples = new List<UsdValue>();
+            while (!Take('}'))
+            {
+                times.Add(Number());
+                Expect(':');
+                samples.Add(ReadValue(typeName) ?? UsdValue.Blocked);
+                if (!Take(',') && Next() != '}') { throw Unexpected("',' or '}'"); }
+            }
+            return new TimeSamples(times.ToArray(), samples.ToArray());
+        }
+
+        void SkipBraces()
+        {
+            Expect('{');
+            for (int depth = 1; depth > 0;)
+            {
+                Skip();
+                byte letter = text[at];
+                if (at >= end) { throw Unexpected("'}'"); }
+                if (letter == '"' || letter == '\'')
+                {
+                    QuotedString();
+                    continue;
+                }
+                depth += letter == '{' ? 1 : letter == '}' ? -1 : 0;
+                at++;
+            }
+        }
+
+        // ---- metadata
+
+        void ReadPrimMetadata(PrimSpec prim)
+        {
+            for (;;)
+            {
+                SkipSeparators();
+                if (Take(')')) { return; }
+                if (AtQuote())
+                {
+                    prim.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
+                    continue;
+                }
+                string edit = null, key = Name();
+                if (IsEdit(key))
+                {
+                    edit = key;
+                    key = Name();
+                }
+                Expect('=');
+                ReadPrimField(prim, edit, key);
+            }
+        }
+
+        void ReadPrimField(PrimSpec prim, string edit, string key)
+        {
+            switch (key)
+            {
+                case "references": prim.References = Edited(prim.References, edit, ArcList()); break;
+                case "payload": prim.Payloads = Edited(prim.Payloads, edit, ArcList()); break;
+                case "inherits": prim.Inherits = Edited(prim.Inherits, edit, PathList()); break;
+                case "specializes": prim.Specializes = Edited(prim.Specializes, edit, PathList()); break;
+                case "variantSets": prim.VariantSetNames = Edited(prim.VariantSetNames, edit, NameList()); break;
+                case "apiSchemas": prim.ApiSchemas = Edited(prim.ApiSchemas, edit, NameList()); break;
+                case "active": prim.IsActive = Truth(); break;
+                case "instanceable": prim.IsInstanceable = Truth(); break;
+                case "variants": ReadVariantSelections(prim); break;
+                case "subLayers": ReadSubLayers(prim); break;
+                case "relocates": RefuseRelocates(); break;
+                default: prim.AddField(key == "doc" ? "documentation" : key, ReadAnything(0)); break;
+            }
+        }
+
+        bool Truth()
+        {
+            string word = TryName();
+            if (word != null) { return values.Truth(word, this); }
+            return Number() != 0;
+        }
+
+        void RefuseRelocates()
+        {
+            Expect('{');
+            if (!Take('}')) { throw Error("relocates are not supported"); }
+        }
+
+        void ReadSubLayers(PrimSpec prim)
+        {
+            if (!ReferenceEquals(prim, layer.Root)) { throw Error("only a layer has subLayers"); }
+            Expect('[');
+            while (!Take(']'))
+            {
+                string asset = AssetPath();
+                var offset = LayerOffset.Identity;
+                if (Take('(')) { offset = ReadOffset(); }
+                layer.SubLayers.Add(new SubLayer(asset, offset));
+                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+        }
+
+        void ReadVariantSelections(PrimSpec prim)
+        {
+            prim.VariantSelections = prim.VariantSelections ?? new Dictionary<string, string>();
+            Expect('{');
+            for (;;)
+            {
+                SkipSeparators();
+                if (Take('}')) { return; }
+                Name();
+                string set = AtQuote() ? QuotedString() : Name();
+                Expect('=');
+                prim.VariantSelections[set] = QuotedString();
+                Take(',');
+            }
+        }
+
+        LayerOffset ReadOffset()
+        {
+            double offset = 0, scale = 1;
+            for (;;)
+            {
+                SkipSeparators();
+                Take(',');
+                if (Take(')')) { return new LayerOffset(offset, scale); }
+                string key = Name();
+                Expect('=');
+                if (key == "offset") { offset = Number(); }
+                else if (key == "scale") { scale = Number(); }
+                else { ReadAnything(0); }
+            }
+        }
+
+        List<ReferenceArc> ArcList()
+        {
+            var arcs = new List<ReferenceArc>();
+            if (TakeNone()) { return arcs; }
+            bool many = Take('[');
+            while (!(many && Take(']')))
+            {
+                string asset = Next() == '@' ? AssetPath() : "";
+                string path = Next() == '<' ? Absolute(PathText(), true) : "";
+                if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']' && text[at - 1] != '@' && text[at - 1] != '>')
+                {
+                    throw Unexpected("an asset or a path");
+                }
+                LayerOffset offset = Take('(') ? ReadOffset() : LayerOffset.Identity;
+                arcs.Add(new ReferenceArc(asset, path, offset));
+                if (!many) { break; }
+                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+            return arcs;
+        }
+
+        List<string> PathList()
+        {
+            var paths = new List<string>();
+            if (TakeNone()) { return paths; }
+            if (!Take('['))
+            {
+                paths.Add(Absolute(PathText(), false));
+                return paths;
+            }
+            while (!Take(']'))
+            {
+                paths.Add(Absolute(PathText(), false));
+                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+            return paths;
+        }
+
+        List<string> NameList()
+        {
+            var list = new List<string>();
+            if (TakeNone()) { return list; }
+            if (!Take('['))
+            {
+                list.Add(QuotedString());
+                return list;
+            }
+            while (!Take(']'))
+            {
+                list.Add(QuotedString());
+                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+            return list;
+        }
+
+        bool TakeNone()
+        {
+            if (Next() != 'N' || text[at + 1] != 'o' || text[at + 2] != 'n' || text[at + 3] != 'e') { return false; }
+            at += 4;
+            return true;
+        }
+
+        static ListOp<T> Edited<T>(ListOp<T> op, string edit, List<T> items)
+        {
+            op = op ?? new ListOp<T>();
+            switch (edit)
+            {
+                case "prepend": op.Prepended = items; break;
+                case "append": op.Appended = items; break;
+                case "delete": op.Deleted = items; break;
+                case "add": op.Added = items; break;
+                case "reorder": op.Ordered = items; break;
+                default:
+                    op.IsExplicit = true;
+                    op.Explicit = items;
+                    break;
+            }
+            return op;
+        }
+
+        string Absolute(string path, bool mayBeEmpty)
+        {
+            if (path.Length == 0)
+            {
+                if (mayBeEmpty) { return path; }
+                throw Error("a path is empty");
+            }
+            if (path[0] == '/' && path.IndexOf("..", StringComparison.Ordinal) < 0) { return path; }
+            primPath = primPath ?? "/" + string.Join("/", names.ToArray());
+            string absolute = UsdPaths.Absolute(primPath, path);
+            if (absolute == null) { throw Error("the path <" + path + "> leads out of the layer"); }
+            return absolute;
+        }
+
+        // ---- values
+
+        UsdValue ReadValue(string typeName)
+        {
+            Skip();
+            if (text[at] == 'N' && TakeNone()) { return UsdValue.Blocked; }
+            if (text[at] == 'A' && TryName() == "AnimationBlock") { return null; }
+            UsdType type;
+            bool isArray = values.Resolve(typeName, out type);
+            if (type == UsdType.None || type == UsdType.Dictionary)
+            {
+                // a type of somebody's plugin: its text is passed
+                ReadAnything(0);
+                return null;
+            }
+            if (isArray && text[at] == 'e') { throw Error("edits of arrays are not supported"); }
+            return isArray ? ReadArray(type) : ReadScalar(type);
+        }
+
+        UsdValue ReadScalar(UsdType type)
+        {
+            values.Start(type);
+            ReadElement(type);
+            return values.Finish(type, false);
+        }
+
+        UsdValue ReadArray(UsdType type)
+        {
+            Expect('[');
+            values.Start(type);
+            int components = UsdTypes.Components(type);
+            if (UsdTypes.StorageOf(type) == Storage.Floats && UsdTypes.Rows(type) == 1)
+            {
+                ReadFloats(components);
+                if (UsdTypes.IsHalf(type)) { values.RoundHalves(); }
+                return values.Finish(type, true);
+            }
+            while (!Take(']'))
+            {
+                ReadElement(type);
+                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+            return values.Finish(type, true);
+        }
+
+        // the elements of an array of floats and its closing bracket: the loop that large layers spend their time in
+        void ReadFloats(int components)
+        {
+            float[] floats = values.Floats;
+            int count = 0;
+            while (!Take(']'))
+            {
+                if (count + components > floats.Length)
+                {
+                    Array.Resize(ref floats, floats.Length * 2);
+                    values.Floats = floats;
+                }
+                if (components == 1)
+                {
+                    floats[count++] = (float)Number();
+                }
+                else
+                {
+                    Expect('(');
+                    for (int i = 0; i < components; i++)
+                    {
+                        if (i > 0 && text[at] != ',') { Expect(','); }
+                        else if (i > 0) { at++; }
+                        floats[count++] = (float)Number();
+                    }
+                    if (text[at] == ')') { at++; }
+                    else { Expect(')'); }
+                }
+                if (text[at] == ',') { at++; }
+                else if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
+            }
+            values.Count = count;
+        }
+
+        void ReadElement(UsdType type)
+        {
+            int components = UsdTypes.Components(type);
+            if (components == 1)
+            {
+                ReadComponent(type);
+                return;
+            }
+            int rows = UsdTypes.Rows(type), columns = components / rows;
+            if (rows > 1) { Expect('('); }
+            for (int row = 0; row < rows; row++)
+            {
+                if (row > 0) { Expect(','); }
+                Expect('(');
+                for (int column = 0; column < columns; column++)
+                {
+                    if (column > 0) { Expect(','); }
+                    ReadComponent(type);
+                }
+                Expect(')');
+            }
+            if (rows > 1) { Expect(')'); }
+        }
+
+        void ReadComponent(UsdType type)
+        {
+            switch (UsdTypes.StorageOf(type))
+            {
+                case Storage.Floats:
+                    float number = (float)Number();
+                    values.Add(UsdTypes.IsHalf(type) ? HalfNumber.Nearest(number) : number);
+                    break;
+                case Storage.Doubles: values.Add(Number()); break;
+                case Storage.Ints: values.Add((int)Integer(int.MinValue, int.MaxValue)); break;
+                case Storage.UInts: values.Add((uint)Integer(0, uint.MaxValue)); break;
+                case Storage.Longs: values.Add(Integer(long.MinValue, long.MaxValue)); break;
+                case Storage.ULongs: values.Add(UnsignedLong()); break;
+                case Storage.Bytes:
+                    if (type == UsdType.Bool) { values.Add((byte)(Truth() ? 1 : 0)); }
+                    else { values.Add((byte)Integer(0, 255)); }
+                    break;
+                default:
+                    values.Add(type == UsdType.Asset && !AtQuote() ? AssetPath() : type == UsdType.Path ? PathText() : QuotedString());
+                    break;
+            }
+        }
+
+        /// <summary>A value whose type only its text tells; tuples and lists of numbers are flat arrays of doubles.</summary>
+        object ReadAnything(int depth)
+        {
+            if (depth > DeepestValue) { throw Error("values are nested more than " + DeepestValue + " deep"); }
+            byte letter = Next();
+            switch ((char)letter)
+            {
+                case '"': case '\'': return UsdValue.OfString(UsdType.String, QuotedString());
+                case '@': return UsdValue.OfString(UsdType.Asset, AssetPath());
+                case '<': return UsdValue.OfString(UsdType.Path, PathText());
+                case '{': return ReadDictionary(depth);
+                case '[': return ReadList(']', depth);
+                case '(': return ReadList(')', depth);
+            }
+            if ((letter >= '0' && letter <= '9') || letter == '-' || letter == '.')
+            {
+                return new UsdValue(UsdType.Double, false, new[] { Number() });
+            }
+            string word = TryName();
+            if (word == null) { throw Unexpected("a value"); }
+            if (word == "None") { return UsdValue.Blocked; }
+            if (word == "true" || word == "false") { return new UsdValue(UsdType.Bool, false, new[] { (byte)(word == "true" ? 1 : 0) }); }
+            if (word == "inf") { return new UsdValue(UsdType.Double, false, new[] { double.PositiveInfinity }); }
+            if (word == "nan") { return new UsdValue(UsdType.Double, false, new[] { double.NaN }); }
+            return UsdValue.OfString(UsdType.Token, word);
+        }
+
+        UsdValue ReadList(char closing, int depth)
+        {
+            at++;
+            var texts = new List<string>();
+            var numbers = new List<double>();
+            while (!Take(closing))
+            {
+                var item = ReadAnything(depth + 1) as UsdValue;
+                if (item != null && item.Data is string[]) { texts.AddRange(item.Texts); }
+                else if (item != null) { numbers.AddRange(item.Doubles()); }
+                // a reference with its offset
+                if (Next() == '<' || Next() == '(') { continue; }
+                if (!Take(',') && !Take(';') && Next() != (byte)closing) { throw Unexpected("',' or '" + closing + "'"); }
+            }
+            return texts.Count > 0 ? new UsdValue(UsdType.String, true, texts.ToArray())
+                : new UsdValue(UsdType.Double, true, numbers.ToArray());
+        }
+
+        UsdDictionary ReadDictionary(int depth)
+        {
+            if (depth > DeepestValue) { throw Error("dictionaries are nested more than " + DeepestValue + " deep"); }
+            at++;
+            var dictionary = new UsdDictionary();
+            for (;;)
+            {
+                SkipSeparators();
+                if (Take('}')) { return dictionary; }
+                byte letter = text[at];
+                if (letter == '"' || letter == '\'' || letter == '<' || letter == '-' || (letter >= '0' && letter <= '9'))
+                {
+                    // pairs without types: prefixes, times
+                    object pairKey = ReadAnything(depth + 1);
+                    Expect(':');
+                    object pairValue = ReadAnything(depth + 1);
+                    var named = (UsdValue)pairKey;
+                    dictionary[named.Text ?? named.Number(0).ToString("R", System.Globalization.CultureInfo.InvariantCulture)] = pairValue;
+                    Take(',');
+                    continue;
+                }
+                string typeName = Name();
+                if (text[at] == '[' && text[at + 1] == ']')
+                {
+                    at += 2;
+                    typeName = values.ArrayName(typeName);
+                }
+                string key = AtQuote() ? QuotedString() : Name();
+                Expect('=');
+                if (typeName == "dictionary" && Next() == '{') { dictionary[key] = ReadDictionary(depth + 1); }
+                else { dictionary[key] = ReadValue(typeName) ?? UsdValue.Blocked; }
+                Take(',');
+            }
+        }
+
+        /// <summary>The buffers in which the numbers of a value gather, and the types by name.</summary>
+        sealed class UsdaValues
+        {
+            public float[] Floats = new float[256];
+            public int Count;
+
+            double[] doubles = new double[64];
+            int[] ints = new int[256];
+            List<string> strings = new List<string>();
+            List<long> longs = new List<long>();
+            List<ulong> ulongs = new List<ulong>();
+            List<uint> uints = new List<uint>();
+            List<byte> bytes = new List<byte>();
+
+            readonly Dictionary<string, KeyValuePair<UsdType, bool>> types = new Dictionary<string, KeyValuePair<UsdType, bool>>();
+            readonly Dictionary<string, string> arrayNames = new Dictionary<string, string>();
+            string lastName;
+            KeyValuePair<UsdType, bool> lastType;
+
+            public string ArrayName(string name)
+            {
+                string array;
+                if (!arrayNames.TryGetValue(name, out array))
+                {
+                    array = name + "[]";
+                    arrayNames.Add(name, array);
+                }
+                return array;
+            }
+
+            /// <summary>The type with this name, and whether it is an array.</summary>
+            public bool Resolve(string typeName, out UsdType type)
+            {
+                if (!ReferenceEquals(typeName, lastName))
+                {
+                    if (!types.TryGetValue(typeName, out lastType))
+                    {
+                        bool isArray = typeName.EndsWith("[]", StringComparison.Ordinal);
+                        string element = isArray ? typeName.Substring(0, typeName.Length - 2) : typeName;
+                        lastType = new KeyValuePair<UsdType, bool>(UsdTypes.OfName(element), isArray);
+                        types.Add(typeName, lastType);
+                    }
+                    lastName = typeName;
+                }
+                type = lastType.Key;
+                return lastType.Value;
+            }
+
+            public bool Truth(string word, UsdaReader reader)
+            {
+                switch (word.ToLowerInvariant())
+                {
+                    case "true": case "yes": case "on": return true;
+                    case "false": case "no": case "off": return false;
+                    default: throw reader.Unexpected("true or false");
+                }
+            }
+
+            public void Start(UsdType type)
+            {
+                Count = 0;
+                switch (UsdTypes.StorageOf(type))
+                {
+                    case Storage.Strings: strings.Clear(); break;
+                    case Storage.Longs: longs.Clear(); break;
+                    case Storage.ULongs: ulongs.Clear(); break;
+                    case Storage.UInts: uints.Clear(); break;
+                    case Storage.Bytes: bytes.Clear(); break;
+                }
+            }
+
+            public void Add(float number)
+            {
+                if (Count == Floats.Length) { Array.Resize(ref Floats, 2 * Count); }
+                Floats[Count++] = number;
+            }
+
+            public void Add(double number)
+            {
+                if (Count == doubles.Length) { Array.Resize(ref doubles, 2 * Count); }
+                doubles[Count++] = number;
+            }
+
+            public void Add(int number)
+            {
+                if (Count == ints.Length) { Array.Resize(ref ints, 2 * Count); }
+                ints[Count++] = number;
+            }
+
+            public void Add(uint number)
+            {
+                uints.Add(number);
+            }
+
+            public void Add(long number)
+            {
+                longs.Add(number);
+            }
+
+            public void Add(ulong number)
+            {
+                ulongs.Add(number);
+            }
+
+            public void Add(byte number)
+            {
+                bytes.Add(number);
+            }
+
+            public void Add(string value)
+            {
+                strings.Add(value);
+            }
+
+            public void RoundHalves()
+            {
+                for (int i = 0; i < Count; i++) { Floats[i] = HalfNumber.Nearest(Floats[i]); }
+            }
+
+            public UsdValue Finish(UsdType type, bool isArray)
+            {
+                Array data;
+                switch (UsdTypes.StorageOf(type))
+                {
+                    case Storage.Floats: data = new float[Count]; Array.Copy(Floats, data, Count); break;
+                    case Storage.Doubles: data = new double[Count]; Array.Copy(doubles, data, Count); break;
+                    case Storage.Ints: data = new int[Count]; Array.Copy(ints, data, Count); break;
+                    case Storage.UInts: data = uints.ToArray(); break;
+                    case Storage.Longs: data = longs.ToArray(); break;
+                    case Storage.ULongs: data = ulongs.ToArray(); break;
+                    case Storage.Bytes: data = bytes.ToArray(); break;
+                    default: data = strings.ToArray(); break;
+                }
+                return new UsdValue(type, isArray, data);
+            }
+        }
+    }
+}

@@ -1,0 +1,453 @@
+using System;
+using System.Collections.Generic;
+using System.Text;
+
+namespace Garage.Usd
+{
+    /// <summary>Reads binary layers (.usdc) of the versions 0.4 to 0.x.</summary>
+    sealed class CrateReader
+    {
+        const int DeepestPath = 500;
+
+        enum Field
+        {
+            Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes, VariantSetNames,
+            VariantSelection, ApiSchemas, PrimChildren, PrimOrder, PropertyOrder, Default, Samples, Custom, Variability,
+            Targets, SubLayers, SubLayerOffsets, Relocates, Ignored,
+        }
+
+        static readonly Dictionary<string, Field> Fields = new Dictionary<string, Field>
+        {
+            { "specifier", Field.Specifier }, { "typeName", Field.TypeName }, { "active", Field.Active },
+            { "instanceable", Field.Instanceable }, { "references", Field.References }, { "payload", Field.Payload },
+            { "inheritPaths", Field.Inherits }, { "specializes", Field.Specializes },
+            { "variantSetNames", Field.VariantSetNames }, { "variantSelection", Field.VariantSelection },
+            { "apiSchemas", Field.ApiSchemas }, { "primChildren", Field.PrimChildren }, { "primOrder", Field.PrimOrder },
+            { "propertyOrder", Field.PropertyOrder }, { "default", Field.Default }, { "timeSamples", Field.Samples },
+            { "custom", Field.Custom }, { "variability", Field.Variability }, { "targetPaths", Field.Targets },
+            { "connectionPaths", Field.Targets }, { "subLayers", Field.SubLayers },
+            { "subLayerOffsets", Field.SubLayerOffsets }, { "layerRelocates", Field.Relocates },
+            { "relocates", Field.Relocates }, { "properties", Field.Ignored }, { "variantSetChildren", Field.Ignored },
+            { "variantChildren", Field.Ignored }, { "targetChildren", Field.Ignored },
+            { "connectionChildren", Field.Ignored }, { "spline", Field.Ignored },
+        };
+
+        readonly CrateBytes bytes;
+        readonly string file;
+        readonly Layer layer;
+        readonly Dictionary<string, KeyValuePair<long, long>> sections = new Dictionary<string, KeyValuePair<long, long>>();
+        string[] tokens;
+        int[] strings;
+        Field[] fieldKinds;
+        string[] fieldNames;
+        ulong[] fieldReps;
+        int[] fieldSets;
+        object[] fieldValues;
+        bool[] fieldIsRead;
+        int[] pathParents, pathTokens, pathOrder;
+        bool[] pathIsProperty;
+        string[] pathTexts;
+        CrateValues values;
+
+        CrateReader(byte[] data, string identifier)
+        {
+            bytes = new CrateBytes(data, identifier);
+            file = identifier;
+            layer = new Layer(identifier);
+        }
+
+        public static bool Knows(byte[] data)
+        {
+            return data.Length >= 8 && Encoding.ASCII.GetString(data, 0, 8) == "PXR-USDC";
+        }
+
+        /// <summary>The layer in these bytes. Throws UsdFormatException.</summary>
+        public static Layer Read(byte[] data, string identifier)
+        {
+            return new CrateReader(data, identifier).ReadLayer();
+        }
+
+        UsdFormatException Error(string section, string reason)
+        {
+            return new UsdFormatException(file, section, reason);
+        }
+
+        Layer ReadLayer()
+        {
+            int major = bytes.Byte(8), version = bytes.Byte(9);
+            if (major != 0 || version < 4)
+            {
+                throw new UsdFormatException(file, "byte 8", "version " + major + "." + version + " of the format is not supported");
+            }
+            ReadSections();
+            ReadTokens();
+            ReadStrings();
+            ReadFields();
+            ReadPaths();
+            values = new CrateValues(bytes, version, tokens, strings, PathText);
+            ReadSpecs();
+            return layer;
+        }
+
+        void ReadSections()
+        {
+            long place = bytes.Long(16);
+            int count = bytes.Count(place, 32);
+            if (count > 64) { throw bytes.Error(place, "a table of contents of " + count + " sections"); }
+            place += 8;
+            for (int i = 0; i < count; i++, place += 32)
+            {
+                var name = new StringBuilder();
+                for (int k = 0; k < 16 && bytes.Byte(place + k) != 0; k++) { name.Append((char)bytes.Byte(place + k)); }
+                sections[name.ToString()] = new KeyValuePair<long, long>(bytes.Long(place + 16), bytes.Long(place + 24));
+            }
+        }
+
+        long Section(string name)
+        {
+            KeyValuePair<long, long> section;
+            if (!sections.TryGetValue(name, out section)) { throw Error(name, "the section is missing"); }
+            if (section.Key < 0 || section.Value < 0 || section.Key > bytes.Length - section.Value)
+            {
+                throw Error(name, "the section lies beyond the end of the file");
+            }
+            return section.Key;
+        }
+
+        int CountOf(string section, long place, long most)
+        {
+            long count = bytes.Long(place);
+            if (count < 0 || count > most) { throw Error(section, "a count of " + count + " is more than the file holds"); }
+            return (int)count;
+        }
+
+        void ReadTokens()
+        {
+            long place = Section("TOKENS");
+            long size = bytes.Long(place + 8), packed = bytes.Long(place + 16);
+            byte[] text = bytes.Unpack(place + 24, packed, size);
+            int count = CountOf("TOKENS", place, size);
+            bytes.Charge(place, 60L * count + 2 * size);
+            tokens = new string[count];
+            int start = 0;
+            for (int i = 0; i < count; i++)
+            {
+                int end = start;
+                while (end < size && text[end] != 0) { end++; }
+                if (start >= size) { throw Error("TOKENS", "there are fewer tokens than " + count); }
+                tokens[i] = Encoding.UTF8.GetString(text, start, end - start);
+                start = end + 1;
+            }
+        }
+
+        void ReadStrings()
+        {
+            long place = Section("STRINGS");
+            strings = new int[bytes.Count(place, 4)];
+            bytes.Copy(place + 8, strings, 4);
+        }
+
+        void ReadFields()
+        {
+            long place = Section("FIELDS");
+            int count = CountOf("FIELDS", place, 1024L * bytes.Length);
+            place += 8;
+            int[] names = bytes.PackedInts(ref place, count);
+            byte[] reps = bytes.Unpack(place + 8, bytes.Long(place), 8L * count);
+            bytes.Charge(place, 40L * count);
+            fieldReps = new ulong[count];
+            Buffer.BlockCopy(reps, 0, fieldReps, 0, 8 * count);
+            fieldNames = new string[count];
+            fieldKinds = new Field[count];
+            fieldValues = new object[count];
+            fieldIsRead = new bool[count];
+            for (int i = 0; i < count; i++)
+            {
+                if ((uint)names[i] >= (uint)tokens.Length) { throw Error("FIELDS", "there is no token " + names[i]); }
+                fieldNames[i] = tokens[names[i]];
+                Field kind;
+                fieldKinds[i] = Fields.TryGetValue(fieldNames[i], out kind) ? kind : Field.Other;
+            }
+            place = Section("FIELDSETS");
+            count = CountOf("FIELDSETS", place, 1024L * bytes.Length);
+            place += 8;
+            fieldSets = bytes.PackedInts(ref place, count);
+        }
+
+        void ReadPaths()
+        {
+            long place = Section("PATHS");
+            int count = CountOf("PATHS", place, 1024L * bytes.Length);
+            int encoded = CountOf("PATHS", place + 8, count);
+            place += 16;
+            int[] indices = bytes.PackedInts(ref place, encoded);
+            int[] elements = bytes.PackedInts(ref place, encoded);
+            int[] jumps = bytes.PackedInts(ref place, encoded);
+            bytes.Charge(place, 40L * count);
+            pathParents = new int[count];
+            pathTokens = new int[count];
+            pathIsProperty = new bool[count];
+            pathTexts = new string[count];
+            pathOrder = new int[encoded];
+            var depths = new int[count];
+            for (int i = 0; i < count; i++) { pathParents[i] = -2; }
+            // entries whose siblings wait until all below them is read, with the parent of these
+            var waiting = new Stack<KeyValuePair<int, int>>();
+            int at = 0, parent = -1, read = 0;
+            while (encoded > 0)
+            {
+                if ((uint)at >= (uint)encoded) { throw Error("PATHS", "a jump leads out of the table"); }
+                int path = indices[at];
+                if ((uint)path >= (uint)count || pathParents[path] != -2) { throw Error("PATHS", "a path is missing or twice in the table"); }
+                int token = elements[at];
+                pathIsProperty[path] = token < 0;
+                pathTokens[path] = Math.Abs(token);
+                if (parent >= 0 && (uint)Math.Abs(token) >= (uint)tokens.Length) { throw Error("PATHS", "there is no token " + token); }
+                pathParents[path] = parent;
+                depths[path] = parent < 0 ? 0 : depths[parent] + 1;
+                if (depths[path] > DeepestPath) { throw Error("PATHS", "paths are nested more than " + DeepestPath + " deep"); }
+                pathOrder[read++] = path;
+                int jump = jumps[at];
+                bool hasChild = jump > 0 || jump == -1, hasSibling = jump >= 0;
+                if (parent < 0 && hasSibling && jump != 0) { throw Error("PATHS", "the root has a sibling"); }
+                if (hasChild)
+                {
+                    if (hasSibling) { waiting.Push(new KeyValuePair<int, int>(at + jump, parent)); }
+                    parent = path;
+                    at++;
+                }
+                else if (hasSibling && parent >= 0)
+                {
+                    at++;
+                }
+                else if (waiting.Count > 0)
+                {
+                    KeyValuePair<int, int> next = waiting.Pop();
+                    at = next.Key;
+                    parent = next.Value;
+                }
+                else
+                {
+                    break;
+                }
+            }
+            Array.Resize(ref pathOrder, read);
+        }
+
+        /// <summary>The path without variant selections; "" for the index of no path.</summary>
+        string PathText(int index)
+        {
+            if (index == -1) { return ""; }
+            if ((uint)index >= (uint)pathTexts.Length) { throw Error("PATHS", "there is no path " + index); }
+            if (pathTexts[index] != null) { return pathTexts[index]; }
+            // the root's text is nothing while others are built on it
+            if (pathParents[index] == -2) { return ""; }
+            if (pathParents[index] == -1) { return "/"; }
+            string above = PathText(pathParents[index]);
+            string element = tokens[pathTokens[index]];
+            string text = pathIsProperty[index] ? above + "." + element : element.Length > 0 && element[0] == '{' ? above
+                : UsdPaths.Child(above, element);
+            bytes.Charge(0, 2L * text.Length + 32);
+            pathTexts[index] = text;
+            return text;
+        }
+
+        // ---- specs
+
+        void ReadSpecs()
+        {
+            long place = Section("SPECS");
+            int count = CountOf("SPECS", place, pathParents.Length);
+            place += 8;
+            int[] paths = bytes.PackedInts(ref place, count);
+            int[] sets = bytes.PackedInts(ref place, count);
+            int[] types = bytes.PackedInts(ref place, count);
+            bytes.Charge(place, 16L * pathParents.Length);
+            var specs = new int[pathParents.Length];
+            for (int i = 0; i < count; i++)
+            {
+                if ((uint)paths[i] >= (uint)specs.Length || specs[paths[i]] != 0) { throw Error("SPECS", "a path is missing or has two specs"); }
+                specs[paths[i]] = i + 1;
+            }
+            var prims = new PrimSpec[pathParents.Length];
+            foreach (int path in pathOrder)
+            {
+                int spec = specs[path] - 1;
+                if (spec < 0) { continue; }
+                PrimSpec parent = pathParents[path] < 0 ? null : prims[pathParents[path]];
+                bytes.Charge(place, 120);
+                switch (types[spec])
+                {
+                    case 7:
+                        if (pathParents[path] != -1) { throw Error("SPECS", "a root that is no root"); }
+                        prims[path] = layer.Root;
+                        ReadPrimFields(layer.Root, sets[spec]);
+                        break;
+                    case 6: case 10:
+                        if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
+                        prims[path] = MakePrim(parent, path, types[spec] == 10);
+                        ReadPrimFields(prims[path], sets[spec]);
+                        break;
+                    case 1: case 8:
+                        if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
+                        ReadProperty(parent, tokens[pathTokens[path]], types[spec] == 8, sets[spec]);
+                        break;
+                }
+            }
+            if (layerOffsets != null)
+            {
+                for (int i = 0; i < layer.SubLayers.Count && i < layerOffsets.Length; i++)
+                {
+                    layer.SubLayers[i] = new SubLayer(layer.SubLayers[i].Asset, layerOffsets[i]);
+                }
+            }
+            foreach (KeyValuePair<PrimSpec, List<string>> order in childOrders) { order.Key.OrderChildren(order.Value); }
+        }
+
+        LayerOffset[] layerOffsets;
+        readonly List<KeyValuePair<PrimSpec, List<string>>> childOrders = new List<KeyValuePair<PrimSpec, List<string>>>();
+
+        PrimSpec MakePrim(PrimSpec parent, int path, bool isVariant)
+        {
+            string element = tokens[pathTokens[path]];
+            layer.SpecCount++;
+            if (!isVariant)
+            {
+                var prim = new PrimSpec(element);
+                if (element.Length == 0 || !parent.AddChild(prim)) { throw Error("SPECS", "a second prim <" + PathText(path) + ">"); }
+                return prim;
+            }
+            int equals = element.IndexOf('=');
+            if (element.Length < 3 || element[0] != '{' || equals < 0 || element[element.Length - 1] != '}')
+            {
+                throw Error("SPECS", "'" + element + "' is no variant");
+            }
+            string name = element.Substring(1, equals - 1);
+            VariantSetSpec set = parent.FindVariantSet(name);
+            if (set == null)
+            {
+                set = new VariantSetSpec(name);
+                parent.VariantSets = parent.VariantSets ?? new List<VariantSetSpec>();
+                parent.VariantSets.Add(set);
+            }
+            var variant = new PrimSpec(element.Substring(equals + 1, element.Length - equals - 2));
+            set.Variants.Add(variant);
+            return variant;
+        }
+
+        object FieldValue(int field)
+        {
+            if (!fieldIsRead[field])
+            {
+                fieldValues[field] = values.Read(fieldReps[field], Section("FIELDS"), 0);
+                fieldIsRead[field] = true;
+            }
+            return fieldValues[field];
+        }
+
+        int FirstField(int set)
+        {
+            if ((uint)set >= (uint)fieldSets.Length) { throw Error("SPECS", "there is no set of fields " + set); }
+            return set;
+        }
+
+        // the field at a place of the sets, or -1 at the end of its set
+        int FieldAt(int place)
+        {
+            if (place >= fieldSets.Length || fieldSets[place] == -1) { return -1; }
+            if ((uint)fieldSets[place] >= (uint)fieldReps.Length) { throw Error("FIELDSETS", "there is no field " + fieldSets[place]); }
+            bytes.Charge(0, 8);
+            return fieldSets[place];
+        }
+
+        T ValueOf<T>(int field) where T : class
+        {
+            object value = FieldValue(field);
+            var wanted = value as T;
+            if (wanted == null && value != null && !ReferenceEquals(value, UsdValue.Blocked))
+            {
+                throw Error("FIELDS", "'" + fieldNames[field] + "' has a value of the wrong type");
+            }
+            return wanted;
+        }
+
+        double NumberOf(int field)
+        {
+            var value = ValueOf<UsdValue>(field);
+            return value == null ? 0 : value.Number(0);
+        }
+
+        List<string> TextsOf(int field)
+        {
+            var value = ValueOf<UsdValue>(field);
+            return value == null ? null : new List<string>(value.Texts);
+        }
+
+        ListOp<string> NamesOf(int field)
+        {
+            // a bare list stands for a whole one
+            var value = FieldValue(field) as UsdValue;
+            return value != null && value.Data is string[] ? ListOp<string>.Whole(new List<string>(value.Texts)) : ValueOf<ListOp<string>>(field);
+        }
+
+        void ReadPrimFields(PrimSpec prim, int set)
+        {
+            int field;
+            for (int place = FirstField(set); (field = FieldAt(place)) >= 0; place++)
+            {
+                switch (fieldKinds[field])
+                {
+                    case Field.Specifier: prim.Specifier = (Specifier)((int)NumberOf(field) % 3 & 3); break;
+                    case Field.TypeName: prim.TypeName = (ValueOf<UsdValue>(field) ?? UsdValue.Blocked).Text ?? ""; break;
+                    case Field.Active: prim.IsActive = NumberOf(field) != 0; break;
+                    case Field.Instanceable: prim.IsInstanceable = NumberOf(field) != 0; break;
+                    case Field.References: prim.References = ValueOf<ListOp<ReferenceArc>>(field); break;
+                    case Field.Payload: prim.Payloads = ValueOf<ListOp<ReferenceArc>>(field); break;
+                    case Field.Inherits: prim.Inherits = NamesOf(field); break;
+                    case Field.Specializes: prim.Specializes = NamesOf(field); break;
+                    case Field.VariantSetNames: prim.VariantSetNames = NamesOf(field); break;
+                    case Field.VariantSelection: prim.VariantSelections = ValueOf<Dictionary<string, string>>(field); break;
+                    case Field.ApiSchemas: prim.ApiSchemas = NamesOf(field); break;
+                    case Field.PrimChildren:
+                        List<string> names = TextsOf(field);
+                        if (names != null) { childOrders.Add(new KeyValuePair<PrimSpec, List<string>>(prim, names)); }
+                        break;
+                    case Field.PrimOrder: prim.ChildOrder = TextsOf(field); break;
+                    case Field.PropertyOrder: prim.PropertyOrder = TextsOf(field); break;
+                    case Field.SubLayers:
+                        foreach (string asset in TextsOf(field) ?? new List<string>())
+                        {
+                            if (ReferenceEquals(prim, layer.Root)) { layer.SubLayers.Add(new SubLayer(asset, LayerOffset.Identity)); }
+                        }
+                        break;
+                    case Field.SubLayerOffsets: layerOffsets = ValueOf<LayerOffset[]>(field); break;
+                    case Field.Relocates: FieldValue(field); break;
+                    case Field.Other: prim.AddField(fieldNames[field], FieldValue(field)); break;
+                }
+            }
+        }
+
+        void ReadProperty(PrimSpec prim, string name, bool isRelationship, int set)
+        {
+            var property = new PropertySpec(name) { IsRelationship = isRelationship };
+            if (prim.FindProperty(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
+            prim.AddProperty(property);
+            int field;
+            for (int place = FirstField(set); (field = FieldAt(place)) >= 0; place++)
+            {
+                switch (fieldKinds[field])
+                {
+                    case Field.TypeName: property.TypeName = (ValueOf<UsdValue>(field) ?? UsdValue.Blocked).Text ?? ""; break;
+                    case Field.Default:
+                        property.Default = FieldValue(field) as UsdValue;
+                        break;
+                    case Field.Samples: property.Samples = ValueOf<TimeSamples>(field); break;
+                    case Field.Custom: property.IsCustom = NumberOf(field) != 0; break;
+                    case Field.Variability: property.IsUniform = NumberOf(field) == 1 && !isRelationship; break;
+                    case Field.Targets: property.Targets = NamesOf(field); break;
+                    case Field.Other: property.AddField(fieldNames[field], FieldValue(field)); break;
+                }
+            }
+        }
+    }
+}
