@@ -1,14 +1,16 @@
 """What a stage holds beside its meshes: lane graph, stalls, labels, variants, cameras, friction."""
 
 import json
+import zipfile
 
 import networkx as nx
 import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+from sample_files import REPOSITORY
 
-from garage2usd.config import GarageConfig
+from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
 from garage2usd.grid import Cell
 from garage2usd.layout import ObjectKind
@@ -305,3 +307,13 @@ def test_texture_quality_is_a_budget(tmp_path, made):
     for name, width in widths["high"].items():
         assert (widths["medium"][name], widths["low"][name]) == (width // 2, width // 4)
     assert sizes["medium"] < 700_000
+
+
+def test_the_papers_garage_without_its_cars_is_small(tmp_path):
+    """At medium quality, as it is without a word about textures; half of it goes to pictures and to the root layer."""
+    config = load_config(REPOSITORY / "samples" / "paper_7x9.toml")
+    package = build(config, tmp_path / "paper.usdz", tape="ULUUUUUDDDDDDURRRUUUUUDDDDDRRRUUUUUDDDDDDULLLLLS").stage
+    with zipfile.ZipFile(package) as archive:
+        sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
+    assert sum(size for name, size in sizes.items() if "/Car_" not in name) < 1_700_000
+    assert sum(size for name, size in sizes.items() if "/textures/" in name) < 600_000
