@@ -44,7 +44,7 @@ class StageConfig(Settings):
     form: StageForm = StageForm.AUTO
     """'instanced', 'nested' for large garages, 'auto' for one of these by size, or 'flat' for readers without
     composition: meshes are repeated for each object."""
-    arrangements: int = Field(48, ge=1, le=100_000)
+    arrangements: int = Field(16, ge=1, le=100_000)
     """In the nested form: how many different draws of cars and the like the squares share."""
 
     def is_nested(self, squares: int) -> bool:

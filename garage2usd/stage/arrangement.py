@@ -74,6 +74,10 @@ class Arrangement:
         """Rows of the objects of a tile."""
         return self.order[self.borders[tile] : self.borders[tile + 1]]
 
+    def on_all_tiles(self) -> NDArray[np.intp]:
+        """Rows of the objects of all tiles, one tile after the other."""
+        return self.order[self.borders[0] : self.borders[-1]]
+
     def on_tiles(self) -> Iterator[NDArray[np.intp]]:
         """Rows of the objects of each tile in turn."""
         return (self.order[start:end] for start, end in pairwise(self.borders.tolist()))

@@ -5,9 +5,10 @@ inside one change block. No stage is open, so that nothing is composed while wri
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import chain, groupby
+from itertools import chain, groupby, islice
 from pathlib import Path
 
+import numpy as np
 from pxr import Sdf, Vt
 
 from garage2usd.grid import Structure
@@ -120,11 +121,13 @@ def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
 def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> Iterator[str]:
     """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
     places = rounded_m(arrangement.origins_m)
-    tiles = zip(arrangement.squares, places, arrangement.on_tiles(), labels, strict=True)
+    counts = np.diff(arrangement.borders)
+    objects = writer.texts(arrangement.on_all_tiles(), np.repeat(arrangement.origins_m, counts, axis=0))
+    tiles = zip(arrangement.squares, places, counts.tolist(), labels, strict=True)
     for row, in_row in groupby(tiles, key=lambda tile: tile[0][0]):
         texts = (
-            group_text(tile_name(square), writer.texts(objects, (x, z)), label=label, place=place_text(x, 0.0, z))
-            for square, (x, z), objects, label in in_row
+            group_text(tile_name(square), islice(objects, count), label=label, place=place_text(x, 0.0, z))
+            for square, (x, z), count, label in in_row
         )
         yield from group_pieces(row_name(row), texts)
 

@@ -1,6 +1,7 @@
 """The instances of a layout as USDA text, each under its tile or its group."""
 
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,23 +54,27 @@ class InstanceWriter:
         self._stalls = dict(zip(rows, layout.stalls, strict=bool(rows)))
         self._headers: dict[tuple[int, int], str] = {}
 
-    def texts(self, rows: NDArray[np.intp], origin_m: tuple[float, float] = (0.0, 0.0)) -> Iterator[str]:
-        """The instances in some rows of the layout's objects, around an origin (x, z)."""
+    def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
+        """The instances in some rows of the layout's objects, in turn, each around an origin (x, z), shape (n, 2)."""
         objects, names = self._objects, self._arrangement.names
         columns = (
             self._arrangement.name[rows],
             objects.kind[rows],
             objects.spec[rows],
         )
-        positions = rounded_m(objects.position_m[rows] - (origin_m[0], 0.0, origin_m[1]))
+        local = objects.position_m[rows]
+        local[:, [0, 2]] -= origins_m
+        positions = rounded_m(local)
         yaws = rounded_deg(objects.yaw_rad[rows])
         for row, name, kind, spec, (x, y, z), yaw in zip(
             rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
         ):
             header = self._headers.get((kind, spec)) or self._header(kind, spec)
             stall = self._stalls.get(row)
-            attributes = _stall_text(stall) if stall else ""
-            yield instance_text(names[name], header, place_text(x, y, z, yaw), attributes)
+            if stall:
+                yield instance_text(names[name], header, place_text(x, y, z, yaw), _stall_text(stall))
+            else:
+                yield _placed_text(names[name], header, x, y, z, yaw)
 
     def _header(self, kind: int, spec: int) -> str:
         prototype = self._prototypes[spec]
@@ -78,6 +83,12 @@ class InstanceWriter:
         header = header_text(f"{self._asset_folder}/{prototype.name}.usdc", look=prototype.look, base=base)
         self._headers[kind, spec] = header
         return header
+
+
+@lru_cache(maxsize=1 << 14)
+def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: float) -> str:
+    """An instance without attributes, kept because most tiles of a large garage hold the same at the same places."""
+    return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
 def _stall_text(stall: Stall) -> str:

@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -61,7 +61,7 @@ def share_tiles(
     """
     objects = layout.placements
     borders = arrangement.borders
-    order = arrangement.order[borders[0] : borders[-1]]
+    order = arrangement.on_all_tiles()
     origins = np.repeat(arrangement.origins_m, np.diff(borders), axis=0)
     local = objects.position_m[order]
     local[:, [0, 2]] -= origins
@@ -75,8 +75,7 @@ def share_tiles(
         ]
     )
     names: dict[tuple[str, bytes], str] = {}
-    texts: dict[str, str] = {}
-    followers: dict[str, dict[Switch, list[str]]] = {}
+    first: list[int] = []
     name_of: list[str] = []
     spans = pairwise((borders - borders[0]).tolist())
     for tile, (label, (start, end)) in enumerate(zip(labels, spans, strict=True)):
@@ -84,12 +83,19 @@ def share_tiles(
         name = names.get(key)
         if name is None:
             name = names[key] = f"Tile_{len(names) + 1:04d}"
-            rows = arrangement.on_tile(tile)
-            children = writer.texts(rows, tuple(arrangement.origins_m[tile].tolist()))
-            place = place_text(0, 0, 0)
-            texts[name] = group_text(name, children, label=label, metadata="instanceable = true\n", place=place)
-            followers[name] = _followers(layout, arrangement, rows)
+            first.append(tile)
         name_of.append(name)
+    rows_of = [arrangement.on_tile(tile) for tile in first]
+    origins = np.repeat(arrangement.origins_m[first], [len(rows) for rows in rows_of], axis=0)
+    objects_of_all = writer.texts(np.concatenate(rows_of), origins)
+    metadata, place = "instanceable = true\n", place_text(0, 0, 0)
+    texts = {
+        name: group_text(name, islice(objects_of_all, len(rows)), label=label, metadata=metadata, place=place)
+        for (label, _), name, rows in zip(names, names.values(), rows_of, strict=True)
+    }
+    followers = {
+        name: _followers(layout, arrangement, rows) for name, rows in zip(names.values(), rows_of, strict=True)
+    }
     return TilePrototypes(name_of, texts, followers)
 
 
