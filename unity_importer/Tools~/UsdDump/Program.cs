@@ -42,6 +42,7 @@ namespace Garage.Usd.Dump
                 switch (command[0])
                 {
                     case "layer": return LayerDump.Of(LayerReader.Read(File.ReadAllBytes(command[1]), command[1]));
+                    case "stage": return StageDump.Of(UsdStage.Open(command[1]));
                     case "time": return Time(command[1], int.Parse(command[2]));
                     default: return "{\"error\":\"unknown command\"}";
                 }
