@@ -6,7 +6,8 @@ using System.Text;
 namespace Garage.Usd.Dump
 {
     /// <summary>
-    /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c>; <c>time FILE COUNT</c> reads it several
+    /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
+    /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time FILE COUNT</c> reads it several
     /// times; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
     /// </summary>
     static class Program
@@ -27,7 +28,7 @@ namespace Garage.Usd.Dump
             }
             if (arguments.Length < 2)
             {
-                Console.Error.WriteLine("usage: UsdDump layer FILE | time FILE COUNT | batch");
+                Console.Error.WriteLine("usage: UsdDump layer|stage|scene FILE | time FILE COUNT | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -43,6 +44,7 @@ namespace Garage.Usd.Dump
                 {
                     case "layer": return LayerDump.Of(LayerReader.Read(File.ReadAllBytes(command[1]), command[1]));
                     case "stage": return StageDump.Of(UsdStage.Open(command[1]));
+                    case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
                     case "time": return Time(command[1], int.Parse(command[2]));
                     default: return "{\"error\":\"unknown command\"}";
                 }
