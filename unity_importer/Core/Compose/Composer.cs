@@ -11,7 +11,7 @@ namespace Garage.Usd
     {
         const int MostNodes = 4096;
         const int DeepestArc = 150;
-        const long LeastNodeBudget = 2000000;
+        const long LeastNodeBudget = 300000;
         const long NodesPerSpec = 400;
 
         readonly LayerLibrary library;
@@ -48,6 +48,7 @@ namespace Garage.Usd
         {
             ArcNode root = parent.Extended(name);
             Expand(root, true);
+            Charge(root, Count(root));
             return root;
         }
 
@@ -273,6 +274,16 @@ namespace Garage.Usd
             return root;
         }
 
+        // work that hostile references could multiply without end
+        void Charge(ArcNode node, int count)
+        {
+            nodesMade += count;
+            if (nodesMade > LeastNodeBudget + NodesPerSpec * library.SpecCount)
+            {
+                throw Error(node, "references lead to more places than the stage can need");
+            }
+        }
+
         static int CountOf(ArcNode node)
         {
             while (node.Parent != null) { node = node.Parent; }
@@ -299,11 +310,8 @@ namespace Garage.Usd
                     library.Warn("<" + place.Path + "> leads back to <" + child.Path + ">");
                     continue;
                 }
-                nodesMade++;
-                if (++size > MostNodes || nodesMade > LeastNodeBudget + NodesPerSpec * library.SpecCount)
-                {
-                    throw Error(place, "references lead to more places than the stage can need");
-                }
+                if (++size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
+                Charge(place, 1);
                 ArcNode copy = child.Copy(child.Depth);
                 copy.IsAncestral = false;
                 copy.Parent = to;
@@ -436,7 +444,6 @@ namespace Garage.Usd
                 if (found != null) { specs.Add(new LayerSpec(spec.Layer, found)); }
             }
             if (specs.Count == 0) { return null; }
-            nodesMade++;
             var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, DepthOf(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
             {
                 Specs = specs.ToArray(),

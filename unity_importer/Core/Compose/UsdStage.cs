@@ -7,7 +7,7 @@ namespace Garage.Usd
     /// <summary>A composed stage: its prims with what all layers together say of them.</summary>
     public sealed class UsdStage
     {
-        const long LeastPrims = 200000;
+        const long LeastPrims = 20000;
         const long PrimsPerSpec = 100;
 
         readonly Dictionary<string, UsdPrim> prototypes = new Dictionary<string, UsdPrim>();
