@@ -68,11 +68,7 @@ def dumped(name: Sdf.ValueTypeName, value):
         return [label, [text(item) for item in items]]
     if not len(items):
         return [label, ""]
-    if (
-        name.isArray
-        and not isinstance(items[0], Gf.Quatd | Gf.Quatf | Gf.Quath | Sdf.TimeCode)
-        and hasattr(value, "__array__")
-    ):
+    if name.isArray and not isinstance(items[0], Gf.Quatd | Gf.Quatf | Gf.Quath | Sdf.TimeCode):
         data = np.array(value).astype(np.dtype(letter).newbyteorder("<")).tobytes()
     else:
         data = packed([number for item in items for number in numbers(item)], letter)

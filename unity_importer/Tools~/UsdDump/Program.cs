@@ -6,8 +6,9 @@ using System.Text;
 namespace Garage.Usd.Dump
 {
     /// <summary>
-    /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c>; <c>time FILE COUNT</c> reads it several
-    /// times; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
+    /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
+    /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time FILE COUNT</c> reads it several
+    /// times, <c>fuzz FILE</c> tells only whether that ends well; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
     /// </summary>
     static class Program
     {
@@ -27,7 +28,7 @@ namespace Garage.Usd.Dump
             }
             if (arguments.Length < 2)
             {
-                Console.Error.WriteLine("usage: UsdDump layer FILE | time FILE COUNT | batch");
+                Console.Error.WriteLine("usage: UsdDump layer|stage|scene FILE | time FILE COUNT | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -42,6 +43,9 @@ namespace Garage.Usd.Dump
                 switch (command[0])
                 {
                     case "layer": return LayerDump.Of(LayerReader.Read(File.ReadAllBytes(command[1]), command[1]));
+                    case "stage": return StageDump.Of(UsdStage.Open(command[1]));
+                    case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
+                    case "fuzz": return Survival(command[1]);
                     case "time": return Time(command[1], int.Parse(command[2]));
                     default: return "{\"error\":\"unknown command\"}";
                 }
@@ -59,6 +63,37 @@ namespace Garage.Usd.Dump
                 json.Close('}');
                 return json.ToString();
             }
+        }
+
+        /// <summary>Whether reading the file ends well: with a scene or a refusal, and what it costs.</summary>
+        static string Survival(string path)
+        {
+            var json = new JsonText();
+            json.Open('{');
+            long bytesBefore = GC.GetTotalMemory(true);
+            TimeSpan before = Process.GetCurrentProcess().UserProcessorTime;
+            try
+            {
+                UsdStage stage = UsdStage.Open(path);
+                StageDump.Of(stage);
+                SceneDump.Of(stage);
+            }
+            catch (UsdFormatException refusal)
+            {
+                json.Key("refused");
+                json.String(refusal.Message);
+            }
+            catch (Exception crash)
+            {
+                json.Key("crash");
+                json.String(crash.ToString());
+            }
+            json.Key("cpu_s");
+            json.Number((Process.GetCurrentProcess().UserProcessorTime - before).TotalSeconds);
+            json.Key("bytes");
+            json.Number(GC.GetTotalMemory(false) - bytesBefore);
+            json.Close('}');
+            return json.ToString();
         }
 
         static string Time(string path, int count)

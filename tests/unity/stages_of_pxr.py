@@ -1,0 +1,121 @@
+"""What ``pxr`` says of a composed stage, in the form of the C# dump."""
+
+from pxr import Sdf, Usd, UsdGeom
+from values_of_pxr import anything, dumped
+
+PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded
+
+
+def stage_dump(stage: Usd.Stage) -> dict:
+    """As ``StageDump`` writes it, but for the warnings and the numbers of prototypes."""
+    prims = {}
+    for root in [stage.GetPseudoRoot(), *stage.GetPrototypes()]:
+        for prim in Usd.PrimRange(root, PREDICATE):
+            if prim != root:
+                prims[str(prim.GetPath())] = prim_dump(prim)
+    return {
+        "metersPerUnit": UsdGeom.GetStageMetersPerUnit(stage),
+        "isZUp": UsdGeom.GetStageUpAxis(stage) == "Z",
+        "prims": prims,
+    }
+
+
+def prim_dump(prim: Usd.Prim) -> dict:
+    specifier = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}[prim.GetSpecifier()]
+    out = {
+        "specifier": specifier,
+        "type": prim.GetTypeName(),
+        "apis": applied(prim),
+        "children": [child.GetName() for child in prim.GetFilteredChildren(PREDICATE)],
+        "properties": {
+            one.GetName(): property_dump(one)
+            for one in prim.GetAuthoredProperties()
+        },
+    }  # fmt: skip
+    if prim.IsInstance():
+        out["prototype"] = str(prim.GetPrototype().GetPath())
+    variants = {}
+    for spec in prim.GetPrimStack():
+        for name, selection in dict(spec.variantSelections).items():
+            variants.setdefault(name, selection)
+    if variants:
+        out["variants"] = variants
+    for field in ("kind", "customData", "assetInfo"):
+        authored = [spec.GetInfo(field) for spec in prim.GetPrimStack() if spec.HasInfo(field)]
+        if authored:
+            out[field] = anything(merged(authored) if isinstance(authored[0], dict) else authored[0])
+    return out
+
+
+def merged(dictionaries: list[dict]) -> dict:
+    """All dictionaries together, the first strongest; ``pxr`` would add what the schema says of itself."""
+    together = {}
+    for one in dictionaries:
+        for key, value in one.items():
+            both = isinstance(value, dict) and isinstance(together.get(key), dict)
+            together[key] = merged([together[key], value]) if both else together.get(key, value)
+    return together
+
+
+def applied(prim: Usd.Prim) -> list[str]:
+    """Authored names of applied schemas."""
+    return list(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
+
+
+def property_dump(one) -> dict:
+    if isinstance(one, Usd.Relationship):
+        targets = [str(target) for target in one.GetTargets()]
+        return {"type": ""} | ({"targets": targets} if targets else {})
+    # the authored type: a schema may have another
+    kind = next(spec.typeName for spec in one.GetPropertyStack() if spec.typeName)
+    out = {"type": str(kind)}
+    value = None
+    times = one.GetTimeSamples()
+    if one.HasAuthoredValue():
+        value = one.Get(Usd.TimeCode.Default()) if has_default(one) else one.Get(times[0]) if times else None
+    if value is not None:
+        if kind != one.GetTypeName():
+            value = next(spec.default for spec in one.GetPropertyStack() if spec.HasDefaultValue())
+        if dumped(kind, value) is not None:
+            out["value"] = dumped(kind, value)
+    if times:
+        out["times"] = list(times)
+    targets = [str(target) for target in one.GetConnections()]
+    if targets:
+        out["targets"] = targets
+    if one.HasAuthoredMetadata("interpolation"):
+        out["interpolation"] = one.GetMetadata("interpolation")
+    return out
+
+
+def has_default(attribute: Usd.Attribute) -> bool:
+    """Whether a layer gives a value without time, or blocks it."""
+    return any(spec.HasDefaultValue() for spec in attribute.GetPropertyStack(Usd.TimeCode.Default()))
+
+
+def numbered_alike(wanted: dict, found: dict) -> None:
+    """Rename the prototypes of the C# dump as ``pxr`` numbers them, by the first instances that both have."""
+    names = {}
+    for _ in range(8):  # prototypes within prototypes
+        for path, prim in found["prims"].items():
+            head = "/" + path.split("/")[1]
+            if head.startswith("/__Prototype_") and head not in names:
+                continue
+            other = wanted["prims"].get(renamed(path, names), {})
+            if "prototype" in prim and "prototype" in other:
+                names.setdefault(prim["prototype"], other["prototype"])
+    found["prims"] = {renamed(path, names): renamed_in(prim, names) for path, prim in found["prims"].items()}
+
+
+def renamed(path: str, names: dict[str, str]) -> str:
+    head, slash, rest = path[1:].partition("/")
+    return names.get("/" + head, "/" + head) + slash + rest
+
+
+def renamed_in(prim: dict, names: dict[str, str]) -> dict:
+    if "prototype" in prim:
+        prim["prototype"] = renamed(prim["prototype"], names)
+    for one in prim["properties"].values():
+        if "targets" in one:
+            one["targets"] = [renamed(target, names) for target in one["targets"]]
+    return prim

@@ -1,0 +1,147 @@
+using System.Collections.Generic;
+
+namespace Garage.Usd
+{
+    /// <summary>A layer with its sublayers, strongest first, each with the offset of its time.</summary>
+    sealed class LayerStack
+    {
+        public readonly List<Layer> Layers = new List<Layer>();
+        public readonly List<LayerOffset> Offsets = new List<LayerOffset>();
+
+        /// <summary>A number that no other stack of the stage has.</summary>
+        public readonly int Number;
+
+        public LayerStack(int number)
+        {
+            Number = number;
+        }
+
+        public Layer Root
+        {
+            get { return Layers[0]; }
+        }
+
+        public string DefaultPrim
+        {
+            get
+            {
+                string name = Root.Text("defaultPrim");
+                return string.IsNullOrEmpty(name) ? null : name[0] == '/' ? name : "/" + name;
+            }
+        }
+    }
+
+    /// <summary>Reads each layer once and builds the stacks.</summary>
+    sealed class LayerLibrary
+    {
+        const int MostLayers = 2000;
+        const int DeepestSubLayer = 100;
+        const int MostWarnings = 1000;
+
+        readonly IAssetResolver resolver;
+        readonly Dictionary<string, Layer> layers = new Dictionary<string, Layer>();
+        readonly Dictionary<string, LayerStack> stacks = new Dictionary<string, LayerStack>();
+        readonly HashSet<string> warned = new HashSet<string>();
+        readonly List<string> warnings = new List<string>();
+
+        public LayerLibrary(IAssetResolver resolver)
+        {
+            this.resolver = resolver;
+        }
+
+        public IAssetResolver Resolver
+        {
+            get { return resolver; }
+        }
+
+        /// <summary>What was left out, such as files that do not exist.</summary>
+        public IList<string> Warnings
+        {
+            get { return warnings; }
+        }
+
+        /// <summary>Specs of prims in all layers so far.</summary>
+        public int SpecCount { get; private set; }
+
+        public void Warn(string text)
+        {
+            if (warnings.Count < MostWarnings && warned.Add(text)) { warnings.Add(text); }
+        }
+
+        public void Add(Layer layer)
+        {
+            layers.Add(layer.Identifier, layer);
+            SpecCount += layer.SpecCount;
+        }
+
+        Layer LayerOf(string identifier)
+        {
+            Layer layer;
+            if (!layers.TryGetValue(identifier, out layer))
+            {
+                if (layers.Count >= MostLayers) { throw new UsdFormatException(identifier, "layer", "the stage has more than " + MostLayers + " layers"); }
+                layer = LayerReader.Read(resolver.Read(identifier), identifier);
+                Add(layer);
+            }
+            return layer;
+        }
+
+        /// <summary>The stack of an asset that a layer names, or null (with a warning) where there is none.</summary>
+        public LayerStack Find(Layer anchor, string asset)
+        {
+            string identifier = Resolve(anchor, asset);
+            return identifier == null ? null : StackOf(identifier);
+        }
+
+        string Resolve(Layer anchor, string asset)
+        {
+            string reason;
+            string identifier = resolver.Resolve(anchor.Identifier, asset, out reason);
+            if (identifier == null) { Warn(anchor.Identifier + ": @" + asset + "@ " + reason); }
+            return identifier;
+        }
+
+        public LayerStack StackOf(string identifier)
+        {
+            LayerStack stack;
+            if (!stacks.TryGetValue(identifier, out stack))
+            {
+                stack = new LayerStack(stacks.Count);
+                AddLayers(stack, LayerOf(identifier), LayerOffset.Identity, new List<string>());
+                stacks.Add(identifier, stack);
+            }
+            return stack;
+        }
+
+        void AddLayers(LayerStack stack, Layer layer, LayerOffset offset, List<string> above)
+        {
+            if (above.Contains(layer.Identifier))
+            {
+                Warn(layer.Identifier + ": is its own sublayer");
+                return;
+            }
+            if (above.Count >= DeepestSubLayer || stack.Layers.Count >= MostLayers)
+            {
+                throw new UsdFormatException(layer.Identifier, "subLayers", "there are too many sublayers");
+            }
+            stack.Layers.Add(layer);
+            stack.Offsets.Add(offset);
+            above.Add(layer.Identifier);
+            foreach (SubLayer sub in layer.SubLayers)
+            {
+                string identifier = Resolve(layer, sub.Asset);
+                if (identifier == null) { continue; }
+                Layer inner = LayerOf(identifier);
+                AddLayers(stack, inner, offset.After(Rated(sub.Offset, layer, inner)), above);
+            }
+            above.RemoveAt(above.Count - 1);
+        }
+
+        /// <summary>An offset between layers that count time differently.</summary>
+        public static LayerOffset Rated(LayerOffset offset, Layer outer, Layer inner)
+        {
+            double ratio = outer.TimeCodesPerSecond / inner.TimeCodesPerSecond;
+            return ratio == 1 ? offset : new LayerOffset(offset.Offset, offset.Scale * ratio);
+        }
+    }
+}

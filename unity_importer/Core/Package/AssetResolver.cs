@@ -1,0 +1,151 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+
+namespace Garage.Usd
+{
+    /// <summary>Finds the files that layers name.</summary>
+    public interface IAssetResolver
+    {
+        /// <summary>
+        /// The identifier of an asset as the layer with the identifier anchor names it; null, with the reason, where there is no
+        /// such file or it may not be read.
+        /// </summary>
+        string Resolve(string anchor, string asset, out string reason);
+
+        /// <summary>The bytes of a resolved asset.</summary>
+        byte[] Read(string identifier);
+    }
+
+    /// <summary>Asset paths and the identifiers that come of them: "folder/a.usda", "folder/b.usdz[textures/c.png]".</summary>
+    public static class AssetPaths
+    {
+        /// <summary>A path relative to a folder, in the plain form without "." and ".."; null where it leads out of it.</summary>
+        public static string Normal(string folder, string path)
+        {
+            if (path.Length == 0 || path[0] == '/' || path.IndexOf('\\') >= 0 || path.IndexOf(':') >= 0 || path.IndexOf('\0') >= 0) { return null; }
+            var parts = new List<string>();
+            foreach (string part in (folder + "/" + path).Split('/'))
+            {
+                if (part.Length == 0 || part == ".") { continue; }
+                if (part != "..")
+                {
+                    parts.Add(part);
+                    continue;
+                }
+                if (parts.Count == 0) { return null; }
+                parts.RemoveAt(parts.Count - 1);
+            }
+            return string.Join("/", parts.ToArray());
+        }
+
+        /// <summary>Splits "a.usdz[b]" into package and entry; the entry is null where there is none.</summary>
+        public static void Split(string identifier, out string package, out string entry)
+        {
+            int bracket = identifier.IndexOf('[');
+            bool packed = bracket > 0 && identifier.EndsWith("]", StringComparison.Ordinal);
+            package = packed ? identifier.Substring(0, bracket) : identifier;
+            entry = packed ? identifier.Substring(bracket + 1, identifier.Length - bracket - 2) : null;
+        }
+
+        public static string Folder(string path)
+        {
+            int slash = path.LastIndexOf('/');
+            return slash < 0 ? "" : path.Substring(0, slash);
+        }
+
+        public static bool IsPackage(string path)
+        {
+            return path.EndsWith(".usdz", StringComparison.OrdinalIgnoreCase);
+        }
+    }
+
+    /// <summary>
+    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused. Identifiers
+    /// are relative to the folder.
+    /// </summary>
+    public sealed class FolderResolver : IAssetResolver
+    {
+        readonly string root;
+        readonly Dictionary<string, UsdzPackage> packages = new Dictionary<string, UsdzPackage>();
+
+        public FolderResolver(string root)
+        {
+            this.root = root;
+        }
+
+        public string Resolve(string anchor, string asset, out string reason)
+        {
+            reason = null;
+            string anchorFile, anchorEntry, file, entry;
+            AssetPaths.Split(anchor, out anchorFile, out anchorEntry);
+            AssetPaths.Split(asset, out file, out entry);
+            string normal = AssetPaths.Normal(AssetPaths.Folder(anchorEntry ?? anchorFile), file);
+            if (normal == null)
+            {
+                reason = "is not a relative path within " + (anchorEntry != null ? "the package" : "the folder of the stage");
+                return null;
+            }
+            if (anchorEntry != null)
+            {
+                UsdzPackage around = Package(anchorFile);
+                // a path that does not begin with a dot may also be one from the root of the package
+                if (!around.Has(normal) && file[0] != '.') { normal = AssetPaths.Normal("", file) ?? normal; }
+                if (entry != null || AssetPaths.IsPackage(normal)) { reason = "is a package within a package"; }
+                else if (!around.Has(normal)) { reason = "is not in the package"; }
+                return reason == null ? anchorFile + "[" + normal + "]" : null;
+            }
+            if (!File.Exists(PathOf(normal)))
+            {
+                reason = "does not exist";
+                return null;
+            }
+            if (!AssetPaths.IsPackage(normal)) { return normal; }
+            UsdzPackage package = Package(normal);
+            string inner = entry == null ? package.First : AssetPaths.Normal("", entry);
+            if (inner == null || !package.Has(inner))
+            {
+                reason = "is not in the package";
+                return null;
+            }
+            return normal + "[" + inner + "]";
+        }
+
+        public byte[] Read(string identifier)
+        {
+            string file, entry;
+            AssetPaths.Split(identifier, out file, out entry);
+            if (entry != null) { return Package(file).Read(entry); }
+            return ReadFile(file);
+        }
+
+        byte[] ReadFile(string file)
+        {
+            try
+            {
+                return File.ReadAllBytes(PathOf(file));
+            }
+            catch (Exception failure)
+            {
+                if (failure is IOException || failure is UnauthorizedAccessException) { throw new UsdFormatException(file, "file", failure.Message); }
+                throw;
+            }
+        }
+
+        string PathOf(string file)
+        {
+            return Path.Combine(root, file);
+        }
+
+        UsdzPackage Package(string file)
+        {
+            UsdzPackage package;
+            if (!packages.TryGetValue(file, out package))
+            {
+                package = new UsdzPackage(ReadFile(file), file);
+                packages.Add(file, package);
+            }
+            return package;
+        }
+    }
+}

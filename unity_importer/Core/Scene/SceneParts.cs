@@ -1,0 +1,301 @@
+using System;
+using System.Collections.Generic;
+
+namespace Garage.Usd
+{
+    public enum LightKind
+    {
+        Rect, Disk, Sphere, Cylinder, Distant, Dome,
+    }
+
+    /// <summary>A UsdLux light. It shines along -Z; a cylinder lies along X.</summary>
+    public sealed class LightData
+    {
+        public LightKind Kind { get; private set; }
+        public float[] Color { get; private set; }
+        public double Intensity { get; private set; }
+        public double Exposure { get; private set; }
+        public bool IsNormalized { get; private set; }
+
+        /// <summary>In units of the stage.</summary>
+        public double Width { get; private set; }
+
+        public double Height { get; private set; }
+        public double Radius { get; private set; }
+        public double Length { get; private set; }
+
+        /// <summary>Degrees that a distant light spans.</summary>
+        public double AngleDegrees { get; private set; }
+
+        /// <summary>Half of the cone in degrees; 90 where the light is not shaped.</summary>
+        public double ConeAngleDegrees { get; private set; }
+
+        public double ConeSoftness { get; private set; }
+
+        /// <summary>Kelvin; 0 where the light's color alone counts.</summary>
+        public double ColorTemperature { get; private set; }
+
+        public static LightData Of(UsdPrim prim)
+        {
+            LightKind kind;
+            switch (prim.TypeName)
+            {
+                case "RectLight": kind = LightKind.Rect; break;
+                case "DiskLight": kind = LightKind.Disk; break;
+                case "SphereLight": kind = LightKind.Sphere; break;
+                case "CylinderLight": kind = LightKind.Cylinder; break;
+                case "DistantLight": kind = LightKind.Distant; break;
+                case "DomeLight": case "DomeLight_1": kind = LightKind.Dome; break;
+                default: return null;
+            }
+            UsdValue color = prim.Value("inputs:color");
+            return new LightData
+            {
+                Kind = kind, Color = color == null || color.Data.Length < 3 ? new[] { 1f, 1, 1 } : color.Floats(),
+                Intensity = prim.Number("inputs:intensity", kind == LightKind.Distant ? 50000 : 1), Exposure = prim.Number("inputs:exposure", 0),
+                IsNormalized = prim.Truth("inputs:normalize", false), Width = prim.Number("inputs:width", 1), Height = prim.Number("inputs:height", 1),
+                Radius = prim.Number("inputs:radius", 0.5), Length = prim.Number("inputs:length", 1), AngleDegrees = prim.Number("inputs:angle", 0.53),
+                ConeAngleDegrees = prim.Number("inputs:shaping:cone:angle", 90), ConeSoftness = prim.Number("inputs:shaping:cone:softness", 0),
+                ColorTemperature = prim.Truth("inputs:enableColorTemperature", false) ? prim.Number("inputs:colorTemperature", 6500) : 0,
+            };
+        }
+
+        /// <summary>Square metres that shine.</summary>
+        public double Area(double metersPerUnit)
+        {
+            double square = metersPerUnit * metersPerUnit;
+            switch (Kind)
+            {
+                case LightKind.Rect: return Width * Height * square;
+                case LightKind.Disk: return Math.PI * Radius * Radius * square;
+                case LightKind.Sphere: return 4 * Math.PI * Radius * Radius * square;
+                case LightKind.Cylinder: return 2 * Math.PI * Radius * Length * square;
+                default: return 1;
+            }
+        }
+
+        /// <summary>Candela a square metre.</summary>
+        public double Luminance(double metersPerUnit)
+        {
+            double luminance = Intensity * Math.Pow(2, Exposure), area = Area(metersPerUnit);
+            if (!IsNormalized) { return luminance; }
+            if (Kind == LightKind.Distant)
+            {
+                double half = AngleDegrees * Math.PI / 360, sine = Math.Sin(half);
+                return sine > 0 ? luminance / (Math.PI * sine * sine) : luminance;
+            }
+            return area > 0 ? luminance / area : luminance;
+        }
+
+        /// <summary>Candela straight ahead, across the axis for a cylinder; 0 for lights at infinity.</summary>
+        public double Candela(double metersPerUnit)
+        {
+            double luminance = Luminance(metersPerUnit), square = metersPerUnit * metersPerUnit;
+            switch (Kind)
+            {
+                case LightKind.Rect: case LightKind.Disk: return luminance * Area(metersPerUnit);
+                case LightKind.Sphere: return luminance * Math.PI * Radius * Radius * square;
+                case LightKind.Cylinder: return luminance * 2 * Radius * Length * square;
+                default: return 0;
+            }
+        }
+
+        /// <summary>All lumens of a light with an area.</summary>
+        public double Lumen(double metersPerUnit)
+        {
+            return Kind == LightKind.Distant || Kind == LightKind.Dome ? 0 : Math.PI * Luminance(metersPerUnit) * Area(metersPerUnit);
+        }
+
+        /// <summary>Lux on a surface that faces a distant light.</summary>
+        public double Lux
+        {
+            get
+            {
+                double sine = Math.Sin(AngleDegrees * Math.PI / 360);
+                return Kind != LightKind.Distant ? 0 : Luminance(1) * Math.PI * sine * sine;
+            }
+        }
+    }
+
+    /// <summary>A camera that looks along -Z. Lengths of lens and film are tenths of a unit of the stage, as in USD.</summary>
+    public sealed class CameraData
+    {
+        public bool IsOrthographic { get; private set; }
+        public double FocalLength { get; private set; }
+        public double HorizontalAperture { get; private set; }
+        public double VerticalAperture { get; private set; }
+        public double Near { get; private set; }
+        public double Far { get; private set; }
+
+        public double VerticalFieldOfViewDegrees
+        {
+            get { return 2 * Math.Atan(VerticalAperture / (2 * FocalLength)) * 180 / Math.PI; }
+        }
+
+        public static CameraData Of(UsdPrim prim)
+        {
+            if (prim.TypeName != "Camera") { return null; }
+            UsdValue range = prim.Value("clippingRange");
+            double[] clip = range == null || range.Data.Length < 2 ? new double[] { 1, 1000000 } : range.Doubles();
+            return new CameraData
+            {
+                IsOrthographic = prim.Text("projection", "perspective") == "orthographic", FocalLength = prim.Number("focalLength", 50),
+                HorizontalAperture = prim.Number("horizontalAperture", 20.955), VerticalAperture = prim.Number("verticalAperture", 15.2908),
+                Near = clip[0], Far = clip[1],
+            };
+        }
+    }
+
+    /// <summary>Cube, Sphere, Cylinder, Capsule, Cone or Plane.</summary>
+    public sealed class ShapeData
+    {
+        public string Kind { get; private set; }
+
+        /// <summary>Edge of a cube.</summary>
+        public double Size { get; private set; }
+
+        public double Radius { get; private set; }
+        public double Height { get; private set; }
+        public double Width { get; private set; }
+        public double Length { get; private set; }
+
+        /// <summary>'X', 'Y' or 'Z', along which it is high.</summary>
+        public char Axis { get; private set; }
+
+        public static ShapeData Of(UsdPrim prim)
+        {
+            switch (prim.TypeName)
+            {
+                case "Cube": case "Sphere": case "Cylinder": case "Capsule": case "Cone": case "Plane": break;
+                default: return null;
+            }
+            string axis = prim.Text("axis", "Z");
+            return new ShapeData
+            {
+                Kind = prim.TypeName, Size = prim.Number("size", 2), Radius = prim.Number("radius", prim.TypeName == "Capsule" ? 0.5 : 1),
+                Height = prim.Number("height", prim.TypeName == "Capsule" ? 1 : 2), Width = prim.Number("width", 2), Length = prim.Number("length", 2),
+                Axis = axis == "X" ? 'X' : axis == "Y" ? 'Y' : 'Z',
+            };
+        }
+    }
+
+    /// <summary>UsdPhysics on a prim: what collides, and how heavy it is.</summary>
+    public sealed class ColliderData
+    {
+        public bool IsEnabled { get; private set; }
+
+        /// <summary>"none", "convexHull", "convexDecomposition", "boundingCube", "boundingSphere", "meshSimplification".</summary>
+        public string Approximation { get; private set; }
+
+        public static ColliderData Of(UsdPrim prim)
+        {
+            if (!prim.HasApi("PhysicsCollisionAPI")) { return null; }
+            return new ColliderData { IsEnabled = prim.Truth("physics:collisionEnabled", true), Approximation = prim.Text("physics:approximation", "none") };
+        }
+    }
+
+    /// <summary>Friction and the like.</summary>
+    public sealed class PhysicsMaterialData
+    {
+        public double StaticFriction { get; private set; }
+        public double DynamicFriction { get; private set; }
+        public double Restitution { get; private set; }
+        public double Density { get; private set; }
+
+        public static PhysicsMaterialData Of(UsdPrim prim)
+        {
+            if (prim == null || !prim.HasApi("PhysicsMaterialAPI")) { return null; }
+            return new PhysicsMaterialData
+            {
+                StaticFriction = prim.Number("physics:staticFriction", 0), DynamicFriction = prim.Number("physics:dynamicFriction", 0),
+                Restitution = prim.Number("physics:restitution", 0), Density = prim.Number("physics:density", 0),
+            };
+        }
+    }
+
+    /// <summary>BasisCurves.</summary>
+    public sealed class CurvesData
+    {
+        public bool IsLinear { get; private set; }
+        public string Basis { get; private set; }
+        public string Wrap { get; private set; }
+        public int[] VertexCounts { get; private set; }
+
+        /// <summary>Three numbers a point.</summary>
+        public float[] Points { get; private set; }
+
+        public float[] Widths { get; private set; }
+
+        public static CurvesData Of(UsdPrim prim)
+        {
+            if (prim.TypeName != "BasisCurves") { return null; }
+            UsdValue counts = prim.Value("curveVertexCounts"), points = prim.Value("points"), widths = prim.Value("widths");
+            if (counts == null || points == null) { return null; }
+            long total = 0;
+            foreach (int count in counts.Ints())
+            {
+                if (count < 0) { return null; }
+                total += count;
+            }
+            if (total * 3 != points.Data.Length) { return null; }
+            return new CurvesData
+            {
+                IsLinear = prim.Text("type", "cubic") == "linear", Basis = prim.Text("basis", "bezier"), Wrap = prim.Text("wrap", "nonperiodic"),
+                VertexCounts = counts.Ints(), Points = points.Floats(), Widths = widths == null ? new float[0] : widths.Floats(),
+            };
+        }
+    }
+
+    /// <summary>A PointInstancer: which prototype stands where.</summary>
+    public sealed class PointInstancerData
+    {
+        /// <summary>Paths of the prototypes.</summary>
+        public IList<string> Prototypes { get; private set; }
+
+        /// <summary>Of each visible instance: the number in the arrays, that of its prototype, and its matrix.</summary>
+        public int[] Numbers { get; private set; }
+
+        public int[] PrototypeOf { get; private set; }
+        public double[][] Matrices { get; private set; }
+
+        public static PointInstancerData Of(UsdPrim prim)
+        {
+            UsdValue which = prim.TypeName != "PointInstancer" ? null : prim.Value("protoIndices"), where = which == null ? null : prim.Value("positions");
+            if (where == null) { return null; }
+            int[] kinds = which.Ints();
+            float[] positions = where.Floats();
+            IList<string> prototypes = prim.Targets("prototypes");
+            if (positions.Length < 3 * kinds.Length) { return null; }
+            UsdValue turns = prim.Value("orientationsf") ?? prim.Value("orientations"), sizes = prim.Value("scales"), names = prim.Value("ids");
+            float[] orientations = turns == null || turns.Data.Length < 4 * kinds.Length ? null : turns.Floats();
+            float[] scales = sizes == null || sizes.Data.Length < 3 * kinds.Length ? null : sizes.Floats();
+            HashSet<long> hidden = Hidden(prim);
+            double[] ids = names == null || names.Data.Length < kinds.Length ? null : names.Doubles();
+            var numbers = new List<int>();
+            var prototypeOf = new List<int>();
+            var matrices = new List<double[]>();
+            for (int i = 0; i < kinds.Length; i++)
+            {
+                if ((uint)kinds[i] >= (uint)prototypes.Count || hidden.Contains(ids == null ? i : (long)ids[i])) { continue; }
+                double[] matrix = scales == null ? Matrix4.Identity() : Matrix4.Scaling(scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]);
+                if (orientations != null)
+                {
+                    matrix = Matrix4.Multiply(matrix, Matrix4.Quaternion(orientations[4 * i], orientations[4 * i + 1], orientations[4 * i + 2], orientations[4 * i + 3]));
+                }
+                for (int k = 0; k < 3; k++) { matrix[12 + k] = positions[3 * i + k]; }
+                numbers.Add(i);
+                prototypeOf.Add(kinds[i]);
+                matrices.Add(matrix);
+            }
+            return new PointInstancerData { Prototypes = prototypes, Numbers = numbers.ToArray(), PrototypeOf = prototypeOf.ToArray(), Matrices = matrices.ToArray() };
+        }
+
+        static HashSet<long> Hidden(UsdPrim prim)
+        {
+            var hidden = new HashSet<long>();
+            UsdValue invisible = prim.Value("invisibleIds");
+            foreach (double id in invisible == null ? new double[0] : invisible.Doubles()) { hidden.Add((long)id); }
+            return hidden;
+        }
+    }
+}

@@ -1,0 +1,269 @@
+using System;
+using System.Collections.Generic;
+
+namespace Garage.Usd.Dump
+{
+    /// <summary>The scene as JSON: every node at every place where it stands, by its path through instances.</summary>
+    sealed class SceneDump
+    {
+        readonly JsonText json = new JsonText();
+        readonly SceneModel scene;
+        readonly HashSet<string> materials = new HashSet<string>();
+
+        SceneDump(SceneModel scene)
+        {
+            this.scene = scene;
+        }
+
+        public static string Of(UsdStage stage)
+        {
+            return new SceneDump(new SceneModel(stage)).Write();
+        }
+
+        string Write()
+        {
+            json.Open('{');
+            json.Key("nodes");
+            json.Open('{');
+            var none = new MaterialBinding(null, false);
+            foreach (SceneNode node in scene.Roots) { Node(node, node.Prim.Path, Matrix4.Identity(), none, none, "", ""); }
+            json.Close('}');
+            json.Key("materials");
+            json.Open('{');
+            foreach (string path in materials) { Material(path); }
+            json.Close('}');
+            json.Key("warnings");
+            json.Open('[');
+            foreach (string warning in scene.Stage.Warnings) { json.String(warning); }
+            json.Close(']');
+            json.Close('}');
+            return json.ToString();
+        }
+
+        // within instances, paths of the prototype stand for those of the instance
+        static string Shown(string path, string prototype, string instance)
+        {
+            return path != null && prototype.Length > 0 && UsdPaths.HasPrefix(path, prototype) ? instance + path.Substring(prototype.Length) : path;
+        }
+
+        void Node(SceneNode node, string path, double[] above, MaterialBinding material, MaterialBinding physics, string prototype, string instance)
+        {
+            double[] world = node.ResetsTransform ? node.Local : Matrix4.Multiply(node.Local, above);
+            material = Rebased(node.Material, prototype, instance).Under(material);
+            physics = Rebased(node.PhysicsMaterial, prototype, instance).Under(physics);
+            json.Key(path);
+            json.Open('{');
+            json.Key("world");
+            Numbers(world);
+            Text("material", material.Path);
+            if (material.Path != null) { materials.Add(material.Path); }
+            if (node.Mesh != null) { Mesh(node.Mesh); }
+            if (node.Light != null) { Light(node.Light); }
+            if (node.Camera != null)
+            {
+                json.Key("fieldOfView");
+                json.Number(node.Camera.VerticalFieldOfViewDegrees);
+            }
+            if (node.Shape != null) { Text("shape", node.Shape.Kind); }
+            if (node.Curves != null)
+            {
+                json.Key("curves");
+                json.Number(node.Curves.VertexCounts.Length);
+            }
+            if (node.Collider != null)
+            {
+                Text("collider", node.Collider.Approximation);
+                PhysicsMaterialData data = PhysicsMaterialData.Of(physics.Path == null ? null : scene.Stage.PrimAt(physics.Path));
+                if (data != null)
+                {
+                    json.Key("friction");
+                    json.Number(data.StaticFriction);
+                }
+            }
+            if (node.Labels != null)
+            {
+                json.Key("labels");
+                json.Open('{');
+                foreach (KeyValuePair<string, string[]> label in node.Labels)
+                {
+                    json.Key(label.Key);
+                    json.Open('[');
+                    foreach (string one in label.Value) { json.String(one); }
+                    json.Close(']');
+                }
+                json.Close('}');
+            }
+            if (node.PointInstancer != null)
+            {
+                json.Key("instances");
+                json.Open('[');
+                foreach (double[] matrix in node.PointInstancer.Matrices) { Numbers(matrix); }
+                json.Close(']');
+            }
+            json.Close('}');
+            if (node.Prim.Prototype != null)
+            {
+                prototype = node.Prim.Prototype.Path;
+                instance = path;
+            }
+            foreach (SceneNode child in scene.ChildrenOf(node))
+            {
+                Node(child, UsdPaths.Child(path, child.Prim.Name), world, material, physics, prototype, instance);
+            }
+        }
+
+        static MaterialBinding Rebased(MaterialBinding binding, string prototype, string instance)
+        {
+            return new MaterialBinding(Shown(binding.Path, prototype, instance), binding.IsStrong);
+        }
+
+        void Text(string key, string value)
+        {
+            if (value == null) { return; }
+            json.Key(key);
+            json.String(value);
+        }
+
+        void Numbers(IEnumerable<double> numbers)
+        {
+            json.Open('[');
+            foreach (double number in numbers) { json.Number(number); }
+            json.Close(']');
+        }
+
+        void Floats(float[] numbers)
+        {
+            json.Open('[');
+            foreach (float number in numbers) { json.Number(number); }
+            json.Close(']');
+        }
+
+        void Mesh(TriangleMesh mesh)
+        {
+            double area = 0;
+            int triangles = 0;
+            var sum = new double[3];
+            foreach (SubMesh part in mesh.SubMeshes)
+            {
+                triangles += part.Triangles.Length / 3;
+                for (int i = 0; i < part.Triangles.Length; i += 3)
+                {
+                    int a = 3 * part.Triangles[i], b = 3 * part.Triangles[i + 1], c = 3 * part.Triangles[i + 2];
+                    var cross = new double[3];
+                    for (int k = 0; k < 3; k++)
+                    {
+                        int u = (k + 1) % 3, v = (k + 2) % 3;
+                        float[] p = mesh.Points;
+                        cross[k] = ((double)p[b + u] - p[a + u]) * ((double)p[c + v] - p[a + v]) - ((double)p[b + v] - p[a + v]) * ((double)p[c + u] - p[a + u]);
+                        sum[k] += cross[k] / 2;
+                    }
+                    area += Math.Sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]) / 2;
+                }
+            }
+            json.Key("mesh");
+            json.Open('{');
+            json.Key("triangles");
+            json.Number(triangles);
+            json.Key("vertices");
+            json.Number(mesh.PointOfVertex.Length);
+            json.Key("area");
+            json.Number(area);
+            json.Key("sum");
+            Numbers(sum);
+            json.Key("parts");
+            json.Open('[');
+            foreach (SubMesh part in mesh.SubMeshes) { json.Number(part.Triangles.Length / 3); }
+            json.Close(']');
+            if (triangles <= 200)
+            {
+                // each corner in full, so that a test can look at all of them
+                json.Key("corners");
+                json.Open('[');
+                foreach (SubMesh part in mesh.SubMeshes)
+                {
+                    foreach (int vertex in part.Triangles) { json.Number(mesh.PointOfVertex[vertex]); }
+                }
+                json.Close(']');
+                json.Key("normals");
+                Corners(mesh, mesh.Normals, 3);
+                foreach (KeyValuePair<string, float[]> channel in mesh.TextureCoordinates)
+                {
+                    json.Key("primvars:" + channel.Key);
+                    Corners(mesh, channel.Value, 2);
+                }
+            }
+            json.Close('}');
+        }
+
+        void Corners(TriangleMesh mesh, float[] values, int size)
+        {
+            json.Open('[');
+            foreach (SubMesh part in mesh.SubMeshes)
+            {
+                foreach (int vertex in part.Triangles)
+                {
+                    for (int k = 0; k < size; k++) { json.Number(values[size * vertex + k]); }
+                }
+            }
+            json.Close(']');
+        }
+
+        void Light(LightData light)
+        {
+            double metres = scene.Stage.MetersPerUnit;
+            json.Key("light");
+            json.Open('{');
+            Text("kind", light.Kind.ToString());
+            json.Key("luminance");
+            json.Number(light.Luminance(metres));
+            json.Key("candela");
+            json.Number(light.Candela(metres));
+            json.Key("lumen");
+            json.Number(light.Lumen(metres));
+            json.Key("lux");
+            json.Number(light.Lux);
+            json.Close('}');
+        }
+
+        void Material(string path)
+        {
+            MaterialData data = scene.Material(path);
+            if (data == null) { return; }
+            json.Key(path);
+            json.Open('{');
+            foreach (KeyValuePair<string, MaterialInput> input in data.Inputs)
+            {
+                json.Key(input.Key);
+                json.Open('{');
+                TextureData texture = input.Value.Texture;
+                if (input.Value.Value != null)
+                {
+                    json.Key("value");
+                    Floats(input.Value.Value);
+                }
+                Text("primvar", input.Value.Primvar);
+                if (texture != null)
+                {
+                    Text("asset", texture.AssetPath);
+                    Text("identifier", texture.Identifier);
+                    Text("channel", texture.Channel);
+                    Text("wrapS", texture.WrapS);
+                    Text("colorSpace", texture.SourceColorSpace);
+                    Text("coordinates", texture.Primvar);
+                    json.Key("scale");
+                    Floats(texture.Scale);
+                    json.Key("bias");
+                    Floats(texture.Bias);
+                    json.Key("transform");
+                    json.Open('[');
+                    Floats(texture.CoordinateScale);
+                    json.Number(texture.CoordinateRotationDegrees);
+                    Floats(texture.CoordinateTranslation);
+                    json.Close(']');
+                }
+                json.Close('}');
+            }
+            json.Close('}');
+        }
+    }
+}
