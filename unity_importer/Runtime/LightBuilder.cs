@@ -67,22 +67,17 @@ namespace Garage.Unity
                 return (float)data.Lux * factor;
             }
             bool isPanel = data.Kind == LightKind.Rect || data.Kind == LightKind.Disk;
-#if UNITY_EDITOR
-            if (settings.lightMode == LightMode.BakedRectangle && isPanel)
+            bool isRound = data.Kind == LightKind.Disk;
+            Vector2 size = isRound ? new Vector2((float)(data.Radius * metres), 0) : new Vector2((float)(data.Width * metres), (float)(data.Height * metres));
+            light.range = Range(data);
+            if (settings.lightMode == LightMode.BakedRectangle && isPanel && EditorOnly.MakeBaked(light, isRound ? LightType.Disc : LightType.Rectangle, size))
             {
-                light.type = data.Kind == LightKind.Rect ? LightType.Rectangle : LightType.Disc;
-                light.areaSize = data.Kind == LightKind.Rect ? new Vector2((float)(data.Width * metres), (float)(data.Height * metres))
-                    : new Vector2((float)(data.Radius * metres), 0);
-                light.lightmapBakeType = LightmapBakeType.Baked;
-                light.range = Range(data);
                 return (float)data.Luminance(metres) * factor;
             }
-#endif
             bool isShaped = data.ConeAngleDegrees < PanelAngle / 2;
             light.type = isPanel || isShaped ? LightType.Spot : LightType.Point;
             light.spotAngle = isShaped ? Mathf.Max(1, 2 * (float)data.ConeAngleDegrees) : PanelAngle;
             light.innerSpotAngle = isShaped ? light.spotAngle * (1 - Mathf.Clamp01((float)data.ConeSoftness)) : PanelInnerAngle;
-            light.range = Range(data);
             if (data.Kind == LightKind.Cylinder) { report.Add("cylinder lights shine as points, as strongly as across their axes", path); }
             return (float)data.Candela(metres) * factor;
         }

@@ -154,9 +154,7 @@ namespace Garage.Unity
             mesh.subMeshCount = arrays.Triangles.Count;
             for (int part = 0; part < arrays.Triangles.Count; part++) { mesh.SetTriangles(Wound(arrays.Triangles[part], arrays.IsDoubleSided ? count : 0), part); }
             if (arrays.Coordinates != null) { mesh.RecalculateTangents(); }
-#if UNITY_EDITOR
-            if (unwraps) { UnityEditor.Unwrapping.GenerateSecondaryUVSet(mesh); }
-#endif
+            if (unwraps) { EditorOnly.Unwrap(mesh); }
             return mesh;
         }
 

@@ -231,7 +231,7 @@ namespace Garage.Unity
             if (node.Visibility == "invisible" || context.IsHidden) { made.SetActive(false); }
             Context below = context.Under(node, movable);
             below.IsMirrored ^= placement.Scale.x < 0;
-            MarkStatic(made, below);
+            if (settings.staticFlags && !below.IsMovable) { EditorOnly.MarkStatic(made, settings.gpuInstancing); }
             if (!isBare) { AddParts(made, node, below, frame); }
             if (!Known.Contains(node.Prim.TypeName)) { Report.Add("prims of the type " + node.Prim.TypeName + " are left out", node.Prim.Path); }
             if (node.PointInstancer != null)
@@ -412,17 +412,6 @@ namespace Garage.Unity
                 frame.Names.Add(node.Prim.Name + "[" + points.Numbers[i] + "]");
             }
             frames.Push(frame);
-        }
-
-        void MarkStatic(GameObject made, Context context)
-        {
-#if UNITY_EDITOR
-            if (!settings.staticFlags || context.IsMovable) { return; }
-            var flags = UnityEditor.StaticEditorFlags.ContributeGI | UnityEditor.StaticEditorFlags.OccluderStatic | UnityEditor.StaticEditorFlags.OccludeeStatic
-                | UnityEditor.StaticEditorFlags.ReflectionProbeStatic;
-            if (!settings.gpuInstancing) { flags |= UnityEditor.StaticEditorFlags.BatchingStatic; }
-            UnityEditor.GameObjectUtility.SetStaticEditorFlags(made, flags);
-#endif
         }
 
         void Finish()

@@ -36,38 +36,35 @@ namespace UnityEngine
         }
     }
 
+    public sealed class ContextMenu : Attribute
+    {
+        public ContextMenu(string itemName)
+        {
+        }
+    }
+
     public sealed class DisallowMultipleComponent : Attribute
     {
     }
 
-    public class HelpURLAttribute : Attribute
-    {
-        public HelpURLAttribute(string url)
-        {
-        }
-    }
-
     public class Debug
     {
-        public static void LogWarning(object message, Object context)
+        public static void LogException(Exception exception, Object context)
         {
-            Console.Error.WriteLine("warning: " + message);
+            Console.Error.WriteLine(exception);
         }
 
         public static void LogWarning(object message)
         {
-            Console.Error.WriteLine("warning: " + message);
-        }
-
-        public static void LogError(object message)
-        {
-            Console.Error.WriteLine("error: " + message);
-        }
-
-        public static void Log(object message)
-        {
             Console.Error.WriteLine(message);
         }
+    }
+
+    public class Application
+    {
+        internal static string streaming = "";
+
+        public static string streamingAssetsPath { get { return streaming; } }
     }
 
     public class Resources

@@ -224,6 +224,18 @@ namespace UnityEngine
             isLinear = linear;
         }
 
+        public static Texture2D whiteTexture
+        {
+            get
+            {
+                var white = new Texture2D(4, 4, TextureFormat.RGBA32, true, false);
+                var values = new Color32[16];
+                for (int i = 0; i < 16; i++) { values[i] = new Color32(255, 255, 255, 255); }
+                white.SetPixels32(values);
+                return white;
+            }
+        }
+
         public TextureFormat format { get; internal set; }
         public bool isReadable { get { return !isReadOnce; } }
 
@@ -353,6 +365,7 @@ namespace UnityEngine
         public void SetTextureOffset(string name, Vector2 value) { offsets[Known(name)] = value; }
         public void SetOverrideTag(string tag, string val) { tags[tag] = val; }
         public void EnableKeyword(string keyword) { keywords.Add(keyword); }
+        public string[] shaderKeywords { get { return new List<string>(keywords).ToArray(); } }
         public bool IsKeywordEnabled(string keyword) { return keywords.Contains(keyword); }
 
         public float GetFloat(string name)

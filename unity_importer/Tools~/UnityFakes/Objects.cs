@@ -111,34 +111,43 @@ namespace UnityEngine
 
     public class MonoBehaviour : Behaviour
     {
-        static readonly Dictionary<Type, FieldInfo[]> ArraysOf = new Dictionary<Type, FieldInfo[]>();
+        sealed class Fields
+        {
+            public readonly List<FieldInfo> Arrays = new List<FieldInfo>(), Transient = new List<FieldInfo>();
+        }
 
-        // arrays are serialised, so that copies do not share them
+        static readonly Dictionary<Type, Fields> FieldsOf = new Dictionary<Type, Fields>();
+
+        // public fields and such as are marked are serialised: copies do not share their arrays, and have nothing of all others
         internal override Component Copy()
         {
-            FieldInfo[] arrays;
-            if (!ArraysOf.TryGetValue(GetType(), out arrays))
+            Fields fields;
+            if (!FieldsOf.TryGetValue(GetType(), out fields))
             {
-                var found = new List<FieldInfo>();
+                fields = new Fields();
                 for (Type type = GetType(); type != typeof(MonoBehaviour); type = type.BaseType)
                 {
                     foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                     {
-                        bool isPlain = field.FieldType.IsValueType || field.FieldType == typeof(string);
-                        if (field.FieldType.IsArray) { found.Add(field); }
-                        else if (!isPlain && !field.IsNotSerialized) { throw new NotSupportedException("no copy is made here of " + type.Name + "." + field.Name); }
+                        bool isSerialised = !field.IsNotSerialized && !field.IsInitOnly && (field.IsPublic || field.IsDefined(typeof(SerializeField), false));
+                        if (!isSerialised && !field.FieldType.IsValueType) { fields.Transient.Add(field); }
+                        else if (field.FieldType.IsArray) { fields.Arrays.Add(field); }
+                        else if (!field.FieldType.IsValueType && field.FieldType != typeof(string))
+                        {
+                            throw new NotSupportedException("no copy is made here of " + type.Name + "." + field.Name);
+                        }
                     }
                 }
-                arrays = found.ToArray();
-                ArraysOf.Add(GetType(), arrays);
+                FieldsOf.Add(GetType(), fields);
             }
             var copy = (MonoBehaviour)MemberwiseClone();
-            foreach (FieldInfo field in arrays)
+            foreach (FieldInfo field in fields.Arrays)
             {
                 var array = (Array)field.GetValue(this);
                 if (array is Object[]) { throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name); }
                 if (array != null) { field.SetValue(copy, array.Clone()); }
             }
+            foreach (FieldInfo field in fields.Transient) { field.SetValue(copy, null); }
             return copy;
         }
     }

@@ -32,6 +32,29 @@ namespace UnityEngine
         }
 
         public bool enabled { get; set; }
+
+        internal virtual Bounds Own()
+        {
+            return new Bounds();
+        }
+
+        /// <summary>In the world, around the box of its own space.</summary>
+        public Bounds bounds
+        {
+            get
+            {
+                Bounds own = Own();
+                Matrix4x4 matrix = transform.localToWorldMatrix;
+                var all = new Bounds(matrix.MultiplyPoint3x4(own.center), Vector3.zero);
+                for (int corner = 0; corner < 8; corner++)
+                {
+                    var offset = new Vector3((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
+                    all.Encapsulate(matrix.MultiplyPoint3x4(own.center + Vector3.Scale(offset, own.extents)));
+                }
+                return all;
+            }
+        }
+
 #if UNITY_6000_0_OR_NEWER
         public PhysicsMaterial sharedMaterial { get; set; }
 #else
@@ -43,12 +66,22 @@ namespace UnityEngine
     {
         public Vector3 center { get; set; }
         public Vector3 size { get; set; }
+
+        internal override Bounds Own()
+        {
+            return new Bounds(center, size);
+        }
     }
 
     public class SphereCollider : Collider
     {
         public Vector3 center { get; set; }
         public float radius { get; set; }
+
+        internal override Bounds Own()
+        {
+            return new Bounds(center, Vector3.one * (2 * radius));
+        }
     }
 
     public class CapsuleCollider : Collider
@@ -59,12 +92,23 @@ namespace UnityEngine
 
         /// <summary>0, 1, 2 for x, y, z.</summary>
         public int direction { get; set; }
+
+        internal override Bounds Own()
+        {
+            float along = Math.Max(height, 2 * radius), across = 2 * radius;
+            return new Bounds(center, new Vector3(direction == 0 ? along : across, direction == 1 ? along : across, direction == 2 ? along : across));
+        }
     }
 
     public class MeshCollider : Collider
     {
         public Mesh sharedMesh { get; set; }
         public bool convex { get; set; }
+
+        internal override Bounds Own()
+        {
+            return sharedMesh.bounds;
+        }
     }
 }
 
