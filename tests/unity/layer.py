@@ -54,6 +54,7 @@ class Prefab:
     found: dict
 
     def __post_init__(self):
+        assert "crash" not in self.found, self.found["crash"]
         assert self.found["errors"] == []
         assert self.found["progressBarLeft"] is False
 
