@@ -27,6 +27,7 @@ namespace Garage.Unity
         };
 
         readonly SceneModel scene;
+        readonly LabelTable table;
         readonly ImportSettings settings;
         readonly Basis basis;
         readonly MeshAssets meshes;
@@ -121,10 +122,11 @@ namespace Garage.Unity
             }
         }
 
-        /// <summary>Begins a prefab with a name; a scene is read best on another thread before.</summary>
-        public SceneBuilder(SceneModel scene, ImportSettings settings, string name)
+        /// <summary>Begins a prefab with a name; a scene is read best on another thread before. The table of labels may be null.</summary>
+        public SceneBuilder(SceneModel scene, LabelTable table, ImportSettings settings, string name)
         {
             this.scene = scene;
+            this.table = table;
             this.settings = settings;
             basis = new Basis(scene.Stage.IsZUp, scene.Stage.MetersPerUnit * settings.scale);
             Report = new ImportReport();
@@ -419,8 +421,7 @@ namespace Garage.Unity
             isFinished = true;
             Progress = 1;
             lanes.Finish(Root.transform);
-            int count = 0;
-            foreach (SemanticLabels labels in Root.GetComponentsInChildren<SemanticLabels>(true)) { labels.InstanceId = ++count; }
+            LabelTable.Apply(table, Root.transform);
             foreach (string warning in scene.Stage.Warnings) { Report.Add("the reader left out", warning); }
             Root.AddComponent<ImportedStage>().Set(Root.name, scene.Stage.IsZUp ? "Z" : "Y", scene.Stage.MetersPerUnit, Report);
         }

@@ -181,9 +181,11 @@ namespace Garage.Unity.Dump
             {
                 GC.Collect();
                 TimeSpan start = Process.GetCurrentProcess().TotalProcessorTime;
-                SceneModel scene = StageReader.Read(new FolderResolver(Path.GetDirectoryName(file)), Path.GetFileName(file));
+                var files = new FolderResolver(Path.GetDirectoryName(file));
+                SceneModel scene = StageReader.Read(files, Path.GetFileName(file));
+                LabelTable table = StageReader.Labels(files, Path.GetFileNameWithoutExtension(file));
                 TimeSpan read = Process.GetCurrentProcess().TotalProcessorTime;
-                var builder = new SceneBuilder(scene, new ImportSettings(), "garage");
+                var builder = new SceneBuilder(scene, table, new ImportSettings(), "garage");
                 builder.Run();
                 TimeSpan made = Process.GetCurrentProcess().TotalProcessorTime;
                 json.Open('{');
