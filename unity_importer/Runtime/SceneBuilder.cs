@@ -129,7 +129,7 @@ namespace Garage.Unity
             this.table = table;
             this.settings = settings;
             basis = new Basis(scene.Stage.IsZUp, scene.Stage.MetersPerUnit * settings.scale);
-            Report = new ImportReport();
+            Report = new ImportReport { Readable = Readable };
             meshes = new MeshAssets(basis, settings.lightmapCoordinates || settings.lightMode == LightMode.BakedRectangle, Store);
             materials = new MaterialAssets(scene, settings, Report, Store);
             lights = new LightBuilder(basis, settings, Report);
@@ -181,6 +181,18 @@ namespace Garage.Unity
             if (Root != null) { UnityEngine.Object.DestroyImmediate(Root); }
             foreach (UnityEngine.Object asset in assets.Values) { UnityEngine.Object.DestroyImmediate(asset); }
             assets.Clear();
+        }
+
+        // a prototype's name is only a number: that of its asset says more
+        string Readable(string place)
+        {
+            if (!place.StartsWith("/__Prototype_", StringComparison.Ordinal)) { return place; }
+            int slash = place.IndexOf('/', 1);
+            string root = slash < 0 ? place : place.Substring(0, slash);
+            UsdPrim prim = scene.Stage.PrimAt(root);
+            var asset = prim == null ? null : prim.Metadata("assetInfo") as UsdDictionary;
+            string name = asset == null ? null : asset.Text("name");
+            return name == null ? place : name + place.Substring(root.Length);
         }
 
         void Store(string key, UnityEngine.Object asset)
