@@ -22,7 +22,8 @@ namespace Garage.Unity.Editor
                 return;
             }
             File.Copy(source, target);
-            string assets = Path.Combine(Path.GetDirectoryName(source), Path.GetFileNameWithoutExtension(source) + "_assets");
+            string name = Path.GetFileNameWithoutExtension(source);
+            string assets = Path.Combine(Path.GetDirectoryName(source), name + "_assets");
             if (Directory.Exists(assets)) { CopyFolder(assets, "Assets/" + Path.GetFileName(assets)); }
             AssetDatabase.Refresh();
             Selection.activeObject = AssetDatabase.LoadAssetAtPath<GameObject>(target);
@@ -31,8 +32,14 @@ namespace Garage.Unity.Editor
         static void CopyFolder(string source, string target)
         {
             Directory.CreateDirectory(target);
-            foreach (string file in Directory.GetFiles(source)) { File.Copy(file, Path.Combine(target, Path.GetFileName(file)), true); }
-            foreach (string folder in Directory.GetDirectories(source)) { CopyFolder(folder, Path.Combine(target, Path.GetFileName(folder))); }
+            foreach (string file in Directory.GetFiles(source))
+            {
+                File.Copy(file, Path.Combine(target, Path.GetFileName(file)), true);
+            }
+            foreach (string folder in Directory.GetDirectories(source))
+            {
+                CopyFolder(folder, Path.Combine(target, Path.GetFileName(folder)));
+            }
         }
 
         /// <summary>Puts the selected stage into the scene.</summary>
@@ -52,7 +59,8 @@ namespace Garage.Unity.Editor
             return prefab != null && prefab.GetComponent<ImportedStage>() != null;
         }
 
-        /// <summary>Makes materials of every kind that stages need, so that a player has the shader with all their variants.</summary>
+        /// <summary>Makes materials of every kind that stages need, so that a player has the shader with all their
+        /// variants.</summary>
         [MenuItem("Tools/Garage/Make Reference Materials")]
         public static void MakeReferenceMaterials()
         {

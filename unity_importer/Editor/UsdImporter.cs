@@ -10,8 +10,8 @@ using UnityEngine;
 namespace Garage.Unity.Editor
 {
     /// <summary>
-    /// Makes prefabs of .usda, .usdc and .usdz. Where Unity's own importer is installed as well, it is one that a file can be given by its
-    /// inspector: two importers that claim the same extension would both be refused.
+    /// Makes prefabs of .usda, .usdc and .usdz. Where Unity's own importer is installed as well, it is one that a file
+    /// can be given by its inspector: two importers that claim the same extension would both be refused.
     /// </summary>
 #if GARAGE_OTHER_USD_IMPORTER
     [ScriptedImporter(Version, new string[0], new[] { "usda", "usdc", "usdz" })]
@@ -40,11 +40,13 @@ namespace Garage.Unity.Editor
             AssetDatabase.RegisterCustomDependency(PipelineDependency, Hash128.Compute(LitShader.InUse().ToString()));
         }
 
-        /// <summary>Reads the stage and adds the prefab with its assets; what cannot be read is an error of the import.</summary>
+        /// <summary>Reads the stage and adds the prefab with its assets; what cannot be read is an error of the
+        /// import.</summary>
         public override void OnImportAsset(AssetImportContext ctx)
         {
             ctx.DependsOnCustomDependency(PipelineDependency);
-            string folder = Path.GetDirectoryName(ctx.assetPath).Replace('\\', '/'), name = Path.GetFileNameWithoutExtension(ctx.assetPath);
+            string folder = Path.GetDirectoryName(ctx.assetPath).Replace('\\', '/');
+            string name = Path.GetFileNameWithoutExtension(ctx.assetPath);
             var files = new RecordingResolver(new FolderResolver(Path.GetFullPath(folder)));
             SceneBuilder builder = null;
             try
@@ -60,15 +62,22 @@ namespace Garage.Unity.Editor
                     clock.Reset();
                     clock.Start();
                 }
-                foreach (KeyValuePair<string, UnityEngine.Object> asset in builder.Assets) { ctx.AddObjectToAsset(asset.Key, asset.Value); }
+                foreach (KeyValuePair<string, UnityEngine.Object> asset in builder.Assets)
+                {
+                    ctx.AddObjectToAsset(asset.Key, asset.Value);
+                }
                 ctx.AddObjectToAsset("prefab", builder.Root);
                 ctx.SetMainObject(builder.Root);
-                foreach (ImportReport.Entry entry in builder.Report.entries) { ctx.LogImportWarning(ctx.assetPath + ": " + entry, builder.Root); }
+                foreach (ImportReport.Entry entry in builder.Report.entries)
+                {
+                    ctx.LogImportWarning(ctx.assetPath + ": " + entry, builder.Root);
+                }
             }
             catch (Exception failure)
             {
                 if (builder != null) { builder.Abandon(); }
-                bool isExpected = failure is UsdFormatException || failure is OperationCanceledException || failure is InvalidOperationException;
+                bool isExpected = failure is UsdFormatException || failure is OperationCanceledException
+                    || failure is InvalidOperationException;
                 if (!isExpected) { throw; }
                 ctx.LogImportError(ctx.assetPath + ": " + failure.Message);
             }
@@ -85,7 +94,10 @@ namespace Garage.Unity.Editor
 
         static void Look(string name, string what, float progress)
         {
-            if (EditorUtility.DisplayCancelableProgressBar("Importing " + name, what, progress)) { throw new OperationCanceledException("the import was cancelled"); }
+            if (EditorUtility.DisplayCancelableProgressBar("Importing " + name, what, progress))
+            {
+                throw new OperationCanceledException("the import was cancelled");
+            }
         }
     }
 }

@@ -11,7 +11,8 @@ namespace Garage.Unity.Editor
     {
         static readonly string[] Groups =
         {
-            "Stage", "scale", "cameras", "", "Light", "lightMode", "exposureStops", "nitsPerUnit", "lightShadows", "lightmapCoordinates", "", "Materials", "pipeline",
+            "Stage", "scale", "cameras", "", "Light", "lightMode", "exposureStops", "nitsPerUnit", "lightShadows",
+            "lightmapCoordinates", "", "Materials", "pipeline",
             "gpuInstancing", "compressTextures", "", "Physics and flags", "colliders", "staticFlags", "movableLabels",
         };
 
@@ -32,7 +33,10 @@ namespace Garage.Unity.Editor
             ApplyRevertGUI();
             var prefab = assetTarget as GameObject;
             ImportedStage stage = prefab == null ? null : prefab.GetComponent<ImportedStage>();
-            for (int i = 0; stage != null && i < stage.LeftOutCount; i++) { EditorGUILayout.HelpBox(stage.LeftOut(i).ToString(), MessageType.Info); }
+            for (int i = 0; stage != null && i < stage.LeftOutCount; i++)
+            {
+                EditorGUILayout.HelpBox(stage.LeftOut(i).ToString(), MessageType.Info);
+            }
         }
     }
 }

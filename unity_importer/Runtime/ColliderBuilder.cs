@@ -21,7 +21,8 @@ namespace Garage.Unity
         readonly Dictionary<string, Friction> byPath = new Dictionary<string, Friction>();
         readonly Dictionary<string, Friction> byKey = new Dictionary<string, Friction>();
 
-        public ColliderBuilder(SceneModel scene, Basis basis, ColliderMode mode, ImportReport report, Action<string, UnityEngine.Object> store)
+        public ColliderBuilder(SceneModel scene, Basis basis, ColliderMode mode, ImportReport report,
+            Action<string, UnityEngine.Object> store)
         {
             this.scene = scene;
             this.basis = basis;
@@ -30,7 +31,8 @@ namespace Garage.Unity
             this.store = store;
         }
 
-        /// <summary>Puts the collider of a node on its object; the mesh is what it shows, the path that of its physics material.</summary>
+        /// <summary>Puts the collider of a node on its object; the mesh is what it shows, the path that of its physics
+        /// material.</summary>
         public void Add(GameObject holder, SceneNode node, Mesh mesh, string material, bool isMirrored)
         {
             if (mode == ColliderMode.None || node.Collider == null) { return; }
@@ -39,7 +41,8 @@ namespace Garage.Unity
                 report.Add("colliders without a mesh or a shape are left out", node.Prim.Path);
                 return;
             }
-            Collider collider = mode == ColliderMode.Boxes ? Box(holder, mesh.bounds) : node.Shape != null ? OfShape(holder, node.Shape, mesh) : OfMesh(holder, node, mesh);
+            Collider collider = mode == ColliderMode.Boxes ? Box(holder, mesh.bounds)
+                : node.Shape != null ? OfShape(holder, node.Shape, mesh) : OfMesh(holder, node, mesh);
             collider.enabled = node.Collider.IsEnabled;
             collider.sharedMaterial = FrictionAt(material);
             if (isMirrored) { report.Add("colliders stand under mirrored transforms", node.Prim.Path); }
@@ -70,7 +73,10 @@ namespace Garage.Unity
                     SphereCollider sphere = holder.AddComponent<SphereCollider>();
                     sphere.center = mesh.bounds.center;
                     float radius = 0;
-                    foreach (Vector3 point in mesh.vertices) { radius = Mathf.Max(radius, Vector3.Distance(point, sphere.center)); }
+                    foreach (Vector3 point in mesh.vertices)
+                    {
+                        radius = Mathf.Max(radius, Vector3.Distance(point, sphere.center));
+                    }
                     sphere.radius = radius;
                     return sphere;
                 case "convexHull": return OfMesh(holder, mesh, true);
@@ -121,7 +127,8 @@ namespace Garage.Unity
                 {
                     friction = new Friction(prim.Name)
                     {
-                        staticFriction = (float)data.StaticFriction, dynamicFriction = (float)data.DynamicFriction, bounciness = Mathf.Clamp01((float)data.Restitution),
+                        staticFriction = (float)data.StaticFriction, dynamicFriction = (float)data.DynamicFriction,
+                        bounciness = Mathf.Clamp01((float)data.Restitution),
                     };
                     byKey.Add(key, friction);
                     store(key, friction);

@@ -20,8 +20,10 @@ namespace Garage.Unity
         public static void MarkStatic(GameObject made, bool isInstanced)
         {
 #if UNITY_EDITOR
-            StaticEditorFlags flags = StaticEditorFlags.ContributeGI | StaticEditorFlags.OccluderStatic | StaticEditorFlags.OccludeeStatic | StaticEditorFlags.ReflectionProbeStatic;
-            GameObjectUtility.SetStaticEditorFlags(made, isInstanced ? flags : flags | StaticEditorFlags.BatchingStatic);
+            StaticEditorFlags flags = StaticEditorFlags.ContributeGI | StaticEditorFlags.OccluderStatic
+                | StaticEditorFlags.OccludeeStatic | StaticEditorFlags.ReflectionProbeStatic;
+            if (!isInstanced) { flags |= StaticEditorFlags.BatchingStatic; }
+            GameObjectUtility.SetStaticEditorFlags(made, flags);
 #endif
         }
 

@@ -12,11 +12,14 @@ namespace Garage.Unity
         [Tooltip("Number of the agent's settings in the Navigation window.")]
         [SerializeField] int agent;
 
-        [Tooltip("Metres that the agent keeps from walls; 0 takes that of its settings. About 1 for cars, 0.3 for people.")]
+        [Tooltip("Metres that the agent keeps from walls; 0 takes those of its settings. About 1 for cars.")]
         [SerializeField] float radius;
 
         [Tooltip("Labels (class) of what is left out: all that hangs too high to be in the way, and what moves.")]
-        [SerializeField] string[] leftOut = { "ceiling", "beam", "duct", "cable_tray", "sprinkler", "light", "exit_sign", "sky", "car", "barrier" };
+        [SerializeField] string[] leftOut =
+        {
+            "ceiling", "beam", "duct", "cable_tray", "sprinkler", "light", "exit_sign", "sky", "car", "barrier",
+        };
 
         [SerializeField] bool buildsOnStart = true;
 
@@ -35,18 +38,21 @@ namespace Garage.Unity
             added.Remove();
         }
 
-        /// <summary>Builds the NavMesh anew and adds it to the scene. Meshes of colliders have to be readable, as imported ones are.</summary>
+        /// <summary>Builds the NavMesh anew and adds it to the scene. Meshes of colliders have to be readable, as
+        /// imported ones are.</summary>
         [ContextMenu("Build")]
         public NavMeshData Build()
         {
             var sources = new List<NavMeshBuildSource>();
-            NavMeshBuilder.CollectSources(transform, ~0, NavMeshCollectGeometry.PhysicsColliders, 0, new List<NavMeshBuildMarkup>(), sources);
+            NavMeshBuilder.CollectSources(transform, ~0, NavMeshCollectGeometry.PhysicsColliders, 0,
+                new List<NavMeshBuildMarkup>(), sources);
             var high = new HashSet<string>(leftOut);
             sources.RemoveAll(source => IsLeftOut(source.component, high));
             NavMeshBuildSettings settings = NavMesh.GetSettingsByIndex(agent);
             if (radius > 0) { settings.agentRadius = radius; }
             added.Remove();
-            Data = NavMeshBuilder.BuildNavMeshData(settings, sources, BoundsOf(sources), Vector3.zero, Quaternion.identity);
+            Data = NavMeshBuilder.BuildNavMeshData(settings, sources, BoundsOf(sources), Vector3.zero,
+                Quaternion.identity);
             added = NavMesh.AddNavMeshData(Data);
             return Data;
         }

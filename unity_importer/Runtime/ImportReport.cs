@@ -23,7 +23,8 @@ namespace Garage.Unity
             /// <summary>Reason, count and places in a line.</summary>
             public override string ToString()
             {
-                return reason + " (" + count + "): " + string.Join(", ", places.ToArray()) + (count > places.Count ? ", ..." : "");
+                return reason + " (" + count + "): " + string.Join(", ", places.ToArray())
+                    + (count > places.Count ? ", ..." : "");
             }
         }
 

@@ -61,8 +61,8 @@ namespace Garage.Unity
         [Tooltip("Doubles all lights and glowing surfaces for each whole number; negative ones halve.")]
         public float exposureStops;
 
-        /// <summary>HDRP only: candela a square metre for each unit of intensity in the stage. Stages of garage2usd hold true values at 27.</summary>
-        [Tooltip("HDRP only: candela a square metre for each unit of intensity in the stage. Stages of garage2usd hold true values at 27.")]
+        /// <summary>HDRP only: candela a square metre for each unit of intensity; garage2usd's is 27.</summary>
+        [Tooltip("HDRP only: candela a square metre for each unit of intensity; 27 for stages of garage2usd.")]
         public float nitsPerUnit = 1;
 
         /// <summary>Whether spots and distant lights cast shadows. Every one costs a map of its own.</summary>
@@ -77,7 +77,8 @@ namespace Garage.Unity
         [Tooltip("GPU instancing on all materials. Static batching is left off then, as it would win.")]
         public bool gpuInstancing = true;
 
-        /// <summary>Marks what never moves as static for global illumination, occlusion and reflections (editor only).</summary>
+        /// <summary>Marks what never moves as static for global illumination, occlusion and reflections (editor
+        /// only).</summary>
         [Tooltip("Marks what never moves as static for global illumination, occlusion and reflections (editor only).")]
         public bool staticFlags = true;
 

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace Garage.Unity
 {
     /// <summary>
-    /// The ids of labelled objects by the paths of their prims, as the table says that garage2usd writes beside a stage; a point of an instancer
-    /// has the path "/Garage/StallNumbers[7]".
+    /// The ids of labelled objects by the paths of their prims, as the table says that garage2usd writes beside a
+    /// stage; a point of an instancer has the path "/Garage/StallNumbers[7]".
     /// </summary>
     public sealed class LabelTable
     {
@@ -134,13 +134,19 @@ namespace Garage.Unity
                 }
                 char letter = text[++i];
                 int code;
-                if (letter != 'u') { plain.Append(letter == 'n' ? '\n' : letter == 't' ? '\t' : letter == 'r' ? '\r' : letter == 'b' ? '\b' : letter == 'f' ? '\f' : letter); }
-                else if (i + 4 < text.Length && int.TryParse(text.Substring(i + 1, 4), NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out code))
+                int known = "nrtbf".IndexOf(letter);
+                if (letter != 'u')
                 {
-                    plain.Append((char)code);
-                    i += 4;
+                    plain.Append(known < 0 ? letter : "\n\r\t\b\f"[known]);
+                    continue;
                 }
-                else { throw Wrong("a letter is told wrongly"); }
+                string digits = text.Substring(Math.Min(i + 1, text.Length - 1), Math.Min(4, text.Length - i - 1));
+                if (!int.TryParse(digits, NumberStyles.AllowHexSpecifier, CultureInfo.InvariantCulture, out code))
+                {
+                    throw Wrong("a letter is told wrongly");
+                }
+                plain.Append((char)code);
+                i += digits.Length;
             }
             return plain.ToString();
         }
@@ -150,7 +156,10 @@ namespace Garage.Unity
             Next();
             long number = 0;
             int start = at;
-            for (; at < json.Length && json[at] >= '0' && json[at] <= '9' && number <= int.MaxValue; at++) { number = 10 * number + json[at] - '0'; }
+            for (; at < json.Length && json[at] >= '0' && json[at] <= '9' && number <= int.MaxValue; at++)
+            {
+                number = 10 * number + json[at] - '0';
+            }
             if (at == start || number > int.MaxValue) { throw Wrong("an id is no whole number"); }
             return (int)number;
         }
@@ -175,7 +184,8 @@ namespace Garage.Unity
             }
         }
 
-        /// <summary>Numbers all labelled objects below a root: as the table says, and on from its largest id where it says nothing or there is none.</summary>
+        /// <summary>Numbers all labelled objects below a root: as the table says, and on from its largest id where it
+        /// says nothing or there is none.</summary>
         internal static void Apply(LabelTable table, Transform root)
         {
             var paths = new Dictionary<Transform, string> { { root, "" } };
@@ -200,7 +210,8 @@ namespace Garage.Unity
             string path;
             if (known.TryGetValue(place, out path)) { return path; }
             string above = PathOf(place.parent, known), name = place.name, holder = place.parent.name;
-            bool isPoint = name.Length > holder.Length && name[holder.Length] == '[' && name.StartsWith(holder, StringComparison.Ordinal);
+            bool isPoint = name.Length > holder.Length && name[holder.Length] == '['
+                && name.StartsWith(holder, StringComparison.Ordinal);
             path = isPoint ? above + name.Substring(holder.Length) : above + "/" + name;
             known.Add(place, path);
             return path;

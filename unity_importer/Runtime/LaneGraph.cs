@@ -143,25 +143,34 @@ namespace Garage.Unity
             return numbered;
         }
 
-        /// <summary>The place on a lane that is nearest to one in the world; false where the graph has no edges.</summary>
+        /// <summary>The place on a lane that is nearest to one in the world; false where the graph has no
+        /// edges.</summary>
         public bool NearestLane(Vector3 position, out LanePoint nearest)
         {
             nearest = new LanePoint { Edge = -1, Distance = float.PositiveInfinity };
             for (int i = 0; i < edges.Length; i++)
             {
                 Vector3 start = PositionOf(edges[i].from), way = PositionOf(edges[i].to) - start;
-                float square = way.sqrMagnitude, fraction = square > 0 ? Mathf.Clamp01(Vector3.Dot(position - start, way) / square) : 0;
+                float square = way.sqrMagnitude;
+                float fraction = square > 0 ? Mathf.Clamp01(Vector3.Dot(position - start, way) / square) : 0;
                 Vector3 point = start + way * fraction;
                 float distance = Vector3.Distance(point, position);
-                if (distance < nearest.Distance) { nearest = new LanePoint { Edge = i, Fraction = fraction, Position = point, Distance = distance }; }
+                if (distance < nearest.Distance)
+                {
+                    nearest = new LanePoint { Edge = i, Fraction = fraction, Position = point, Distance = distance };
+                }
             }
             return nearest.Edge >= 0;
         }
 
-        /// <summary>The nodes of a shortest way that respects the directions, both ends among them; null where there is no way.</summary>
+        /// <summary>The nodes of a shortest way that respects the directions, both ends among them; null where there is
+        /// no way.</summary>
         public List<int> FindPath(int from, int to)
         {
-            if ((uint)from >= (uint)nodes.Length || (uint)to >= (uint)nodes.Length) { throw new ArgumentOutOfRangeException(); }
+            if ((uint)from >= (uint)nodes.Length || (uint)to >= (uint)nodes.Length)
+            {
+                throw new ArgumentOutOfRangeException();
+            }
             if (edgesOfNode == null) { FindNeighbours(); }
             var distance = new float[nodes.Length];
             var before = new int[nodes.Length];
@@ -205,7 +214,8 @@ namespace Garage.Unity
             }
         }
 
-        /// <summary>A shortest way from the middle of a stall over the lanes into that of another; null where there is none.</summary>
+        /// <summary>A shortest way from the middle of a stall over the lanes into that of another; null where there is
+        /// none.</summary>
         public LanePath FindPath(Stall from, Stall to)
         {
             List<int> way = FindPath(from.AccessNode, to.AccessNode);
@@ -245,7 +255,10 @@ namespace Garage.Unity
             public void Add(int node, float distance)
             {
                 heap.Add(new KeyValuePair<float, int>(distance, node));
-                for (int at = heap.Count - 1; at > 0 && heap[at].Key < heap[(at - 1) / 2].Key; at = (at - 1) / 2) { Swap(at, (at - 1) / 2); }
+                for (int at = heap.Count - 1; at > 0 && heap[at].Key < heap[(at - 1) / 2].Key; at = (at - 1) / 2)
+                {
+                    Swap(at, (at - 1) / 2);
+                }
             }
 
             public bool Take(out int node, out float distance)

@@ -5,7 +5,8 @@ using UnityEngine;
 
 namespace Garage.Unity
 {
-    /// <summary>Stalls and the lane graph from what garage2usd writes: attributes of stalls' prims, and curves with one value of each attribute a curve.</summary>
+    /// <summary>Stalls and the lane graph from what garage2usd writes: attributes of stalls' prims, and curves with one
+    /// value of each attribute a curve.</summary>
     sealed class LaneGraphBuilder
     {
         readonly Basis basis;
@@ -29,7 +30,9 @@ namespace Garage.Unity
         /// <summary>Whether curves are part of a lane graph, and so are not to be drawn.</summary>
         public static bool IsPart(SceneNode node)
         {
-            return node.Curves != null && (node.Prim.Value("garage:lane:kind") != null || node.Prim.Value("garage:lane:from") != null || node.Prim.Value("garage:stall:id") != null);
+            return node.Curves != null
+                && (node.Prim.Value("garage:lane:kind") != null || node.Prim.Value("garage:lane:from") != null
+                || node.Prim.Value("garage:stall:id") != null);
         }
 
         /// <summary>Fills a stall from its prim; its corners follow at the end.</summary>
@@ -38,8 +41,10 @@ namespace Garage.Unity
             UsdPrim prim = node.Prim;
             UsdValue square = prim.Value("garage:stall:square"), corners = prim.Value("garage:stall:corners");
             int[] place = square == null ? new int[0] : square.Ints();
-            stall.Set(prim.Text("garage:stall:id", ""), prim.Text("garage:stall:number", ""), prim.Text("garage:stall:type", ""), prim.Text("garage:stall:use", "standard"),
-                prim.Text("garage:stall:entryEdge", ""), place.Length == 2 ? new Vector2Int(place[0], place[1]) : new Vector2Int(-1, -1));
+            Vector2Int own = place.Length == 2 ? new Vector2Int(place[0], place[1]) : new Vector2Int(-1, -1);
+            stall.Set(prim.Text("garage:stall:id", ""), prim.Text("garage:stall:number", ""),
+                prim.Text("garage:stall:type", ""), prim.Text("garage:stall:use", "standard"),
+                prim.Text("garage:stall:entryEdge", ""), own);
             if (stalls.ContainsKey(stall.Id)) { report.Add("stalls have the same id", prim.Path); }
             stalls[stall.Id] = stall;
             float[] numbers = corners == null ? new float[0] : corners.Floats();
@@ -61,13 +66,18 @@ namespace Garage.Unity
             foreach (SceneNode child in children)
             {
                 if (!IsPart(child)) { continue; }
-                int part = child.Prim.Value("garage:lane:kind") != null ? 0 : child.Prim.Value("garage:lane:from") != null ? 1 : 2;
+                int part = child.Prim.Value("garage:lane:kind") != null ? 0
+                    : child.Prim.Value("garage:lane:from") != null ? 1 : 2;
                 parts[part] = child;
             }
-            if (parts[0] != null || parts[2] != null) { graphs.Add(new KeyValuePair<GameObject, SceneNode[]>(holder, parts)); }
+            if (parts[0] != null || parts[2] != null)
+            {
+                graphs.Add(new KeyValuePair<GameObject, SceneNode[]>(holder, parts));
+            }
         }
 
-        /// <summary>Makes the graphs once all stalls are there; stalls that only a graph knows become objects below it.</summary>
+        /// <summary>Makes the graphs once all stalls are there; stalls that only a graph knows become objects below
+        /// it.</summary>
         public void Finish(Transform root)
         {
             foreach (KeyValuePair<GameObject, SceneNode[]> graph in graphs)
@@ -76,7 +86,8 @@ namespace Garage.Unity
                 SceneNode nodes = graph.Value[0], edges = graph.Value[1], outlines = graph.Value[2];
                 LaneNode[] all = nodes == null ? new LaneNode[0] : Nodes(nodes);
                 Stall[] found = outlines == null ? new Stall[0] : Stalls(outlines, place, all.Length);
-                graph.Key.AddComponent<LaneGraph>().Set(all, edges == null ? new LaneEdge[0] : Edges(edges, all.Length), found);
+                LaneEdge[] ways = edges == null ? new LaneEdge[0] : Edges(edges, all.Length);
+                graph.Key.AddComponent<LaneGraph>().Set(all, ways, found);
             }
             foreach (KeyValuePair<Stall, Vector3[]> pair in withoutGraph)
             {
@@ -88,7 +99,10 @@ namespace Garage.Unity
         {
             float[] turned = basis.Vectors(numbers, true);
             var points = new Vector3[turned.Length / 3];
-            for (int i = 0; i < points.Length; i++) { points[i] = new Vector3(turned[3 * i], turned[3 * i + 1], turned[3 * i + 2]); }
+            for (int i = 0; i < points.Length; i++)
+            {
+                points[i] = new Vector3(turned[3 * i], turned[3 * i + 1], turned[3 * i + 2]);
+            }
             return points;
         }
 
@@ -143,7 +157,8 @@ namespace Garage.Unity
         {
             int count = curves.Curves.VertexCounts.Length;
             int[] from = Ints(curves, "garage:lane:from", count), to = Ints(curves, "garage:lane:to", count);
-            float[] lengths = Floats(curves, "garage:lane:length", count), widths = Floats(curves, "garage:lane:width", count);
+            float[] lengths = Floats(curves, "garage:lane:length", count),
+                widths = Floats(curves, "garage:lane:width", count);
             string[] directions = Texts(curves, "garage:lane:direction", count);
             float metres = (float)basis.MetersPerUnit;
             var edges = new List<LaneEdge>(count);
@@ -154,7 +169,11 @@ namespace Garage.Unity
                     report.Add("edges of the lane graph lead to no node", curves.Prim.Path + "[" + i + "]");
                     continue;
                 }
-                edges.Add(new LaneEdge { from = from[i], to = to[i], length = lengths[i] * metres, width = widths[i] * metres, isOneWay = directions[i] == "forward" });
+                edges.Add(new LaneEdge
+                {
+                    from = from[i], to = to[i], length = lengths[i] * metres, width = widths[i] * metres,
+                    isOneWay = directions[i] == "forward",
+                });
             }
             return edges.ToArray();
         }
@@ -162,8 +181,11 @@ namespace Garage.Unity
         Stall[] Stalls(SceneNode curves, Transform graph, int nodeCount)
         {
             int count = curves.Curves.VertexCounts.Length, at = 0;
-            string[] ids = Texts(curves, "garage:stall:id", count), numbers = Texts(curves, "garage:stall:number", count), types = Texts(curves, "garage:stall:type", count);
-            string[] uses = Texts(curves, "garage:stall:use", count), sides = Texts(curves, "garage:stall:entryEdge", count);
+            string[] ids = Texts(curves, "garage:stall:id", count),
+                numbers = Texts(curves, "garage:stall:number", count),
+                types = Texts(curves, "garage:stall:type", count);
+            string[] uses = Texts(curves, "garage:stall:use", count),
+                sides = Texts(curves, "garage:stall:entryEdge", count);
             int[] rows = Ints(curves, "garage:stall:row", count), columns = Ints(curves, "garage:stall:column", count);
             int[] access = Ints(curves, "garage:stall:accessNode", count);
             Vector3[] points = Points(curves.Curves.Points);
@@ -175,7 +197,8 @@ namespace Garage.Unity
                 at += corners;
                 if (corners != 4 || (uint)access[i] >= (uint)nodeCount)
                 {
-                    report.Add("stalls of the lane graph have no four corners or no node", curves.Prim.Path + "[" + i + "]");
+                    string place = curves.Prim.Path + "[" + i + "]";
+                    report.Add("stalls of the lane graph have no four corners or no node", place);
                     continue;
                 }
                 var outline = new Vector3[4];

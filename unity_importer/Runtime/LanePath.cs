@@ -15,11 +15,17 @@ namespace Garage.Unity
             var different = new List<Vector3>();
             foreach (Vector3 point in points)
             {
-                if (different.Count == 0 || Vector3.Distance(different[different.Count - 1], point) > 1e-4f) { different.Add(point); }
+                if (different.Count == 0 || Vector3.Distance(different[different.Count - 1], point) > 1e-4f)
+                {
+                    different.Add(point);
+                }
             }
             this.points = different.ToArray();
             reached = new float[different.Count];
-            for (int i = 1; i < reached.Length; i++) { reached[i] = reached[i - 1] + Vector3.Distance(different[i - 1], different[i]); }
+            for (int i = 1; i < reached.Length; i++)
+            {
+                reached[i] = reached[i - 1] + Vector3.Distance(different[i - 1], different[i]);
+            }
         }
 
         /// <summary>Points between which the way is straight.</summary>
@@ -40,7 +46,8 @@ namespace Garage.Unity
             get { return reached[reached.Length - 1]; }
         }
 
-        /// <summary>The place after so many metres, and which way the path leads there; the ends for what lies outside.</summary>
+        /// <summary>The place after so many metres, and which way the path leads there; the ends for what lies
+        /// outside.</summary>
         public Vector3 At(float metres, out Vector3 direction)
         {
             if (points.Length == 1)

@@ -9,8 +9,9 @@ namespace Garage.Unity
     sealed class LightBuilder
     {
         /// <summary>
-        /// Outer and inner angle of a spot that shines straight ahead as strongly as a flat panel and with as many lumens. Its strength falls off as
-        /// ((cos a - cos o) / (cos i - cos o))^2 between the halves i and o of the angles, and to have pi lumens a candela cos i must be 3/4 - cos o / 2.
+        /// Outer and inner angle of a spot that shines straight ahead as strongly as a flat panel and with as many
+        /// lumens. Its strength falls off as ((cos a - cos o) / (cos i - cos o))^2 between the halves i and o of the
+        /// angles, and to have pi lumens a candela cos i must be 3/4 - cos o / 2.
         /// </summary>
         const float PanelAngle = 160;
 
@@ -42,15 +43,23 @@ namespace Garage.Unity
             return light.Kind != LightKind.Dome && (isInfinite || settings.lightMode != LightMode.EmissiveOnly);
         }
 
-        /// <summary>Puts the light of a prim on an object that it may turn, so that the light shines where the prim's does.</summary>
+        /// <summary>Puts the light of a prim on an object that it may turn, so that the light shines where the prim's
+        /// does.</summary>
         public void Add(GameObject holder, SceneNode node)
         {
             LightData data = node.Light;
-            holder.AddComponent<UsdLight>().Set(data, basis.MetersPerUnit, node.Prim.Number("garage:light:luminance", 0));
-            if (data.Kind == LightKind.Dome) { report.Add("dome lights are left out: the sky belongs to the scene", node.Prim.Path); }
+            holder.AddComponent<UsdLight>().Set(data, basis.MetersPerUnit,
+                node.Prim.Number("garage:light:luminance", 0));
+            if (data.Kind == LightKind.Dome)
+            {
+                report.Add("dome lights are left out: the sky belongs to the scene", node.Prim.Path);
+            }
             if (!Makes(data)) { return; }
             // USD's -Z is Unity's +Z where Y is up, and -Y where Z is
-            if (basis.IsZUp) { holder.transform.localRotation = holder.transform.localRotation * Quaternion.Euler(90, 0, 0); }
+            if (basis.IsZUp)
+            {
+                holder.transform.localRotation = holder.transform.localRotation * Quaternion.Euler(90, 0, 0);
+            }
             Light light = holder.AddComponent<Light>();
             light.shadows = settings.lightShadows ? LightShadows.Soft : LightShadows.None;
             float strength = Shape(light, data, node.Prim.Path);
@@ -68,17 +77,23 @@ namespace Garage.Unity
             }
             bool isPanel = data.Kind == LightKind.Rect || data.Kind == LightKind.Disk;
             bool isRound = data.Kind == LightKind.Disk;
-            Vector2 size = isRound ? new Vector2((float)(data.Radius * metres), 0) : new Vector2((float)(data.Width * metres), (float)(data.Height * metres));
+            Vector2 size = isRound ? new Vector2((float)(data.Radius * metres), 0)
+                : new Vector2((float)(data.Width * metres), (float)(data.Height * metres));
             light.range = Range(data);
-            if (settings.lightMode == LightMode.BakedRectangle && isPanel && EditorOnly.MakeBaked(light, isRound ? LightType.Disc : LightType.Rectangle, size))
+            if (settings.lightMode == LightMode.BakedRectangle && isPanel
+                && EditorOnly.MakeBaked(light, isRound ? LightType.Disc : LightType.Rectangle, size))
             {
                 return (float)data.Luminance(metres) * factor;
             }
             bool isShaped = data.ConeAngleDegrees < PanelAngle / 2;
             light.type = isPanel || isShaped ? LightType.Spot : LightType.Point;
             light.spotAngle = isShaped ? Mathf.Max(1, 2 * (float)data.ConeAngleDegrees) : PanelAngle;
-            light.innerSpotAngle = isShaped ? light.spotAngle * (1 - Mathf.Clamp01((float)data.ConeSoftness)) : PanelInnerAngle;
-            if (data.Kind == LightKind.Cylinder) { report.Add("cylinder lights shine as points, as strongly as across their axes", path); }
+            light.innerSpotAngle = isShaped ? light.spotAngle * (1 - Mathf.Clamp01((float)data.ConeSoftness))
+                : PanelInnerAngle;
+            if (data.Kind == LightKind.Cylinder)
+            {
+                report.Add("cylinder lights shine as points, as strongly as across their axes", path);
+            }
             return (float)data.Candela(metres) * factor;
         }
 
@@ -115,18 +130,24 @@ namespace Garage.Unity
             light.intensity = strength;
         }
 
-        /// <summary>The glowing surface of a panel, where nothing else beside it glows; null for other lights.</summary>
+        /// <summary>The glowing surface of a panel, where nothing else beside it glows; null for other
+        /// lights.</summary>
         public static MeshArrays Panel(LightData light)
         {
             if (light.Kind != LightKind.Rect && light.Kind != LightKind.Disk) { return null; }
             int count = light.Kind == LightKind.Rect ? 4 : 32;
-            var arrays = new MeshArrays { Name = light.Kind.ToString(), Points = new float[3 * count], Normals = new float[3 * count] };
+            var arrays = new MeshArrays
+            {
+                Name = light.Kind.ToString(), Points = new float[3 * count], Normals = new float[3 * count],
+            };
             for (int i = 0; i < count; i++)
             {
                 double angle = 2 * Math.PI * i / count;
                 bool isRound = count > 4;
-                arrays.Points[3 * i] = (float)(isRound ? light.Radius * Math.Cos(angle) : (i == 1 || i == 2 ? 0.5 : -0.5) * light.Width);
-                arrays.Points[3 * i + 1] = (float)(isRound ? light.Radius * Math.Sin(angle) : (i >= 2 ? 0.5 : -0.5) * light.Height);
+                arrays.Points[3 * i] = (float)(isRound ? light.Radius * Math.Cos(angle)
+                    : (i == 1 || i == 2 ? 0.5 : -0.5) * light.Width);
+                arrays.Points[3 * i + 1] = (float)(isRound ? light.Radius * Math.Sin(angle)
+                    : (i >= 2 ? 0.5 : -0.5) * light.Height);
                 arrays.Normals[3 * i + 2] = -1;
             }
             var triangles = new int[3 * (count - 2)];
@@ -144,7 +165,8 @@ namespace Garage.Unity
         {
             SurfaceData surface = SurfaceData.OfColor(new float[3]);
             float luminance = (float)light.Luminance(basis.MetersPerUnit);
-            surface.Emission = new Color(light.Color[0] * luminance, light.Color[1] * luminance, light.Color[2] * luminance);
+            surface.Emission = new Color(light.Color[0] * luminance, light.Color[1] * luminance,
+                light.Color[2] * luminance);
             return surface;
         }
     }

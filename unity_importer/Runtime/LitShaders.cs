@@ -24,16 +24,19 @@ namespace Garage.Unity
         public static LitShader Of(PipelineKind kind)
         {
             if (kind == PipelineKind.Automatic) { kind = InUse(); }
-            return kind == PipelineKind.HighDefinition ? new HighDefinitionLit() : kind == PipelineKind.Universal ? (LitShader)new UniversalLit() : new BuiltInLit();
+            if (kind == PipelineKind.HighDefinition) { return new HighDefinitionLit(); }
+            return kind == PipelineKind.Universal ? (LitShader)new UniversalLit() : new BuiltInLit();
         }
 
-        /// <summary>The project's pipeline, told by the type of its asset, so that no pipeline's package is needed to compile.</summary>
+        /// <summary>The project's pipeline, told by the type of its asset, so that no pipeline's package is needed to
+        /// compile.</summary>
         public static PipelineKind InUse()
         {
             RenderPipelineAsset asset = GraphicsSettings.currentRenderPipeline;
             string type = asset == null ? "" : asset.GetType().Name;
             return type.StartsWith("HDRenderPipeline", StringComparison.Ordinal) ? PipelineKind.HighDefinition
-                : type.StartsWith("UniversalRenderPipeline", StringComparison.Ordinal) ? PipelineKind.Universal : PipelineKind.BuiltIn;
+                : type.StartsWith("UniversalRenderPipeline", StringComparison.Ordinal) ? PipelineKind.Universal
+                : PipelineKind.BuiltIn;
         }
 
         /// <summary>Writes the surface into a new material of this shader; the emission times a factor.</summary>
@@ -125,7 +128,10 @@ namespace Garage.Unity
             // as the shader's inspector counts: 1 cutout, 2 fade, 3 transparent
             material.SetFloat("_Mode", (float)surface.Opacity);
             if (surface.Opacity == Opacity.Cutout) { material.SetFloat("_Cutoff", surface.Cutoff); }
-            else { material.EnableKeyword(surface.Opacity == Opacity.Fade ? "_ALPHABLEND_ON" : "_ALPHAPREMULTIPLY_ON"); }
+            else
+            {
+                material.EnableKeyword(surface.Opacity == Opacity.Fade ? "_ALPHABLEND_ON" : "_ALPHAPREMULTIPLY_ON");
+            }
         }
     }
 
@@ -172,7 +178,10 @@ namespace Garage.Unity
             bool isGlass = surface.Opacity == Opacity.Transparent;
             if (isGlass) { material.EnableKeyword("_ALPHAPREMULTIPLY_ON"); }
             // of later versions
-            if (material.HasProperty("_BlendModePreserveSpecular")) { material.SetFloat("_BlendModePreserveSpecular", isGlass ? 1 : 0); }
+            if (material.HasProperty("_BlendModePreserveSpecular"))
+            {
+                material.SetFloat("_BlendModePreserveSpecular", isGlass ? 1 : 0);
+            }
             if (!material.HasProperty("_DstBlendAlpha")) { return; }
             material.SetFloat("_SrcBlendAlpha", (float)BlendMode.One);
             material.SetFloat("_DstBlendAlpha", (float)BlendMode.OneMinusSrcAlpha);

@@ -25,7 +25,8 @@ namespace Garage.Unity
         readonly Dictionary<string, Material> byKey = new Dictionary<string, Material>();
         Shader shader;
 
-        public MaterialAssets(SceneModel scene, ImportSettings settings, ImportReport report, Action<string, UnityEngine.Object> store)
+        public MaterialAssets(SceneModel scene, ImportSettings settings, ImportReport report,
+            Action<string, UnityEngine.Object> store)
         {
             this.scene = scene;
             this.report = report;
@@ -50,7 +51,10 @@ namespace Garage.Unity
             if (!surfaces.TryGetValue(key, out surface))
             {
                 surface = data == null ? SurfaceData.OfColor(color) : SurfaceData.Of(data, report);
-                if (data == null && path != null) { report.Add("materials without a UsdPreviewSurface are grey", path); }
+                if (data == null && path != null)
+                {
+                    report.Add("materials without a UsdPreviewSurface are grey", path);
+                }
                 if (surface.Clearcoat > 0 && !lit.HasClearcoat) { report.Add(lit.Name + " shows no clearcoat", path); }
                 surfaces.Add(key, surface);
             }
@@ -63,7 +67,8 @@ namespace Garage.Unity
             return scene.Material(path) != null && Surface(path, null).Glows;
         }
 
-        /// <summary>The Material of a surface. Throws InvalidOperationException where the pipeline's shader is not in the build.</summary>
+        /// <summary>The Material of a surface. Throws InvalidOperationException where the pipeline's shader is not in
+        /// the build.</summary>
         public Material Of(SurfaceData surface, string name)
         {
             Material material;
@@ -86,7 +91,8 @@ namespace Garage.Unity
             var material = new Material(shader) { enableInstancing = isInstanced };
             var maps = new SurfaceMaps
             {
-                Base = textures.Base(surface.BaseTexture, surface.Alpha), Mask = textures.Mask(surface.Metallic, surface.Occlusion, surface.Roughness),
+                Base = textures.Base(surface.BaseTexture, surface.Alpha),
+                Mask = textures.Mask(surface.Metallic, surface.Occlusion, surface.Roughness),
                 Normal = surface.NormalTexture == null ? null : textures.Normals(surface.NormalTexture),
                 Emission = surface.EmissionTexture == null ? null : textures.Colors(surface.EmissionTexture),
             };
@@ -99,8 +105,13 @@ namespace Garage.Unity
             Shader found = Shader.Find(lit.Name);
             if (found != null) { return found; }
             var reference = Resources.Load<Material>(ReferencePath);
-            if (reference != null && reference.shader != null && reference.shader.name == lit.Name) { return reference.shader; }
-            throw new InvalidOperationException("The shader " + lit.Name + " is not in this build: make reference materials (Tools > Garage), or add it to the shaders that are always included.");
+            if (reference != null && reference.shader != null && reference.shader.name == lit.Name)
+            {
+                return reference.shader;
+            }
+            throw new InvalidOperationException("The shader " + lit.Name
+                + " is not in this build: make reference materials (Tools > Garage), or add it to the shaders that are"
+                + " always included.");
         }
     }
 }

@@ -27,9 +27,16 @@ namespace Garage.Unity
 
         public static MeshArrays Of(TriangleMesh mesh, string coordinates)
         {
-            var arrays = new MeshArrays { Points = mesh.Points, Normals = mesh.Normals, Colors = mesh.Colors, IsDoubleSided = mesh.IsDoubleSided };
+            var arrays = new MeshArrays
+            {
+                Points = mesh.Points, Normals = mesh.Normals, Colors = mesh.Colors, IsDoubleSided = mesh.IsDoubleSided,
+            };
             foreach (SubMesh part in mesh.SubMeshes) { arrays.Triangles.Add(part.Triangles); }
-            if (mesh.TextureCoordinates.TryGetValue(coordinates, out arrays.Coordinates) || mesh.TextureCoordinates.TryGetValue("st", out arrays.Coordinates)) { return arrays; }
+            if (mesh.TextureCoordinates.TryGetValue(coordinates, out arrays.Coordinates)
+                || mesh.TextureCoordinates.TryGetValue("st", out arrays.Coordinates))
+            {
+                return arrays;
+            }
             foreach (float[] first in mesh.TextureCoordinates.Values)
             {
                 arrays.Coordinates = first;
@@ -56,7 +63,8 @@ namespace Garage.Unity
 
         public bool Equals(MeshArrays other)
         {
-            bool same = IsDoubleSided == other.IsDoubleSided && Triangles.Count == other.Triangles.Count && Same(Points, other.Points)
+            bool same = IsDoubleSided == other.IsDoubleSided && Triangles.Count == other.Triangles.Count
+                && Same(Points, other.Points)
                 && Same(Normals, other.Normals) && Same(Coordinates, other.Coordinates) && Same(Colors, other.Colors);
             for (int i = 0; same && i < Triangles.Count; i++) { same = Same(Triangles[i], other.Triangles[i]); }
             return same;
@@ -80,8 +88,12 @@ namespace Garage.Unity
         readonly Basis basis;
         readonly bool unwraps;
         readonly Action<string, UnityEngine.Object> store;
-        readonly Dictionary<KeyValuePair<object, string>, Mesh> bySource = new Dictionary<KeyValuePair<object, string>, Mesh>();
-        readonly Dictionary<long, List<KeyValuePair<MeshArrays, Mesh>>> byDigest = new Dictionary<long, List<KeyValuePair<MeshArrays, Mesh>>>();
+        readonly Dictionary<KeyValuePair<object, string>, Mesh> bySource =
+            new Dictionary<KeyValuePair<object, string>, Mesh>();
+
+        readonly Dictionary<long, List<KeyValuePair<MeshArrays, Mesh>>> byDigest =
+            new Dictionary<long, List<KeyValuePair<MeshArrays, Mesh>>>();
+
 
         public MeshAssets(Basis basis, bool unwraps, Action<string, UnityEngine.Object> store)
         {
@@ -127,7 +139,8 @@ namespace Garage.Unity
         Mesh Make(MeshArrays arrays)
         {
             int count = arrays.Points.Length / 3, all = arrays.IsDoubleSided ? 2 * count : count;
-            var mesh = new Mesh { name = arrays.Name, indexFormat = all > 65535 ? IndexFormat.UInt32 : IndexFormat.UInt16 };
+            IndexFormat format = all > 65535 ? IndexFormat.UInt32 : IndexFormat.UInt16;
+            var mesh = new Mesh { name = arrays.Name, indexFormat = format };
             mesh.vertices = Vectors(arrays.Points, all, true, 1);
             mesh.normals = Vectors(arrays.Normals, all, false, -1);
             if (arrays.Coordinates != null)
@@ -152,7 +165,10 @@ namespace Garage.Unity
                 mesh.colors = colors;
             }
             mesh.subMeshCount = arrays.Triangles.Count;
-            for (int part = 0; part < arrays.Triangles.Count; part++) { mesh.SetTriangles(Wound(arrays.Triangles[part], arrays.IsDoubleSided ? count : 0), part); }
+            for (int part = 0; part < arrays.Triangles.Count; part++)
+            {
+                mesh.SetTriangles(Wound(arrays.Triangles[part], arrays.IsDoubleSided ? count : 0), part);
+            }
             if (arrays.Coordinates != null) { mesh.RecalculateTangents(); }
             if (unwraps) { EditorOnly.Unwrap(mesh); }
             return mesh;
@@ -164,7 +180,10 @@ namespace Garage.Unity
             float[] turned = basis.Vectors(numbers, withUnits);
             int count = turned.Length / 3;
             var vectors = new Vector3[all];
-            for (int i = 0; i < count; i++) { vectors[i] = new Vector3(turned[3 * i], turned[3 * i + 1], turned[3 * i + 2]); }
+            for (int i = 0; i < count; i++)
+            {
+                vectors[i] = new Vector3(turned[3 * i], turned[3 * i + 1], turned[3 * i + 2]);
+            }
             for (int i = count; i < all; i++) { vectors[i] = vectors[i - count] * sign; }
             return vectors;
         }
@@ -179,7 +198,10 @@ namespace Garage.Unity
                 wound[i + 1] = triangles[i + 2];
                 wound[i + 2] = triangles[i + 1];
             }
-            for (int i = triangles.Length; i < wound.Length; i++) { wound[i] = triangles[i - triangles.Length] + backs; }
+            for (int i = triangles.Length; i < wound.Length; i++)
+            {
+                wound[i] = triangles[i - triangles.Length] + backs;
+            }
             return wound;
         }
     }

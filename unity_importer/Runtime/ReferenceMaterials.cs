@@ -4,15 +4,20 @@ using UnityEngine;
 
 namespace Garage.Unity
 {
-    /// <summary>Materials with every set of keywords that surfaces get, so that a build does not leave their variants out.</summary>
+    /// <summary>Materials with every set of keywords that surfaces get, so that a build does not leave their variants
+    /// out.</summary>
     static class ReferenceMaterials
     {
-        /// <summary>One for each set; the first one is called "Lit". Throws InvalidOperationException without the pipeline's shader.</summary>
+        /// <summary>One for each set; the first one is called "Lit". Throws InvalidOperationException without the
+        /// pipeline's shader.</summary>
         public static List<Material> Make(PipelineKind pipeline)
         {
             LitShader lit = LitShader.Of(pipeline);
             Shader shader = Shader.Find(lit.Name);
-            if (shader == null) { throw new InvalidOperationException("The shader " + lit.Name + " is not in this project."); }
+            if (shader == null)
+            {
+                throw new InvalidOperationException("The shader " + lit.Name + " is not in this project.");
+            }
             var made = new List<Material>();
             var seen = new HashSet<string>();
             // a map only has to be there: what it holds makes no variant
@@ -23,7 +28,11 @@ namespace Garage.Unity
                 surface.Opacity = (Opacity)(kind & 3);
                 surface.Emission = (kind & 4) != 0 ? Color.white : Color.black;
                 surface.Clearcoat = (kind & 8) != 0 ? 1 : 0;
-                var maps = new SurfaceMaps { Normal = (kind & 16) != 0 ? map : null, Mask = (kind & 32) != 0 ? map : null, Emission = (kind & 64) != 0 ? map : null };
+                var maps = new SurfaceMaps
+                {
+                    Normal = (kind & 16) != 0 ? map : null, Mask = (kind & 32) != 0 ? map : null,
+                    Emission = (kind & 64) != 0 ? map : null,
+                };
                 var material = new Material(shader) { enableInstancing = true };
                 lit.Write(material, surface, maps, 1);
                 string[] keywords = material.shaderKeywords;

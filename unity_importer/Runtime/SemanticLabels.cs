@@ -26,7 +26,8 @@ namespace Garage.Unity
         [SerializeField] Taxonomy[] taxonomies = new Taxonomy[0];
         [SerializeField] int instanceId;
 
-        /// <summary>1 for the first labelled object of the prefab, then one more for each; as the table of labels says where there was one.</summary>
+        /// <summary>1 for the first labelled object of the prefab, then one more for each; as the table of labels says
+        /// where there was one.</summary>
         public int InstanceId
         {
             get { return instanceId; }
@@ -69,7 +70,10 @@ namespace Garage.Unity
         {
             taxonomies = new Taxonomy[labels.Count];
             int count = 0;
-            foreach (KeyValuePair<string, string[]> one in labels) { taxonomies[count++] = new Taxonomy { name = one.Key, labels = one.Value }; }
+            foreach (KeyValuePair<string, string[]> one in labels)
+            {
+                taxonomies[count++] = new Taxonomy { name = one.Key, labels = one.Value };
+            }
         }
     }
 }

@@ -4,7 +4,8 @@ using Garage.Usd;
 
 namespace Garage.Unity
 {
-    /// <summary>Meshes of the shapes that USD knows without points: Cube, Sphere, Cylinder, Capsule, Cone and Plane.</summary>
+    /// <summary>Meshes of the shapes that USD knows without points: Cube, Sphere, Cylinder, Capsule, Cone and
+    /// Plane.</summary>
     static class ShapeMeshes
     {
         const int Sides = 32;
@@ -18,8 +19,11 @@ namespace Garage.Unity
             {
                 case "Cube": Box(faces, shape.Size / 2); break;
                 case "Plane": Rectangle(faces, shape.Width / 2, shape.Length / 2); break;
-                case "Cylinder": Turned(faces, new[] { new[] { 0, -half, r, -half }, new[] { r, -half, r, half }, new[] { r, half, 0, half } }); break;
-                case "Cone": Turned(faces, new[] { new[] { 0, -half, r, -half }, new[] { r, -half, 0, half } }); break;
+                case "Cylinder":
+                    Turned(faces, new[] { 0, -half, r, -half }, new[] { r, -half, r, half },
+                        new[] { r, half, 0, half });
+                    break;
+                case "Cone": Turned(faces, new[] { 0, -half, r, -half }, new[] { r, -half, 0, half }); break;
                 case "Sphere": Round(faces, r, 0); break;
                 default: Round(faces, r, half); break;
             }
@@ -60,11 +64,12 @@ namespace Garage.Unity
         }
 
         // lines (radius, height, radius, height) turned about z, from below to above, with an edge between each two
-        static void Turned(Faces faces, double[][] lines)
+        static void Turned(Faces faces, params double[][] lines)
         {
             foreach (double[] line in lines)
             {
-                double across = line[3] - line[1], along = line[0] - line[2], length = Math.Sqrt(across * across + along * along);
+                double across = line[3] - line[1], along = line[0] - line[2],
+                    length = Math.Sqrt(across * across + along * along);
                 int start = faces.Count;
                 for (int side = 0; side <= Sides; side++)
                 {
@@ -88,12 +93,14 @@ namespace Garage.Unity
             for (int ring = 0; ring <= 2 * Rings + 1; ring++)
             {
                 bool above = ring > Rings;
-                double latitude = (ring - (above ? Rings + 1 : Rings)) * Math.PI / (2 * Rings), z = Math.Sin(latitude), r = Math.Cos(latitude);
+                double latitude = (ring - (above ? Rings + 1 : Rings)) * Math.PI / (2 * Rings);
+                double z = Math.Sin(latitude), r = Math.Cos(latitude);
                 for (int side = 0; side <= Sides; side++)
                 {
                     double angle = 2 * Math.PI * side / Sides;
                     var normal = new[] { r * Math.Cos(angle), r * Math.Sin(angle), z };
-                    faces.Add(new[] { radius * normal[0], radius * normal[1], radius * z + (above ? half : -half) }, normal);
+                    double height = radius * z + (above ? half : -half);
+                    faces.Add(new[] { radius * normal[0], radius * normal[1], height }, normal);
                 }
             }
             for (int ring = 0; ring <= 2 * Rings; ring++)
@@ -140,7 +147,8 @@ namespace Garage.Unity
 
             public MeshArrays Arrays(string name, char axis)
             {
-                var arrays = new MeshArrays { Name = name, Points = Turned(points, axis), Normals = Turned(normals, axis) };
+                float[] turned = Turned(points, axis);
+                var arrays = new MeshArrays { Name = name, Points = turned, Normals = Turned(normals, axis) };
                 arrays.Triangles.Add(triangles.ToArray());
                 return arrays;
             }

@@ -43,10 +43,12 @@ namespace Garage.Unity
         const int MillisecondsPerFrame = 8;
 
         /// <summary>
-        /// Loads a .usda, .usdc or .usdz, which may refer to files in its folder and below, under a parent or none. Call it on the main thread.
-        /// Throws UsdFormatException for what cannot be read, InvalidOperationException without the pipeline's shader, OperationCanceledException.
+        /// Loads a .usda, .usdc or .usdz, which may refer to files in its folder and below, under a parent or none.
+        /// Call it on the main thread. Throws UsdFormatException for what cannot be read, InvalidOperationException
+        /// without the pipeline's shader, OperationCanceledException.
         /// </summary>
-        public static Task<LoadedStage> LoadAsync(string path, ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
+        public static Task<LoadedStage> LoadAsync(string path, ImportSettings settings, Transform parent,
+            IProgress<float> progress, CancellationToken cancel)
         {
             string full = Path.GetFullPath(path), name = Path.GetFileNameWithoutExtension(full);
             var files = new FolderResolver(Path.GetDirectoryName(full));
@@ -59,13 +61,15 @@ namespace Garage.Unity
         }
 
         /// <summary>The same for a .usdz that is in memory, such as one that was downloaded.</summary>
-        public static Task<LoadedStage> LoadAsync(byte[] package, string name, ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
+        public static Task<LoadedStage> LoadAsync(byte[] package, string name, ImportSettings settings,
+            Transform parent, IProgress<float> progress, CancellationToken cancel)
         {
-            return MakeAsync(() => StageReader.Whole(UsdStage.OpenPackage(package, name + ".usdz")), () => null, name, settings, parent, progress, cancel);
+            return MakeAsync(() => StageReader.Whole(UsdStage.OpenPackage(package, name + ".usdz")), () => null, name,
+                settings, parent, progress, cancel);
         }
 
-        static async Task<LoadedStage> MakeAsync(Func<SceneModel> read, Func<LabelTable> labels, string name, ImportSettings settings, Transform parent,
-            IProgress<float> progress, CancellationToken cancel)
+        static async Task<LoadedStage> MakeAsync(Func<SceneModel> read, Func<LabelTable> labels, string name,
+            ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
         {
 #if UNITY_WEBGL && !UNITY_EDITOR
             // the web has no threads

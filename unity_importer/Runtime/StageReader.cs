@@ -7,7 +7,8 @@ namespace Garage.Unity
     /// <summary>Reads stages without touching an object of Unity's, so that any thread may do it.</summary>
     static class StageReader
     {
-        /// <summary>The scene of a file of the resolver's folder, with all that it holds read. Throws UsdFormatException.</summary>
+        /// <summary>The scene of a file of the resolver's folder, with all that it holds read. Throws
+        /// UsdFormatException.</summary>
         public static SceneModel Read(IAssetResolver files, string name)
         {
             string reason;
@@ -16,7 +17,8 @@ namespace Garage.Unity
             return Whole(UsdStage.Open(files.Read(identifier), identifier, files));
         }
 
-        /// <summary>The table that stands beside a stage as "NAME_labels.json"; null where there is none. Throws UsdFormatException.</summary>
+        /// <summary>The table that stands beside a stage as "NAME_labels.json"; null where there is none. Throws
+        /// UsdFormatException.</summary>
         public static LabelTable Labels(IAssetResolver files, string name)
         {
             string file = name + "_labels.json", reason, identifier = files.Resolve("", file, out reason);

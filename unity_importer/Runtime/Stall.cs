@@ -2,7 +2,8 @@ using UnityEngine;
 
 namespace Garage.Unity
 {
-    /// <summary>A parking stall. Its object stands in its middle and looks as a car does that is parked nose-in.</summary>
+    /// <summary>A parking stall. Its object stands in its middle and looks as a car does that is parked
+    /// nose-in.</summary>
     [DisallowMultipleComponent]
     [AddComponentMenu("Garage/Stall")]
     public sealed class Stall : MonoBehaviour
@@ -64,7 +65,8 @@ namespace Garage.Unity
             get { return use != "turning" && use != "access_aisle"; }
         }
 
-        /// <summary>0 mouth left, 1 mouth right, 2 rear right, 3 rear left, as the stage has them; metres in the world.</summary>
+        /// <summary>0 mouth left, 1 mouth right, 2 rear right, 3 rear left, as the stage has them; metres in the
+        /// world.</summary>
         public Vector3 Corner(int index)
         {
             return transform.TransformPoint(corners[index]);
@@ -73,7 +75,11 @@ namespace Garage.Unity
         /// <summary>The middle between the corners, in the world.</summary>
         public Vector3 Centre
         {
-            get { return corners.Length == 4 ? (Corner(0) + Corner(1) + Corner(2) + Corner(3)) * 0.25f : transform.position; }
+            get
+            {
+                return corners.Length == 4 ? (Corner(0) + Corner(1) + Corner(2) + Corner(3)) * 0.25f
+                    : transform.position;
+            }
         }
 
         /// <summary>The middle of the side that cars come through, in the world.</summary>
@@ -82,7 +88,8 @@ namespace Garage.Unity
             get { return corners.Length == 4 ? (Corner(0) + Corner(1)) * 0.5f : transform.position; }
         }
 
-        internal void Set(string ownId, string paintedNumber, string ownType, string ownUse, string edge, Vector2Int ownSquare)
+        internal void Set(string ownId, string paintedNumber, string ownType, string ownUse, string edge,
+            Vector2Int ownSquare)
         {
             id = ownId;
             number = paintedNumber;

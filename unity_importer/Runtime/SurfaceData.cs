@@ -59,7 +59,8 @@ namespace Garage.Unity
         {
             return new SurfaceData
             {
-                BaseColor = new Color(color[0], color[1], color[2]), Alpha = new SurfaceNumber { Value = 1 }, Roughness = new SurfaceNumber { Value = 0.5f },
+                BaseColor = new Color(color[0], color[1], color[2]), Alpha = new SurfaceNumber { Value = 1 },
+                Roughness = new SurfaceNumber { Value = 0.5f },
                 Occlusion = new SurfaceNumber { Value = 1 },
             };
         }
@@ -68,8 +69,10 @@ namespace Garage.Unity
         {
             var surface = new SurfaceData
             {
-                Alpha = NumberOf(data, "opacity"), Metallic = NumberOf(data, "metallic"), Roughness = NumberOf(data, "roughness"),
-                Occlusion = NumberOf(data, "occlusion"), Clearcoat = data.Value("clearcoat")[0], Cutoff = data.Value("opacityThreshold")[0],
+                Alpha = NumberOf(data, "opacity"), Metallic = NumberOf(data, "metallic"),
+                Roughness = NumberOf(data, "roughness"),
+                Occlusion = NumberOf(data, "occlusion"), Clearcoat = data.Value("clearcoat")[0],
+                Cutoff = data.Value("opacityThreshold")[0],
                 NormalTexture = Found(data.Texture("normal")),
             };
             surface.BaseTexture = ColorOf(data, "diffuseColor", out surface.BaseColor, report);
@@ -77,14 +80,22 @@ namespace Garage.Unity
             bool isSolid = surface.Alpha.Texture == null && surface.Alpha.Value >= 1;
             MaterialInput mode;
             bool isPresence = data.Inputs.TryGetValue("opacityMode", out mode) && mode.Text == "presence";
-            surface.Opacity = isSolid ? Opacity.Opaque : surface.Cutoff > 0 ? Opacity.Cutout : isPresence ? Opacity.Fade : Opacity.Transparent;
+            surface.Opacity = isSolid ? Opacity.Opaque : surface.Cutoff > 0 ? Opacity.Cutout
+                : isPresence ? Opacity.Fade : Opacity.Transparent;
             surface.FindCoordinates(data, report);
-            if (data.Value("useSpecularWorkflow")[0] > 0) { report.Add("the specular workflow is shown as the metallic one", data.Path); }
+            if (data.Value("useSpecularWorkflow")[0] > 0)
+            {
+                report.Add("the specular workflow is shown as the metallic one", data.Path);
+            }
             if (data.Texture("clearcoat") != null) { report.Add("textures of clearcoats are left out", data.Path); }
             if (data.Texture("displacement") != null) { report.Add("displacement is left out", data.Path); }
             foreach (KeyValuePair<string, MaterialInput> input in data.Inputs)
             {
-                if (input.Value.Primvar != null) { report.Add("materials do not read primvars but for texture coordinates", data.Path + "." + input.Key); }
+                if (input.Value.Primvar != null)
+                {
+                    report.Add("materials do not read primvars but for texture coordinates", data.Path + "."
+                        + input.Key);
+                }
             }
             return surface;
         }
@@ -121,7 +132,8 @@ namespace Garage.Unity
         void FindCoordinates(MaterialData data, ImportReport report)
         {
             TextureData first = null;
-            foreach (string input in new[] { "diffuseColor", "normal", "roughness", "metallic", "occlusion", "opacity", "emissiveColor" })
+            foreach (string input in new[] { "diffuseColor", "normal", "roughness", "metallic", "occlusion", "opacity",
+                "emissiveColor" })
             {
                 TextureData texture = Found(data.Texture(input));
                 if (texture == null) { continue; }
@@ -130,18 +142,27 @@ namespace Garage.Unity
                     first = texture;
                     continue;
                 }
-                bool same = first.Primvar == texture.Primvar && first.CoordinateRotationDegrees == texture.CoordinateRotationDegrees;
+                bool same = first.Primvar == texture.Primvar
+                    && first.CoordinateRotationDegrees == texture.CoordinateRotationDegrees;
                 for (int k = 0; k < 2; k++)
                 {
-                    same &= first.CoordinateScale[k] == texture.CoordinateScale[k] && first.CoordinateTranslation[k] == texture.CoordinateTranslation[k];
+                    same &= first.CoordinateScale[k] == texture.CoordinateScale[k]
+                        && first.CoordinateTranslation[k] == texture.CoordinateTranslation[k];
                 }
-                if (!same) { report.Add("all textures of a material use the coordinates of its first one", data.Path + "." + input); }
+                if (!same)
+                {
+                    report.Add("all textures of a material use the coordinates of its first one", data.Path + "."
+                        + input);
+                }
             }
             if (first == null) { return; }
             Coordinates = first.Primvar;
             CoordinateScale = new Vector2(first.CoordinateScale[0], first.CoordinateScale[1]);
             CoordinateOffset = new Vector2(first.CoordinateTranslation[0], first.CoordinateTranslation[1]);
-            if (first.CoordinateRotationDegrees != 0) { report.Add("the rotation of texture coordinates is left out", data.Path); }
+            if (first.CoordinateRotationDegrees != 0)
+            {
+                report.Add("the rotation of texture coordinates is left out", data.Path);
+            }
         }
 
         /// <summary>The same text for surfaces that look the same.</summary>
@@ -150,7 +171,8 @@ namespace Garage.Unity
             var key = new StringBuilder();
             foreach (float number in new[]
             {
-                BaseColor.r, BaseColor.g, BaseColor.b, Emission.r, Emission.g, Emission.b, Clearcoat, Cutoff, (float)Opacity, CoordinateScale.x, CoordinateScale.y,
+                BaseColor.r, BaseColor.g, BaseColor.b, Emission.r, Emission.g, Emission.b, Clearcoat, Cutoff,
+                (float)Opacity, CoordinateScale.x, CoordinateScale.y,
                 CoordinateOffset.x, CoordinateOffset.y,
             })
             {
@@ -158,18 +180,27 @@ namespace Garage.Unity
             }
             foreach (SurfaceNumber number in new[] { Alpha, Metallic, Roughness, Occlusion })
             {
-                key.Append(number.Value.ToString("R", CultureInfo.InvariantCulture)).Append(' ').Append(KeyOf(number.Texture)).Append(' ');
+                key.Append(number.Value.ToString("R", CultureInfo.InvariantCulture)).Append(' ');
+                key.Append(KeyOf(number.Texture)).Append(' ');
             }
-            return key.Append(Coordinates).Append(' ').Append(KeyOf(BaseTexture)).Append(' ').Append(KeyOf(NormalTexture)).Append(' ').Append(KeyOf(EmissionTexture)).ToString();
+            string[] rest = { Coordinates, KeyOf(BaseTexture), KeyOf(NormalTexture), KeyOf(EmissionTexture) };
+            return key.Append(string.Join(" ", rest)).ToString();
         }
 
         /// <summary>The same text for textures that are read the same way.</summary>
         public static string KeyOf(TextureData texture)
         {
             if (texture == null) { return "-"; }
-            var key = new StringBuilder(texture.Identifier + "|" + texture.Channel + "|" + texture.WrapS + "|" + texture.WrapT + "|" + texture.SourceColorSpace);
-            foreach (float number in texture.Scale) { key.Append('|').Append(number.ToString("R", CultureInfo.InvariantCulture)); }
-            foreach (float number in texture.Bias) { key.Append('|').Append(number.ToString("R", CultureInfo.InvariantCulture)); }
+            var key = new StringBuilder(texture.Identifier + "|" + texture.Channel + "|" + texture.WrapS + "|"
+                + texture.WrapT + "|" + texture.SourceColorSpace);
+            foreach (float number in texture.Scale)
+            {
+                key.Append('|').Append(number.ToString("R", CultureInfo.InvariantCulture));
+            }
+            foreach (float number in texture.Bias)
+            {
+                key.Append('|').Append(number.ToString("R", CultureInfo.InvariantCulture));
+            }
             return key.ToString();
         }
     }

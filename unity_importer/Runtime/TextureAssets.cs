@@ -23,7 +23,8 @@ namespace Garage.Unity
             public Color32[] Values;
         }
 
-        public TextureAssets(UsdStage stage, bool compresses, ImportReport report, Action<string, UnityEngine.Object> store)
+        public TextureAssets(UsdStage stage, bool compresses, ImportReport report,
+            Action<string, UnityEngine.Object> store)
         {
             this.stage = stage;
             this.compresses = compresses;
@@ -31,11 +32,13 @@ namespace Garage.Unity
             this.store = store;
         }
 
-        /// <summary>Colors; with the alpha where that comes of a texture. Null where both are constant or no image can be read.</summary>
+        /// <summary>Colors; with the alpha where that comes of a texture. Null where both are constant or no image can
+        /// be read.</summary>
         public Texture2D Base(TextureData color, SurfaceNumber alpha)
         {
             bool isOneFile = alpha.Texture == null
-                || (color != null && alpha.Texture.Identifier == color.Identifier && alpha.Texture.Channel == "a" && alpha.Texture.Scale[3] == 1 && alpha.Texture.Bias[3] == 0);
+                || (color != null && alpha.Texture.Identifier == color.Identifier && alpha.Texture.Channel == "a"
+                && alpha.Texture.Scale[3] == 1 && alpha.Texture.Bias[3] == 0);
             if (isOneFile) { return color == null ? null : Colors(color); }
             return Made("base " + SurfaceData.KeyOf(color) + " " + SurfaceData.KeyOf(alpha.Texture), () =>
             {
@@ -69,7 +72,10 @@ namespace Garage.Unity
                 isUsual &= texture.Scale[k] == 2 && texture.Bias[k] == -1;
                 isBare &= texture.Scale[k] == 1 && texture.Bias[k] == 0;
             }
-            if (isBare) { report.Add("maps of normals without scale and bias are taken to hold (n + 1) / 2", texture.AssetPath); }
+            if (isBare)
+            {
+                report.Add("maps of normals without scale and bias are taken to hold (n + 1) / 2", texture.AssetPath);
+            }
             if (isUsual || isBare) { return Made("normal " + FileKey(texture), () => Loaded(texture, true)); }
             return Made("normal " + SurfaceData.KeyOf(texture), () =>
             {
@@ -79,7 +85,8 @@ namespace Garage.Unity
                 for (int i = 0; i < values.Length; i++)
                 {
                     Color32 value = pixels.Values[i];
-                    values[i] = new Color32(Packed(value.r, texture, 0), Packed(value.g, texture, 1), Packed(value.b, texture, 2), 255);
+                    values[i] = new Color32(Packed(value.r, texture, 0), Packed(value.g, texture, 1),
+                        Packed(value.b, texture, 2), 255);
                 }
                 return Written(pixels, values, texture, true);
             });
@@ -91,7 +98,8 @@ namespace Garage.Unity
         }
 
         /// <summary>
-        /// Metallic, occlusion, 0 and smoothness in red, green, blue and alpha, as all three pipelines read them; null where all are constant.
+        /// Metallic, occlusion, 0 and smoothness in red, green, blue and alpha, as all three pipelines read them; null
+        /// where all are constant.
         /// </summary>
         public Texture2D Mask(SurfaceNumber metallic, SurfaceNumber occlusion, SurfaceNumber roughness)
         {
@@ -101,7 +109,9 @@ namespace Garage.Unity
             foreach (SurfaceNumber number in numbers)
             {
                 any = any ?? number.Texture;
-                key += " " + (number.Texture == null ? number.Value.ToString("R", System.Globalization.CultureInfo.InvariantCulture) : SurfaceData.KeyOf(number.Texture));
+                key += " " + (number.Texture == null
+                    ? number.Value.ToString("R", System.Globalization.CultureInfo.InvariantCulture)
+                    : SurfaceData.KeyOf(number.Texture));
             }
             if (any == null) { return null; }
             return Made(key, () =>
@@ -113,14 +123,19 @@ namespace Garage.Unity
                 {
                     sources[i] = numbers[i].Texture == null ? null : Read(numbers[i].Texture);
                     levels[i] = sources[i] == null ? null : Levels(numbers[i]);
-                    if (sources[i] != null && (size == null || sources[i].Width * sources[i].Height > size.Width * size.Height)) { size = sources[i]; }
+                    if (sources[i] != null
+                        && (size == null || sources[i].Width * sources[i].Height > size.Width * size.Height))
+                    {
+                        size = sources[i];
+                    }
                 }
                 if (size == null) { return null; }
                 var values = new Color32[size.Width * size.Height];
                 for (int i = 0; i < values.Length; i++)
                 {
                     float r = Value(numbers[2], sources[2], levels[2], size, i);
-                    values[i] = new Color32(Byte(Value(numbers[0], sources[0], levels[0], size, i)), Byte(Value(numbers[1], sources[1], levels[1], size, i)), 0, Byte(1 - r));
+                    values[i] = new Color32(Byte(Value(numbers[0], sources[0], levels[0], size, i)),
+                        Byte(Value(numbers[1], sources[1], levels[1], size, i)), 0, Byte(1 - r));
                 }
                 return Written(size, values, any, true);
             });
@@ -159,7 +174,8 @@ namespace Garage.Unity
         static Color32 At(Pixels source, Pixels size, int place)
         {
             if (source.Width == size.Width && source.Height == size.Height) { return source.Values[place]; }
-            int x = place % size.Width * source.Width / size.Width, y = place / size.Width * source.Height / size.Height;
+            int x = place % size.Width * source.Width / size.Width;
+            int y = place / size.Width * source.Height / size.Height;
             return source.Values[y * source.Width + x];
         }
 
@@ -209,7 +225,8 @@ namespace Garage.Unity
                 Texture2D texture = Decoded(source, true);
                 if (texture != null)
                 {
-                    pixels = new Pixels { Width = texture.width, Height = texture.height, Values = texture.GetPixels32() };
+                    Color32[] values = texture.GetPixels32();
+                    pixels = new Pixels { Width = texture.width, Height = texture.height, Values = values };
                     UnityEngine.Object.DestroyImmediate(texture);
                 }
                 read.Add(source.Identifier, pixels);
@@ -240,7 +257,8 @@ namespace Garage.Unity
         TextureWrapMode Wrap(string mode, string path)
         {
             if (mode == "black") { report.Add("textures are clamped where they should be black outside", path); }
-            return mode == "clamp" || mode == "black" ? TextureWrapMode.Clamp : mode == "mirror" ? TextureWrapMode.Mirror : TextureWrapMode.Repeat;
+            if (mode == "mirror") { return TextureWrapMode.Mirror; }
+            return mode == "clamp" || mode == "black" ? TextureWrapMode.Clamp : TextureWrapMode.Repeat;
         }
     }
 }

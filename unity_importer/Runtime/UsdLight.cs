@@ -57,7 +57,8 @@ namespace Garage.Unity
         /// <summary>On a surface that faces a distant light, in units of the stage.</summary>
         public float lux;
 
-        /// <summary>What garage:light:luminance says: the true candela a square metre; 0 where it is not said.</summary>
+        /// <summary>What garage:light:luminance says: the true candela a square metre; 0 where it is not
+        /// said.</summary>
         public float statedLuminance;
 
         /// <summary>Fills this from a prim's light.</summary>

@@ -4,7 +4,8 @@ using UnityEngine;
 namespace Garage.Unity.Samples
 {
     /// <summary>
-    /// Drives its object, such as a camera, from an entrance to stalls drawn at random, one after the other, and out of an exit; then all over
+    /// Drives its object, such as a camera, from an entrance to stalls drawn at random, one after the other, and out of
+    /// an exit; then all over
     /// again. Give it the garage in the scene.
     /// </summary>
     [AddComponentMenu("Garage/Samples/Drive Along Lanes")]
@@ -40,13 +41,17 @@ namespace Garage.Unity.Samples
             SetOut(garage);
         }
 
-        /// <summary>Begins a round through a garage. Throws MissingReferenceException where that has no lane graph.</summary>
+        /// <summary>Begins a round through a garage. Throws MissingReferenceException where that has no lane
+        /// graph.</summary>
         public void SetOut(GameObject through)
         {
             garage = through;
             random = random ?? new System.Random(seed);
             LaneGraph graph = garage == null ? null : garage.GetComponentInChildren<LaneGraph>();
-            if (graph == null) { throw new MissingReferenceException("Give DriveAlongLanes a garage with a lane graph."); }
+            if (graph == null)
+            {
+                throw new MissingReferenceException("Give DriveAlongLanes a garage with a lane graph.");
+            }
             path = Round(graph);
             driven = 0;
             Place();
@@ -95,7 +100,10 @@ namespace Garage.Unity.Samples
             Vector3 direction, up = Vector3.up * eyeHeight;
             Vector3 here = path.At(driven, out direction), ahead = path.At(driven + lookAhead, out direction);
             transform.position = here + up;
-            if ((ahead - here).sqrMagnitude > 0.01f) { transform.rotation = Quaternion.LookRotation(ahead - here, Vector3.up); }
+            if ((ahead - here).sqrMagnitude > 0.01f)
+            {
+                transform.rotation = Quaternion.LookRotation(ahead - here, Vector3.up);
+            }
         }
     }
 }

@@ -16,10 +16,15 @@ namespace Garage.Unity.Tests
             holder.transform.localPosition = new Vector3(0, 0, 100);
             graph = holder.AddComponent<LaneGraph>();
             var nodes = new LaneNode[4];
-            for (int i = 0; i < 4; i++) { nodes[i] = new LaneNode { position = new Vector3(i == 1 || i == 2 ? 10 : 0, 0, i >= 2 ? 10 : 0), kind = i == 0 ? "entrance" : "straight" }; }
+            for (int i = 0; i < 4; i++)
+            {
+                nodes[i] = new LaneNode { position = new Vector3(i == 1 || i == 2 ? 10 : 0, 0, i >= 2 ? 10 : 0),
+                    kind = i == 0 ? "entrance" : "straight" };
+            }
             var edges = new[]
             {
-                new LaneEdge { from = 0, to = 1, length = 10, isOneWay = true }, new LaneEdge { from = 1, to = 2, length = 10 }, new LaneEdge { from = 2, to = 3, length = 10 },
+                new LaneEdge { from = 0, to = 1, length = 10, isOneWay = true },
+                    new LaneEdge { from = 1, to = 2, length = 10 }, new LaneEdge { from = 2, to = 3, length = 10 },
                 new LaneEdge { from = 3, to = 0, length = 10 },
             };
             graph.Set(nodes, edges, new Stall[0]);

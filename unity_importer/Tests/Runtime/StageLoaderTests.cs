@@ -66,7 +66,8 @@ def Xform ""Hall"" (
         public IEnumerator Objects_stand_below_the_parent_and_collide()
         {
             var parent = new GameObject("Parent");
-            Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), parent.transform, null, CancellationToken.None);
+            Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), parent.transform, null,
+                CancellationToken.None);
             yield return Until(task);
             LoadedStage loaded = task.GetAwaiter().GetResult();
             Assert.AreSame(parent.transform, loaded.Root.transform.parent);
@@ -89,7 +90,8 @@ def Xform ""Hall"" (
         public IEnumerator A_stage_that_cannot_be_read_fails_with_its_reason()
         {
             File.WriteAllText(path, "#usda 1.0\ndef \"A\" {");
-            Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), null, null, CancellationToken.None);
+            Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), null, null,
+                CancellationToken.None);
             yield return Until(task);
             Assert.IsTrue(task.IsFaulted);
             Assert.IsTrue(task.Exception.GetBaseException() is Garage.Usd.UsdFormatException);
@@ -102,7 +104,8 @@ def Xform ""Hall"" (
             using (var cancel = new CancellationTokenSource())
             {
                 cancel.Cancel();
-                Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), parent.transform, null, cancel.Token);
+                Task<LoadedStage> task = StageLoader.LoadAsync(path, new ImportSettings(), parent.transform, null,
+                    cancel.Token);
                 yield return Until(task);
                 Assert.IsTrue(task.IsCanceled);
             }

@@ -7,8 +7,10 @@ using System.Text;
 namespace Garage.Unity.Members
 {
     /// <summary>
-    /// Prints which members of an assembly others use, a line each: kind, type, name, result and parameters, separated by tabs. Usage: MemberList
-    /// USED.dll USER.dll ... It reads the compiled code, so that nothing that is called is missed; constants of enumerations are not in it.
+    /// Prints which members of an assembly others use, a line each: kind, type, name, result and parameters, separated
+    /// by tabs. Usage: MemberList
+    /// USED.dll USER.dll ... It reads the compiled code, so that nothing that is called is missed; constants of
+    /// enumerations are not in it.
     /// </summary>
     static class Program
     {
@@ -16,11 +18,14 @@ namespace Garage.Unity.Members
         static readonly SortedSet<string> Found = new SortedSet<string>(StringComparer.Ordinal);
         static readonly Dictionary<Type, string> Short = new Dictionary<Type, string>
         {
-            { typeof(void), "void" }, { typeof(bool), "bool" }, { typeof(byte), "byte" }, { typeof(int), "int" }, { typeof(uint), "uint" }, { typeof(long), "long" },
-            { typeof(ulong), "ulong" }, { typeof(float), "float" }, { typeof(double), "double" }, { typeof(string), "string" }, { typeof(object), "object" },
+            { typeof(void), "void" }, { typeof(bool), "bool" }, { typeof(byte), "byte" }, { typeof(int), "int" },
+                { typeof(uint), "uint" }, { typeof(long), "long" },
+            { typeof(ulong), "ulong" }, { typeof(float), "float" }, { typeof(double), "double" },
+                { typeof(string), "string" }, { typeof(object), "object" },
         };
 
-        const BindingFlags All = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
+        const BindingFlags All = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public
+            | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
         static Assembly used;
 
         static int Main(string[] arguments)
@@ -33,7 +38,10 @@ namespace Garage.Unity.Members
             foreach (Type type in used.GetExportedTypes())
             {
                 if (!type.IsEnum) { continue; }
-                foreach (string name in Enum.GetNames(type)) { Note("enum", type, name, Convert.ToInt64(Enum.Parse(type, name)).ToString()); }
+                foreach (string name in Enum.GetNames(type))
+                {
+                    Note("enum", type, name, Convert.ToInt64(Enum.Parse(type, name)).ToString());
+                }
             }
             foreach (string line in Found) { Console.WriteLine(line); }
             return 0;
@@ -59,16 +67,23 @@ namespace Garage.Unity.Members
                 Note(field.FieldType);
                 Attributes(field.GetCustomAttributesData());
             }
-            foreach (PropertyInfo property in type.GetProperties(All)) { Attributes(property.GetCustomAttributesData()); }
+            foreach (PropertyInfo property in type.GetProperties(All))
+            {
+                Attributes(property.GetCustomAttributesData());
+            }
             foreach (MethodInfo method in type.GetMethods(All))
             {
                 Note(method.ReturnType);
                 Attributes(method.GetCustomAttributesData());
                 MethodInfo first = method.GetBaseDefinition();
                 if (first != method) { Note(first); }
-                Body(method, type.IsGenericType ? type.GetGenericArguments() : null, method.IsGenericMethod ? method.GetGenericArguments() : null);
+                Body(method, type.IsGenericType ? type.GetGenericArguments() : null, method.IsGenericMethod
+                    ? method.GetGenericArguments() : null);
             }
-            foreach (ConstructorInfo constructor in type.GetConstructors(All)) { Body(constructor, type.IsGenericType ? type.GetGenericArguments() : null, null); }
+            foreach (ConstructorInfo constructor in type.GetConstructors(All))
+            {
+                Body(constructor, type.IsGenericType ? type.GetGenericArguments() : null, null);
+            }
         }
 
         static void Attributes(IEnumerable<CustomAttributeData> attributes)
@@ -90,7 +105,8 @@ namespace Garage.Unity.Members
                 OpCode operation = Codes[value];
                 switch (operation.OperandType)
                 {
-                    case OperandType.InlineMethod: case OperandType.InlineField: case OperandType.InlineType: case OperandType.InlineTok:
+                    case OperandType.InlineMethod: case OperandType.InlineField:
+                    case OperandType.InlineType: case OperandType.InlineTok:
                         Note(method.Module.ResolveMember(BitConverter.ToInt32(code, at), ofType, ofMethod));
                         break;
                     case OperandType.InlineSwitch: at += 4 * BitConverter.ToInt32(code, at); break;
@@ -104,7 +120,8 @@ namespace Garage.Unity.Members
             switch (type)
             {
                 case OperandType.InlineNone: return 0;
-                case OperandType.ShortInlineBrTarget: case OperandType.ShortInlineI: case OperandType.ShortInlineVar: return 1;
+                case OperandType.ShortInlineBrTarget: case OperandType.ShortInlineI: return 1;
+                case OperandType.ShortInlineVar: return 1;
                 case OperandType.InlineVar: return 2;
                 case OperandType.InlineI8: case OperandType.InlineR: return 8;
                 default: return 4;
@@ -134,22 +151,28 @@ namespace Garage.Unity.Members
             var info = method as MethodInfo;
             if (info != null && info.IsGenericMethod) { method = info = info.GetGenericMethodDefinition(); }
             ParameterInfo[] parameters = method.GetParameters();
-            bool isAccessor = method.IsSpecialName && (method.Name.StartsWith("get_", StringComparison.Ordinal) || method.Name.StartsWith("set_", StringComparison.Ordinal));
+            bool isAccessor = method.IsSpecialName
+                && (method.Name.StartsWith("get_", StringComparison.Ordinal)
+                || method.Name.StartsWith("set_", StringComparison.Ordinal));
             if (isAccessor)
             {
-                string value = Name(method.Name[0] == 'g' ? info.ReturnType : parameters[parameters.Length - 1].ParameterType);
-                Note(method.Name.Substring(0, 3), owner, method.Name.Substring(4), (method.IsStatic ? "static " : "") + value);
+                string value = Name(method.Name[0] == 'g' ? info.ReturnType
+                    : parameters[parameters.Length - 1].ParameterType);
+                Note(method.Name.Substring(0, 3), owner, method.Name.Substring(4), (method.IsStatic ? "static " : "")
+                    + value);
                 return;
             }
             var text = new StringBuilder();
-            text.Append(method.IsStatic && !method.IsConstructor ? "static " : "").Append(info == null ? "" : Name(info.ReturnType));
+            text.Append(method.IsStatic && !method.IsConstructor ? "static " : "").Append(info == null ? ""
+                : Name(info.ReturnType));
             foreach (ParameterInfo parameter in parameters) { text.Append('\t').Append(Name(parameter.ParameterType)); }
             Note(method.IsConstructor ? "constructor" : "method", owner, method.Name, text.ToString());
         }
 
         static void Note(string kind, Type type, string name, string rest)
         {
-            Found.Add(kind + "\t" + type.Namespace + "\t" + (type.IsNested ? type.DeclaringType.Name + "." : "") + type.Name + "\t" + name + "\t" + rest);
+            Found.Add(kind + "\t" + type.Namespace + "\t" + (type.IsNested ? type.DeclaringType.Name + "." : "")
+                + type.Name + "\t" + name + "\t" + rest);
         }
 
         // as sources write it, without namespaces

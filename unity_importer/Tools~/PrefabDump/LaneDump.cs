@@ -116,7 +116,8 @@ namespace Garage.Unity.Dump
             for (int i = 0; i + 2 < numbers.Length; i += 3)
             {
                 LanePoint point;
-                graph.NearestLane(new Vector3(Parsed(numbers[i]), Parsed(numbers[i + 1]), Parsed(numbers[i + 2])), out point);
+                graph.NearestLane(new Vector3(Parsed(numbers[i]), Parsed(numbers[i + 1]), Parsed(numbers[i + 2])),
+                    out point);
                 json.Open('{');
                 Number(json, "edge", point.Edge);
                 Number(json, "fraction", point.Fraction);

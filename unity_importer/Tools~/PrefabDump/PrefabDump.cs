@@ -106,7 +106,10 @@ namespace Garage.Unity.Dump
         string NameOf(UnityEngine.Object asset)
         {
             if (asset == null) { return null; }
-            if (!names.ContainsKey(asset)) { throw new InvalidOperationException(asset + " is used and no part of the asset"); }
+            if (!names.ContainsKey(asset))
+            {
+                throw new InvalidOperationException(asset + " is used and no part of the asset");
+            }
             return names[asset];
         }
 
@@ -114,14 +117,18 @@ namespace Garage.Unity.Dump
         {
             json.Open('{');
             string path = made.name;
-            for (Transform above = made.transform.parent; above != null; above = above.parent) { path = above.name + "/" + path; }
+            for (Transform above = made.transform.parent; above != null; above = above.parent)
+            {
+                path = above.name + "/" + path;
+            }
             Text("path", path);
             Truth("active", made.activeSelf);
             Truth("shown", made.activeInHierarchy);
             Number("static", made.staticFlags);
             Matrix4x4 m = made.transform.localToWorldMatrix;
             // row by row, a column vector from the right
-            Numbers("world", new[] { m.m00, m.m01, m.m02, m.m03, m.m10, m.m11, m.m12, m.m13, m.m20, m.m21, m.m22, m.m23 });
+            Numbers("world", new[] { m.m00, m.m01, m.m02, m.m03, m.m10, m.m11, m.m12, m.m13, m.m20, m.m21, m.m22,
+                m.m23 });
             Quaternion turn = made.transform.localRotation;
             Numbers("turn", new[] { turn.x, turn.y, turn.z, turn.w });
             MeshFilter filter = made.GetComponent<MeshFilter>();
@@ -191,7 +198,10 @@ namespace Garage.Unity.Dump
             Stall stall = made.GetComponent<Stall>();
             if (stall != null) { Stall(stall); }
             ImportedStage stage = made.GetComponent<ImportedStage>();
-            if (stage != null) { Numbers("stage", new[] { stage.MetersPerUnit, stage.UpAxis == "Z" ? 1 : 0, stage.LeftOutCount }); }
+            if (stage != null)
+            {
+                Numbers("stage", new[] { stage.MetersPerUnit, stage.UpAxis == "Z" ? 1 : 0, stage.LeftOutCount });
+            }
         }
 
         void Collider(Collider collider)
@@ -281,7 +291,10 @@ namespace Garage.Unity.Dump
             if (mesh != null) { Mesh(mesh); }
             if (material != null) { Material(material); }
             if (texture != null) { Texture(texture); }
-            if (friction != null) { Numbers("friction", new[] { friction.staticFriction, friction.dynamicFriction, friction.bounciness }); }
+            if (friction != null)
+            {
+                Numbers("friction", new[] { friction.staticFriction, friction.dynamicFriction, friction.bounciness });
+            }
         }
 
         void Mesh(Mesh mesh)
@@ -346,7 +359,10 @@ namespace Garage.Unity.Dump
             json.Close('}');
             json.Key("colors");
             json.Open('{');
-            foreach (KeyValuePair<string, Color> one in material.colors) { Numbers(one.Key, new[] { one.Value.r, one.Value.g, one.Value.b, one.Value.a }); }
+            foreach (KeyValuePair<string, Color> one in material.colors)
+            {
+                Numbers(one.Key, new[] { one.Value.r, one.Value.g, one.Value.b, one.Value.a });
+            }
             json.Close('}');
             json.Key("textures");
             json.Open('{');

@@ -26,9 +26,12 @@ namespace Garage.Unity.Dump
     }
 
     /// <summary>
-    /// Imports a stage on fakes of Unity's classes and prints what it became as a line of JSON. <c>prefab FILE [SETTING=VALUE ...]</c> all of it,
-    /// <c>time FILE COUNT</c> what it costs, <c>load FILE</c> what the loader of players makes, <c>ways FILE FROM TO ...</c> ways between
-    /// stalls, <c>near FILE X Y Z ...</c> the nearest lanes, <c>drive FILE COUNT</c> where the sample is at so many tenths of a second; <c>batch</c> takes such commands from lines of the standard input, parts separated
+    /// Imports a stage on fakes of Unity's classes and prints what it became as a line of JSON. <c>prefab FILE
+    /// [SETTING=VALUE ...]</c> all of it,
+    /// <c>time FILE COUNT</c> what it costs, <c>load FILE</c> what the loader of players makes, <c>ways FILE FROM TO
+    /// ...</c> ways between
+    /// stalls, <c>near FILE X Y Z ...</c> the nearest lanes, <c>drive FILE COUNT</c> where the sample is at so many
+    /// tenths of a second; <c>batch</c> takes such commands from lines of the standard input, parts separated
     /// by tabs.
     /// </summary>
     static class Program
@@ -49,7 +52,8 @@ namespace Garage.Unity.Dump
             }
             if (arguments.Length < 2)
             {
-                Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | batch");
+                Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE"
+                    + " | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -96,7 +100,8 @@ namespace Garage.Unity.Dump
         {
             string folder = Path.GetDirectoryName(file);
             Directory.SetCurrentDirectory(Path.GetDirectoryName(folder));
-            var context = new AssetImportContext { assetPath = Path.GetFileName(folder) + "/" + Path.GetFileName(file) };
+            var context = new AssetImportContext { assetPath = Path.GetFileName(folder) + "/"
+                + Path.GetFileName(file) };
             importer = new UsdImporter();
             Apply(settings, importer.Settings);
             importer.OnImportAsset(context);
@@ -124,14 +129,17 @@ namespace Garage.Unity.Dump
                 string name = pair.Substring(0, equals), value = pair.Substring(equals + 1);
                 switch (name)
                 {
-                    case "project": GraphicsSettings.inUse = value == "URP" ? new UniversalRenderPipelineAsset() : (RenderPipelineAsset)new HDRenderPipelineAsset(); break;
+                    case "project": GraphicsSettings.inUse = value == "URP" ? new UniversalRenderPipelineAsset()
+                        : (RenderPipelineAsset)new HDRenderPipelineAsset(); break;
                     case "curved": GraphicsSettings.lightsUseLinearIntensity = false; break;
                     case "gamma": QualitySettings.inUse = ColorSpace.Gamma; break;
                     case "cancel": EditorUtility.looksToCancel = int.Parse(value); break;
                     default:
                         FieldInfo field = typeof(ImportSettings).GetField(name);
-                        object parsed = field.FieldType.IsEnum ? Enum.Parse(field.FieldType, value) : field.FieldType == typeof(string[]) ? value.Split(',')
-                            : Convert.ChangeType(value, field.FieldType, System.Globalization.CultureInfo.InvariantCulture);
+                        object parsed = field.FieldType.IsEnum ? Enum.Parse(field.FieldType, value)
+                            : field.FieldType == typeof(string[]) ? value.Split(',')
+                            : Convert.ChangeType(value, field.FieldType,
+                            System.Globalization.CultureInfo.InvariantCulture);
                         field.SetValue(settings, parsed);
                         break;
                 }
@@ -171,7 +179,8 @@ namespace Garage.Unity.Dump
             return new List<string>(EditorGUILayout.drawn);
         }
 
-        /// <summary>Seconds of the processor for each of several imports: reading and composing, then making the prefab.</summary>
+        /// <summary>Seconds of the processor for each of several imports: reading and composing, then making the
+        /// prefab.</summary>
         static string Times(string file, int count)
         {
             var json = new JsonText();
@@ -236,8 +245,10 @@ namespace Garage.Unity.Dump
                 try
                 {
                     LoadedStage loaded = file.EndsWith(".usdz", StringComparison.Ordinal)
-                        ? StageLoader.LoadAsync(File.ReadAllBytes(file), Path.GetFileNameWithoutExtension(file), options, parent.transform, steps, cancel.Token).GetAwaiter().GetResult()
-                        : StageLoader.LoadAsync(file, options, parent.transform, steps, cancel.Token).GetAwaiter().GetResult();
+                        ? StageLoader.LoadAsync(File.ReadAllBytes(file), Path.GetFileNameWithoutExtension(file),
+                        options, parent.transform, steps, cancel.Token).GetAwaiter().GetResult()
+                        : StageLoader.LoadAsync(file, options, parent.transform, steps,
+                        cancel.Token).GetAwaiter().GetResult();
                     Number(json, "objects", loaded.Root.GetComponentsInChildren<Transform>(true).Length);
                     Number(json, "renderers", parent.GetComponentsInChildren<MeshRenderer>().Length);
                     Number(json, "steps", steps.Seen.Count);

@@ -9,7 +9,8 @@ using UnityEngine.TestTools;
 
 namespace Garage.Unity.TestRun
 {
-    /// <summary>Runs the tests of assemblies, written for Unity's test runner, on the fakes: TestRun PROJECT TESTS.dll ... A line each.</summary>
+    /// <summary>Runs the tests of assemblies, written for Unity's test runner, on the fakes: TestRun PROJECT TESTS.dll
+    /// ... A line each.</summary>
     static class Program
     {
         static int Main(string[] arguments)

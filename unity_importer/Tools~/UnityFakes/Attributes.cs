@@ -70,7 +70,8 @@ namespace UnityEngine
     public class Resources
     {
         /// <summary>What a test puts there, by its path.</summary>
-        internal static readonly System.Collections.Generic.Dictionary<string, Object> stored = new System.Collections.Generic.Dictionary<string, Object>();
+        internal static readonly System.Collections.Generic.Dictionary<string,
+            Object> stored = new System.Collections.Generic.Dictionary<string, Object>();
 
         public static T Load<T>(string path) where T : Object
         {

@@ -29,7 +29,8 @@ namespace UnityEngine
 namespace UnityEditor
 {
     [Flags]
-    public enum StaticEditorFlags { ContributeGI = 1, OccluderStatic = 2, BatchingStatic = 4, OccludeeStatic = 16, ReflectionProbeStatic = 64 }
+    public enum StaticEditorFlags { ContributeGI = 1, OccluderStatic = 2, BatchingStatic = 4, OccludeeStatic = 16,
+        ReflectionProbeStatic = 64 }
 
     public sealed class GameObjectUtility
     {
@@ -50,7 +51,10 @@ namespace UnityEditor
         {
             var coordinates = new Vector2[src.vertexCount];
             int side = (int)Math.Ceiling(Math.Sqrt(src.vertexCount));
-            for (int i = 0; i < coordinates.Length; i++) { coordinates[i] = new Vector2((i % side + 0.5f) / side, (i / side + 0.5f) / side); }
+            for (int i = 0; i < coordinates.Length; i++)
+            {
+                coordinates[i] = new Vector2((i % side + 0.5f) / side, (i / side + 0.5f) / side);
+            }
             src.uv2 = coordinates;
 #if UNITY_6000_0_OR_NEWER
             return true;
@@ -142,7 +146,12 @@ namespace UnityEditor
                 {
                     object[] marks = type.GetCustomAttributes(typeof(AssetImporters.ScriptedImporterAttribute), false);
                     string extension = System.IO.Path.GetExtension(path).TrimStart('.');
-                    if (marks.Length == 0 || Array.IndexOf(((AssetImporters.ScriptedImporterAttribute)marks[0]).fileExtensions, extension) < 0) { continue; }
+                    if (marks.Length == 0
+                        || Array.IndexOf(((AssetImporters.ScriptedImporterAttribute)marks[0]).fileExtensions,
+                        extension) < 0)
+                    {
+                        continue;
+                    }
                     var context = new AssetImporters.AssetImportContext { assetPath = path };
                     ((AssetImporters.ScriptedImporter)Activator.CreateInstance(type)).OnImportAsset(context);
                     assets[path] = context.mainObject;
@@ -219,7 +228,8 @@ namespace UnityEditor
 
         internal static SerializedProperty Find(object holder, string name, string path)
         {
-            FieldInfo field = holder.GetType().GetField(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+            FieldInfo field = holder.GetType().GetField(name, BindingFlags.Instance | BindingFlags.Public
+                | BindingFlags.NonPublic);
             bool isSerialised = field != null && (field.IsPublic || field.IsDefined(typeof(SerializeField), false));
             return isSerialised ? new SerializedProperty { value = field.GetValue(holder), path = path } : null;
         }
@@ -264,7 +274,8 @@ namespace UnityEditor
             drawn.Add("# " + label);
         }
 
-        public static bool PropertyField(SerializedProperty property, bool includeChildren, params GUILayoutOption[] options)
+        public static bool PropertyField(SerializedProperty property, bool includeChildren,
+            params GUILayoutOption[] options)
         {
             drawn.Add(property.path);
             return false;
@@ -287,14 +298,18 @@ namespace UnityEditor.AssetImporters
     public class AssetImportContext
     {
         internal readonly Dictionary<string, Object> objects = new Dictionary<string, Object>();
-        internal readonly List<string> warnings = new List<string>(), errors = new List<string>(), sources = new List<string>(), dependencies = new List<string>();
+        internal readonly List<string> warnings = new List<string>(), errors = new List<string>(),
+            sources = new List<string>(), dependencies = new List<string>();
 
         public string assetPath { get; internal set; }
         public Object mainObject { get; private set; }
 
         public void AddObjectToAsset(string identifier, Object obj)
         {
-            if (obj == null || string.IsNullOrEmpty(identifier)) { throw new ArgumentException("an asset needs an object and an identifier"); }
+            if (obj == null || string.IsNullOrEmpty(identifier))
+            {
+                throw new ArgumentException("an asset needs an object and an identifier");
+            }
             objects.Add(identifier, obj);
         }
 
@@ -306,7 +321,10 @@ namespace UnityEditor.AssetImporters
 
         public void DependsOnSourceAsset(string path)
         {
-            if (path.IndexOf('\\') >= 0 || path.StartsWith("/", StringComparison.Ordinal)) { throw new ArgumentException(path + " is no path of the project"); }
+            if (path.IndexOf('\\') >= 0 || path.StartsWith("/", StringComparison.Ordinal))
+            {
+                throw new ArgumentException(path + " is no path of the project");
+            }
             sources.Add(path);
         }
 

@@ -10,10 +10,12 @@ namespace UnityEngine.Rendering
 
     public enum BlendMode
     {
-        Zero, One, DstColor, SrcColor, OneMinusDstColor, SrcAlpha, OneMinusSrcColor, DstAlpha, OneMinusDstAlpha, SrcAlphaSaturate, OneMinusSrcAlpha,
+        Zero, One, DstColor, SrcColor, OneMinusDstColor, SrcAlpha, OneMinusSrcColor, DstAlpha, OneMinusDstAlpha,
+            SrcAlphaSaturate, OneMinusSrcAlpha,
     }
 
-    public enum RenderQueue { Background = 1000, Geometry = 2000, AlphaTest = 2450, GeometryLast = 2500, Transparent = 3000, Overlay = 4000 }
+    public enum RenderQueue { Background = 1000, Geometry = 2000, AlphaTest = 2450, GeometryLast = 2500,
+        Transparent = 3000, Overlay = 4000 }
 
     public abstract class RenderPipelineAsset : ScriptableObject
     {
@@ -97,7 +99,10 @@ namespace UnityEngine
 
         T[] Fitting<T>(T[] values)
         {
-            if (values.Length != 0 && values.Length != points.Length) { throw new ArgumentException(values.Length + " values for " + points.Length + " vertices"); }
+            if (values.Length != 0 && values.Length != points.Length)
+            {
+                throw new ArgumentException(values.Length + " values for " + points.Length + " vertices");
+            }
             return (T[])values.Clone();
         }
 
@@ -131,10 +136,16 @@ namespace UnityEngine
         {
             if ((uint)submesh >= (uint)parts.Length) { throw new ArgumentException("there is no submesh " + submesh); }
             if (triangles.Length % 3 != 0) { throw new ArgumentException("triangles need three indices each"); }
-            if (indexFormat == IndexFormat.UInt16 && points.Length > 65535) { throw new ArgumentException("more vertices than 16 bits can tell"); }
+            if (indexFormat == IndexFormat.UInt16 && points.Length > 65535)
+            {
+                throw new ArgumentException("more vertices than 16 bits can tell");
+            }
             foreach (int index in triangles)
             {
-                if ((uint)index >= (uint)points.Length) { throw new ArgumentException("an index of a triangle is not that of a vertex"); }
+                if ((uint)index >= (uint)points.Length)
+                {
+                    throw new ArgumentException("an index of a triangle is not that of a vertex");
+                }
             }
             parts[submesh] = (int[])triangles.Clone();
             RecalculateBounds();
@@ -160,7 +171,8 @@ namespace UnityEngine
             bounds = new Bounds((low + high) * 0.5f, high - low);
         }
 
-        /// <summary>Along the first texture coordinate; w is -1 where the second one runs against the cross product.</summary>
+        /// <summary>Along the first texture coordinate; w is -1 where the second one runs against the cross
+        /// product.</summary>
         public void RecalculateTangents()
         {
             if (first.Length == 0 || directions.Length == 0) { return; }
@@ -172,7 +184,8 @@ namespace UnityEngine
                 {
                     int a = part[i], b = part[i + 1], c = part[i + 2];
                     Vector3 p = points[b] - points[a], q = points[c] - points[a];
-                    float s = first[b].x - first[a].x, t = first[b].y - first[a].y, u = first[c].x - first[a].x, v = first[c].y - first[a].y;
+                    float s = first[b].x - first[a].x, t = first[b].y - first[a].y, u = first[c].x - first[a].x,
+                        v = first[c].y - first[a].y;
                     float area = s * v - u * t;
                     if (area == 0) { continue; }
                     Vector3 one = (p * v - q * t) / area, other = (q * s - p * u) / area;
@@ -186,8 +199,10 @@ namespace UnityEngine
             sideways = new Vector4[points.Length];
             for (int i = 0; i < points.Length; i++)
             {
-                Vector3 normal = directions[i], tangent = (along[i] - normal * Vector3.Dot(normal, along[i])).normalized;
-                sideways[i] = new Vector4(tangent.x, tangent.y, tangent.z, Vector3.Dot(Vector3.Cross(normal, tangent), across[i]) < 0 ? -1 : 1);
+                Vector3 normal = directions[i],
+                    tangent = (along[i] - normal * Vector3.Dot(normal, along[i])).normalized;
+                sideways[i] = new Vector4(tangent.x, tangent.y, tangent.z,
+                    Vector3.Dot(Vector3.Cross(normal, tangent), across[i]) < 0 ? -1 : 1);
             }
         }
     }
@@ -260,7 +275,10 @@ namespace UnityEngine
 
         public void SetPixels32(Color32[] colors)
         {
-            if (colors.Length != width * height) { throw new ArgumentException(colors.Length + " pixels for " + width + " x " + height); }
+            if (colors.Length != width * height)
+            {
+                throw new ArgumentException(colors.Length + " pixels for " + width + " x " + height);
+            }
             pixels = (Color32[])colors.Clone();
             file = null;
         }
@@ -272,7 +290,10 @@ namespace UnityEngine
 
         public void Compress(bool highQuality)
         {
-            if (width % 4 != 0 || height % 4 != 0) { throw new InvalidOperationException("only textures of whole blocks of 4 x 4 can be compressed"); }
+            if (width % 4 != 0 || height % 4 != 0)
+            {
+                throw new InvalidOperationException("only textures of whole blocks of 4 x 4 can be compressed");
+            }
             isCompressed = true;
             format = format == TextureFormat.RGB24 ? TextureFormat.DXT1 : TextureFormat.DXT5;
         }
@@ -318,7 +339,8 @@ namespace UnityEngine
     }
 
     [Flags]
-    public enum MaterialGlobalIlluminationFlags { None = 0, RealtimeEmissive = 1, BakedEmissive = 2, EmissiveIsBlack = 4, AnyEmissive = 3 }
+    public enum MaterialGlobalIlluminationFlags { None = 0, RealtimeEmissive = 1, BakedEmissive = 2,
+        EmissiveIsBlack = 4, AnyEmissive = 3 }
 
     /// <summary>Refuses properties that its shader does not have.</summary>
     public class Material : Object
@@ -326,7 +348,8 @@ namespace UnityEngine
         internal readonly Dictionary<string, float> floats = new Dictionary<string, float>();
         internal readonly Dictionary<string, Color> colors = new Dictionary<string, Color>();
         internal readonly Dictionary<string, Texture> textures = new Dictionary<string, Texture>();
-        internal readonly Dictionary<string, Vector2> scales = new Dictionary<string, Vector2>(), offsets = new Dictionary<string, Vector2>();
+        internal readonly Dictionary<string, Vector2> scales = new Dictionary<string, Vector2>(),
+            offsets = new Dictionary<string, Vector2>();
         internal readonly Dictionary<string, string> tags = new Dictionary<string, string>();
         internal readonly SortedSet<string> keywords = new SortedSet<string>(StringComparer.Ordinal);
 
@@ -353,7 +376,10 @@ namespace UnityEngine
 
         string Known(string name)
         {
-            if (!shader.properties.Contains(name)) { throw new ArgumentException("the shader " + shader.name + " has no property " + name); }
+            if (!shader.properties.Contains(name))
+            {
+                throw new ArgumentException("the shader " + shader.name + " has no property " + name);
+            }
             return name;
         }
 

@@ -72,9 +72,13 @@ namespace UnityEngine
             if (!IsPng(data)) { throw new NotSupportedException("pixels are read here of PNG files only"); }
             int width = Big(data, 16, 4), height = Big(data, 20, 4), kind = data[25];
             int channels = kind == 0 || kind == 3 ? 1 : kind == 2 ? 3 : kind == 4 ? 2 : 4;
-            if (data[24] != 8 || data[28] != 0) { throw new NotSupportedException("only PNG files of 8 bits without interlacing are read here"); }
+            if (data[24] != 8 || data[28] != 0)
+            {
+                throw new NotSupportedException("only PNG files of 8 bits without interlacing are read here");
+            }
             byte[] rows = Inflated(data, (width * channels + 1) * height);
-            int colors = FindChunk(data, "PLTE"), alphas = FindChunk(data, "tRNS"), alphaCount = alphas < 0 ? 0 : Big(data, alphas - 8, 4);
+            int colors = FindChunk(data, "PLTE"), alphas = FindChunk(data, "tRNS"), alphaCount = alphas < 0 ? 0
+                : Big(data, alphas - 8, 4);
             var pixels = new Color32[width * height];
             int stride = width * channels;
             for (int row = 0; row < height; row++)
@@ -89,10 +93,19 @@ namespace UnityEngine
                     if (kind == 3)
                     {
                         byte alpha = first < alphaCount ? data[alphas + first] : (byte)255;
-                        pixels[into + column] = new Color32(data[colors + 3 * first], data[colors + 3 * first + 1], data[colors + 3 * first + 2], alpha);
+                        pixels[into + column] = new Color32(data[colors + 3 * first], data[colors + 3 * first + 1],
+                            data[colors + 3 * first + 2], alpha);
                     }
-                    else if (channels <= 2) { pixels[into + column] = new Color32(first, first, first, channels == 2 ? rows[at + 1] : (byte)255); }
-                    else { pixels[into + column] = new Color32(first, rows[at + 1], rows[at + 2], channels == 4 ? rows[at + 3] : (byte)255); }
+                    else if (channels <= 2)
+                    {
+                        pixels[into + column] = new Color32(first, first, first, channels == 2 ? rows[at + 1]
+                            : (byte)255);
+                    }
+                    else
+                    {
+                        pixels[into + column] = new Color32(first, rows[at + 1], rows[at + 2], channels == 4
+                            ? rows[at + 3] : (byte)255);
+                    }
                 }
             }
             return pixels;
@@ -103,7 +116,10 @@ namespace UnityEngine
             var packed = new MemoryStream();
             for (int place = 8; place + 8 <= data.Length; place += 12 + Big(data, place, 4))
             {
-                if (Encoding.ASCII.GetString(data, place + 4, 4) == "IDAT") { packed.Write(data, place + 8, Big(data, place, 4)); }
+                if (Encoding.ASCII.GetString(data, place + 4, 4) == "IDAT")
+                {
+                    packed.Write(data, place + 8, Big(data, place, 4));
+                }
             }
             // two bytes of zlib's header
             packed.Position = 2;
@@ -127,14 +143,16 @@ namespace UnityEngine
                 int at = start + i;
                 int left = i >= back ? rows[at - back] : 0, above = hasAbove ? rows[at - stride - 1] : 0;
                 int corner = i >= back && hasAbove ? rows[at - stride - 1 - back] : 0;
-                int guess = filter == 1 ? left : filter == 2 ? above : filter == 3 ? (left + above) / 2 : Paeth(left, above, corner);
+                int guess = filter == 1 ? left : filter == 2 ? above : filter == 3 ? (left + above) / 2
+                    : Paeth(left, above, corner);
                 rows[at] = (byte)(rows[at] + guess);
             }
         }
 
         static int Paeth(int left, int above, int corner)
         {
-            int guess = left + above - corner, a = Math.Abs(guess - left), b = Math.Abs(guess - above), c = Math.Abs(guess - corner);
+            int guess = left + above - corner, a = Math.Abs(guess - left), b = Math.Abs(guess - above),
+                c = Math.Abs(guess - corner);
             return a <= b && a <= c ? left : b <= c ? above : corner;
         }
     }

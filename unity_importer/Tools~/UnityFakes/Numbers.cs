@@ -15,7 +15,8 @@ namespace UnityEngine
         public static Vector2 zero { get { return new Vector2(0, 0); } }
         public static Vector2 one { get { return new Vector2(1, 1); } }
 
-        public static bool operator ==(Vector2 a, Vector2 b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < 9.99999944E-11f; }
+        public static bool operator ==(Vector2 a, Vector2 b) { return (a.x - b.x) * (a.x - b.x)
+            + (a.y - b.y) * (a.y - b.y) < 9.99999944E-11f; }
         public static bool operator !=(Vector2 a, Vector2 b) { return !(a == b); }
         public bool Equals(Vector2 other) { return x == other.x && y == other.y; }
         public override bool Equals(object other) { return other is Vector2 && Equals((Vector2)other); }
@@ -61,7 +62,8 @@ namespace UnityEngine
 
         public static Vector3 Cross(Vector3 lhs, Vector3 rhs)
         {
-            return new Vector3(lhs.y * rhs.z - lhs.z * rhs.y, lhs.z * rhs.x - lhs.x * rhs.z, lhs.x * rhs.y - lhs.y * rhs.x);
+            return new Vector3(lhs.y * rhs.z - lhs.z * rhs.y, lhs.z * rhs.x - lhs.x * rhs.z,
+                lhs.x * rhs.y - lhs.y * rhs.x);
         }
 
         public static float Distance(Vector3 a, Vector3 b) { return (a - b).magnitude; }
@@ -117,7 +119,8 @@ namespace UnityEngine
         /// <summary>About z, then x, then y.</summary>
         public static Quaternion Euler(float x, float y, float z)
         {
-            return AngleAxis(y, new Vector3(0, 1, 0)) * AngleAxis(x, new Vector3(1, 0, 0)) * AngleAxis(z, new Vector3(0, 0, 1));
+            return AngleAxis(y, new Vector3(0, 1, 0)) * AngleAxis(x, new Vector3(1, 0, 0)) * AngleAxis(z,
+                new Vector3(0, 0, 1));
         }
 
         public static Quaternion AngleAxis(float angle, Vector3 axis)
@@ -130,9 +133,12 @@ namespace UnityEngine
         public static Quaternion LookRotation(Vector3 forward, Vector3 upwards)
         {
             Vector3 z = forward.normalized, x = Vector3.Cross(upwards, z).normalized, y = Vector3.Cross(z, x);
-            double w = Math.Sqrt(Math.Max(0, 1 + x.x + y.y + z.z)) / 2, a = Math.Sqrt(Math.Max(0, 1 + x.x - y.y - z.z)) / 2;
-            double b = Math.Sqrt(Math.Max(0, 1 - x.x + y.y - z.z)) / 2, c = Math.Sqrt(Math.Max(0, 1 - x.x - y.y + z.z)) / 2;
-            return new Quaternion((float)Signed(a, y.z - z.y), (float)Signed(b, z.x - x.z), (float)Signed(c, x.y - y.x), (float)w);
+            double w = Math.Sqrt(Math.Max(0, 1 + x.x + y.y + z.z)) / 2,
+                a = Math.Sqrt(Math.Max(0, 1 + x.x - y.y - z.z)) / 2;
+            double b = Math.Sqrt(Math.Max(0, 1 - x.x + y.y - z.z)) / 2,
+                c = Math.Sqrt(Math.Max(0, 1 - x.x - y.y + z.z)) / 2;
+            return new Quaternion((float)Signed(a, y.z - z.y), (float)Signed(b, z.x - x.z),
+                (float)Signed(c, x.y - y.x), (float)w);
         }
 
         static double Signed(double size, double sign) { return sign < 0 ? -size : size; }
@@ -142,15 +148,19 @@ namespace UnityEngine
             t = Mathf.Clamp01(t);
             double dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w, sign = dot < 0 ? -1 : 1;
             double angle = Math.Acos(Math.Min(1, Math.Abs(dot))), sine = Math.Sin(angle);
-            double first = sine < 1e-6 ? 1 - t : Math.Sin((1 - t) * angle) / sine, second = sign * (sine < 1e-6 ? t : Math.Sin(t * angle) / sine);
-            return new Quaternion((float)(first * a.x + second * b.x), (float)(first * a.y + second * b.y), (float)(first * a.z + second * b.z),
+            double first = sine < 1e-6 ? 1 - t
+                : Math.Sin((1 - t) * angle) / sine, second = sign * (sine < 1e-6 ? t : Math.Sin(t * angle) / sine);
+            return new Quaternion((float)(first * a.x + second * b.x), (float)(first * a.y + second * b.y),
+                (float)(first * a.z + second * b.z),
                 (float)(first * a.w + second * b.w));
         }
 
         public static Quaternion operator *(Quaternion lhs, Quaternion rhs)
         {
-            return new Quaternion(lhs.w * rhs.x + lhs.x * rhs.w + lhs.y * rhs.z - lhs.z * rhs.y, lhs.w * rhs.y + lhs.y * rhs.w + lhs.z * rhs.x - lhs.x * rhs.z,
-                lhs.w * rhs.z + lhs.z * rhs.w + lhs.x * rhs.y - lhs.y * rhs.x, lhs.w * rhs.w - lhs.x * rhs.x - lhs.y * rhs.y - lhs.z * rhs.z);
+            return new Quaternion(lhs.w * rhs.x + lhs.x * rhs.w + lhs.y * rhs.z - lhs.z * rhs.y, lhs.w * rhs.y
+                + lhs.y * rhs.w + lhs.z * rhs.x - lhs.x * rhs.z,
+                lhs.w * rhs.z + lhs.z * rhs.w
+                    + lhs.x * rhs.y - lhs.y * rhs.x, lhs.w * rhs.w - lhs.x * rhs.x - lhs.y * rhs.y - lhs.z * rhs.z);
         }
 
         public static Vector3 operator *(Quaternion rotation, Vector3 point)
@@ -160,7 +170,8 @@ namespace UnityEngine
             return point + rotation.w * twice + Vector3.Cross(axis, twice);
         }
 
-        public static Quaternion Inverse(Quaternion rotation) { return new Quaternion(-rotation.x, -rotation.y, -rotation.z, rotation.w); }
+        public static Quaternion Inverse(Quaternion rotation) { return new Quaternion(-rotation.x, -rotation.y,
+            -rotation.z, rotation.w); }
     }
 
     public struct Matrix4x4
@@ -178,18 +189,22 @@ namespace UnityEngine
             Vector3 x = q * new Vector3(s.x, 0, 0), y = q * new Vector3(0, s.y, 0), z = q * new Vector3(0, 0, s.z);
             return new Matrix4x4
             {
-                m00 = x.x, m10 = x.y, m20 = x.z, m01 = y.x, m11 = y.y, m21 = y.z, m02 = z.x, m12 = z.y, m22 = z.z, m03 = pos.x, m13 = pos.y, m23 = pos.z, m33 = 1,
+                m00 = x.x, m10 = x.y, m20 = x.z, m01 = y.x, m11 = y.y, m21 = y.z, m02 = z.x, m12 = z.y, m22 = z.z,
+                    m03 = pos.x, m13 = pos.y, m23 = pos.z, m33 = 1,
             };
         }
 
         public static Matrix4x4 operator *(Matrix4x4 a, Matrix4x4 b)
         {
             // of matrices whose last row is (0, 0, 0, 1)
-            Vector3 x = a.MultiplyVector(new Vector3(b.m00, b.m10, b.m20)), y = a.MultiplyVector(new Vector3(b.m01, b.m11, b.m21));
-            Vector3 z = a.MultiplyVector(new Vector3(b.m02, b.m12, b.m22)), p = a.MultiplyPoint3x4(new Vector3(b.m03, b.m13, b.m23));
+            Vector3 x = a.MultiplyVector(new Vector3(b.m00, b.m10, b.m20)),
+                y = a.MultiplyVector(new Vector3(b.m01, b.m11, b.m21));
+            Vector3 z = a.MultiplyVector(new Vector3(b.m02, b.m12, b.m22)),
+                p = a.MultiplyPoint3x4(new Vector3(b.m03, b.m13, b.m23));
             return new Matrix4x4
             {
-                m00 = x.x, m10 = x.y, m20 = x.z, m01 = y.x, m11 = y.y, m21 = y.z, m02 = z.x, m12 = z.y, m22 = z.z, m03 = p.x, m13 = p.y, m23 = p.z, m33 = 1,
+                m00 = x.x, m10 = x.y, m20 = x.z, m01 = y.x, m11 = y.y, m21 = y.z, m02 = z.x, m12 = z.y, m22 = z.z,
+                    m03 = p.x, m13 = p.y, m23 = p.z, m33 = 1,
             };
         }
 
@@ -200,7 +215,8 @@ namespace UnityEngine
 
         public Vector3 MultiplyVector(Vector3 v)
         {
-            return new Vector3(m00 * v.x + m01 * v.y + m02 * v.z, m10 * v.x + m11 * v.y + m12 * v.z, m20 * v.x + m21 * v.y + m22 * v.z);
+            return new Vector3(m00 * v.x + m01 * v.y + m02 * v.z, m10 * v.x + m11 * v.y + m12 * v.z, m20 * v.x
+                + m21 * v.y + m22 * v.z);
         }
 
         public Matrix4x4 inverse
@@ -215,7 +231,8 @@ namespace UnityEngine
                 xy /= determinant;
                 var inverse = new Matrix4x4
                 {
-                    m00 = yz.x, m01 = yz.y, m02 = yz.z, m10 = zx.x, m11 = zx.y, m12 = zx.z, m20 = xy.x, m21 = xy.y, m22 = xy.z, m33 = 1,
+                    m00 = yz.x, m01 = yz.y, m02 = yz.z, m10 = zx.x, m11 = zx.y, m12 = zx.z, m20 = xy.x, m21 = xy.y,
+                        m22 = xy.z, m33 = 1,
                 };
                 Vector3 back = inverse.MultiplyVector(new Vector3(m03, m13, m23));
                 inverse.m03 = -back.x;
@@ -251,7 +268,11 @@ namespace UnityEngine
         /// <summary>Of a linear colour, as a screen's sRGB.</summary>
         public Color gamma
         {
-            get { return new Color(Mathf.LinearToGammaSpace(r), Mathf.LinearToGammaSpace(g), Mathf.LinearToGammaSpace(b), a); }
+            get
+            {
+                return new Color(Mathf.LinearToGammaSpace(r), Mathf.LinearToGammaSpace(g), Mathf.LinearToGammaSpace(b),
+                    a);
+            }
         }
 
         public float maxColorComponent { get { return Math.Max(r, Math.Max(g, b)); } }
@@ -326,7 +347,8 @@ namespace UnityEngine
         public static int Max(int a, int b) { return a > b ? a : b; }
         public static float Min(float a, float b) { return a < b ? a : b; }
         public static int Min(int a, int b) { return a < b ? a : b; }
-        public static float Clamp(float value, float min, float max) { return value < min ? min : value > max ? max : value; }
+        public static float Clamp(float value, float min, float max) { return value < min ? min : value > max ? max
+            : value; }
         public static float Clamp01(float value) { return Clamp(value, 0, 1); }
         public static int RoundToInt(float f) { return (int)Math.Round(f); }
 

@@ -7,7 +7,8 @@ namespace UnityEngine
     [Flags]
     public enum HideFlags
     {
-        None = 0, HideInHierarchy = 1, HideInInspector = 2, DontSaveInEditor = 4, NotEditable = 8, DontSaveInBuild = 16, DontUnloadUnusedAsset = 32,
+        None = 0, HideInHierarchy = 1, HideInInspector = 2, DontSaveInEditor = 4, NotEditable = 8,
+            DontSaveInBuild = 16, DontUnloadUnusedAsset = 32,
         DontSave = 52, HideAndDontSave = 61,
     }
 
@@ -49,7 +50,10 @@ namespace UnityEngine
         public static T Instantiate<T>(T original, Transform parent, bool worldPositionStays) where T : Object
         {
             var source = original as GameObject;
-            if (source == null || worldPositionStays) { throw new NotSupportedException("only GameObjects are cloned here, without their world positions"); }
+            if (source == null || worldPositionStays)
+            {
+                throw new NotSupportedException("only GameObjects are cloned here, without their world positions");
+            }
             GameObject copy = source.Clone(parent);
             copy.name = source.name + "(Clone)";
             return (T)(Object)copy;
@@ -57,7 +61,8 @@ namespace UnityEngine
 
         public static bool operator ==(Object x, Object y)
         {
-            bool isGone = ReferenceEquals(x, null) || x.isDestroyed, isOtherGone = ReferenceEquals(y, null) || y.isDestroyed;
+            bool isGone = ReferenceEquals(x, null) || x.isDestroyed, isOtherGone = ReferenceEquals(y, null)
+                || y.isDestroyed;
             return isGone || isOtherGone ? isGone && isOtherGone : ReferenceEquals(x, y);
         }
 
@@ -98,7 +103,8 @@ namespace UnityEngine
         public T GetComponent<T>() { return gameObject.GetComponent<T>(); }
         public T GetComponentInParent<T>() { return gameObject.GetComponentInParent<T>(); }
         public T[] GetComponentsInChildren<T>() { return gameObject.GetComponentsInChildren<T>(); }
-        public T[] GetComponentsInChildren<T>(bool includeInactive) { return gameObject.GetComponentsInChildren<T>(includeInactive); }
+        public T[] GetComponentsInChildren<T>(
+            bool includeInactive) { return gameObject.GetComponentsInChildren<T>(includeInactive); }
 
         internal virtual Component Copy()
         {
@@ -125,7 +131,8 @@ namespace UnityEngine
 
         static readonly Dictionary<Type, Fields> FieldsOf = new Dictionary<Type, Fields>();
 
-        // public fields and such as are marked are serialised: copies do not share their arrays, and have nothing of all others
+        // public fields and such as are marked are serialised: copies do not share their arrays, and have nothing of
+        // all others
         internal override Component Copy()
         {
             Fields fields;
@@ -134,9 +141,11 @@ namespace UnityEngine
                 fields = new Fields();
                 for (Type type = GetType(); type != typeof(MonoBehaviour); type = type.BaseType)
                 {
-                    foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
+                    foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public
+                        | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                     {
-                        bool isSerialised = !field.IsNotSerialized && !field.IsInitOnly && (field.IsPublic || field.IsDefined(typeof(SerializeField), false));
+                        bool isSerialised = !field.IsNotSerialized && !field.IsInitOnly
+                            && (field.IsPublic || field.IsDefined(typeof(SerializeField), false));
                         if (!isSerialised && !field.FieldType.IsValueType) { fields.Transient.Add(field); }
                         else if (field.FieldType.IsArray) { fields.Arrays.Add(field); }
                         else if (!field.FieldType.IsValueType && field.FieldType != typeof(string))
@@ -151,7 +160,10 @@ namespace UnityEngine
             foreach (FieldInfo field in fields.Arrays)
             {
                 var array = (Array)field.GetValue(this);
-                if (array is Object[]) { throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name); }
+                if (array is Object[])
+                {
+                    throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name);
+                }
                 if (array != null) { field.SetValue(copy, array.Clone()); }
             }
             foreach (FieldInfo field in fields.Transient) { field.SetValue(copy, null); }
@@ -201,10 +213,14 @@ namespace UnityEngine
 
         void Attach(Component component)
         {
-            bool isOnlyOne = component is Transform || component is Renderer || component is MeshFilter || component is Light || component is Camera;
+            bool isOnlyOne = component is Transform || component is Renderer || component is MeshFilter
+                || component is Light || component is Camera;
             for (int i = 0; isOnlyOne && i < count; i++)
             {
-                if (components[i].GetType() == component.GetType()) { throw new InvalidOperationException(name + " has a " + component.GetType().Name + " already"); }
+                if (components[i].GetType() == component.GetType())
+                {
+                    throw new InvalidOperationException(name + " has a " + component.GetType().Name + " already");
+                }
             }
             component.gameObject = this;
             if (count == components.Length) { Array.Resize(ref components, 2 * count); }
@@ -297,7 +313,10 @@ namespace UnityEngine
             {
                 if (components[i] is T) { found.Add((T)(object)components[i]); }
             }
-            for (int i = 0; i < transform.childCount; i++) { transform.GetChild(i).gameObject.Collect(found, includeInactive); }
+            for (int i = 0; i < transform.childCount; i++)
+            {
+                transform.GetChild(i).gameObject.Collect(found, includeInactive);
+            }
         }
     }
 
@@ -336,7 +355,10 @@ namespace UnityEngine
             string first = slash < 0 ? n : n.Substring(0, slash);
             for (int i = 0; i < count; i++)
             {
-                if (children[i].name == first) { return slash < 0 ? children[i] : children[i].Find(n.Substring(slash + 1)); }
+                if (children[i].name == first)
+                {
+                    return slash < 0 ? children[i] : children[i].Find(n.Substring(slash + 1));
+                }
             }
             return null;
         }
@@ -351,7 +373,10 @@ namespace UnityEngine
             }
             above = parent;
             if (parent == null) { return; }
-            if (parent.count == parent.children.Length) { Array.Resize(ref parent.children, Math.Max(4, 2 * parent.count)); }
+            if (parent.count == parent.children.Length)
+            {
+                Array.Resize(ref parent.children, Math.Max(4, 2 * parent.count));
+            }
             parent.children[parent.count++] = this;
         }
 
@@ -387,7 +412,8 @@ namespace UnityEngine
 
         public Vector3 forward { get { return rotation * Vector3.forward; } }
         public Vector3 TransformPoint(Vector3 position) { return localToWorldMatrix.MultiplyPoint3x4(position); }
-        public Vector3 InverseTransformPoint(Vector3 position) { return localToWorldMatrix.inverse.MultiplyPoint3x4(position); }
+        public Vector3 InverseTransformPoint(
+            Vector3 position) { return localToWorldMatrix.inverse.MultiplyPoint3x4(position); }
         public Vector3 TransformDirection(Vector3 direction) { return rotation * direction; }
     }
 }

@@ -96,7 +96,9 @@ namespace UnityEngine
         internal override Bounds Own()
         {
             float along = Math.Max(height, 2 * radius), across = 2 * radius;
-            return new Bounds(center, new Vector3(direction == 0 ? along : across, direction == 1 ? along : across, direction == 2 ? along : across));
+            return new Bounds(center,
+                new Vector3(direction == 0 ? along : across, direction == 1 ? along : across, direction == 2 ? along
+                : across));
         }
     }
 
@@ -147,9 +149,13 @@ namespace UnityEngine
                 Matrix4x4 matrix = collider.transform.localToWorldMatrix;
                 foreach (Vector3[] triangle in Triangles(collider))
                 {
-                    Vector3 a = matrix.MultiplyPoint3x4(triangle[0]), b = matrix.MultiplyPoint3x4(triangle[1]), c = matrix.MultiplyPoint3x4(triangle[2]);
+                    Vector3 a = matrix.MultiplyPoint3x4(triangle[0]), b = matrix.MultiplyPoint3x4(triangle[1]),
+                        c = matrix.MultiplyPoint3x4(triangle[2]);
                     float distance = Distance(origin, direction.normalized, a, b, c);
-                    if (distance < hitInfo.distance) { hitInfo = new RaycastHit { struck = collider, distance = distance }; }
+                    if (distance < hitInfo.distance)
+                    {
+                        hitInfo = new RaycastHit { struck = collider, distance = distance };
+                    }
                 }
             }
             return hitInfo.struck != null;
@@ -163,7 +169,8 @@ namespace UnityEngine
             if (along >= 0) { return float.PositiveInfinity; }
             float distance = Vector3.Dot(normal, a - origin) / along;
             Vector3 point = origin + direction * distance;
-            bool isInside = Vector3.Dot(Vector3.Cross(b - a, point - a), normal) >= 0 && Vector3.Dot(Vector3.Cross(c - b, point - b), normal) >= 0
+            bool isInside = Vector3.Dot(Vector3.Cross(b - a, point - a), normal) >= 0
+                && Vector3.Dot(Vector3.Cross(c - b, point - b), normal) >= 0
                 && Vector3.Dot(Vector3.Cross(a - c, point - c), normal) >= 0;
             return isInside && distance >= 0 ? distance : float.PositiveInfinity;
         }
@@ -176,7 +183,10 @@ namespace UnityEngine
             {
                 Vector3[] points = mesh.sharedMesh.vertices;
                 int[] triangles = mesh.sharedMesh.triangles;
-                for (int i = 0; i < triangles.Length; i += 3) { yield return new[] { points[triangles[i]], points[triangles[i + 1]], points[triangles[i + 2]] }; }
+                for (int i = 0; i < triangles.Length; i += 3)
+                {
+                    yield return new[] { points[triangles[i]], points[triangles[i + 1]], points[triangles[i + 2]] };
+                }
             }
             for (int side = 0; box != null && side < 6; side++)
             {
@@ -246,7 +256,8 @@ namespace UnityEngine.AI
     {
         public static NavMeshBuildSettings GetSettingsByIndex(int index)
         {
-            return new NavMeshBuildSettings { agentRadius = 0.5f, agentHeight = 2, agentSlope = 45, agentClimb = 0.75f };
+            return new NavMeshBuildSettings { agentRadius = 0.5f, agentHeight = 2, agentSlope = 45,
+                agentClimb = 0.75f };
         }
 
         public static NavMeshDataInstance AddNavMeshData(NavMeshData navMeshData)
@@ -257,23 +268,29 @@ namespace UnityEngine.AI
 
     public static class NavMeshBuilder
     {
-        public static void CollectSources(Transform root, int includedLayerMask, NavMeshCollectGeometry geometry, int defaultArea,
+        public static void CollectSources(Transform root, int includedLayerMask, NavMeshCollectGeometry geometry,
+            int defaultArea,
             List<NavMeshBuildMarkup> markups, List<NavMeshBuildSource> results)
         {
             results.Clear();
-            if (geometry != NavMeshCollectGeometry.PhysicsColliders) { throw new NotSupportedException("only colliders are collected here"); }
+            if (geometry != NavMeshCollectGeometry.PhysicsColliders)
+            {
+                throw new NotSupportedException("only colliders are collected here");
+            }
             foreach (Collider collider in root.GetComponentsInChildren<Collider>())
             {
                 if ((1 << collider.gameObject.layer & includedLayerMask) == 0) { continue; }
                 results.Add(new NavMeshBuildSource
                 {
-                    shape = collider is BoxCollider ? NavMeshBuildSourceShape.Box : NavMeshBuildSourceShape.Mesh, component = collider,
+                    shape = collider is BoxCollider ? NavMeshBuildSourceShape.Box
+                        : NavMeshBuildSourceShape.Mesh, component = collider,
                     transform = collider.transform.localToWorldMatrix,
                 });
             }
         }
 
-        public static NavMeshData BuildNavMeshData(NavMeshBuildSettings buildSettings, List<NavMeshBuildSource> sources, Bounds localBounds, Vector3 position,
+        public static NavMeshData BuildNavMeshData(NavMeshBuildSettings buildSettings,
+            List<NavMeshBuildSource> sources, Bounds localBounds, Vector3 position,
             Quaternion rotation)
         {
             return new NavMeshData { sources = new List<NavMeshBuildSource>(sources), sourceBounds = localBounds };
