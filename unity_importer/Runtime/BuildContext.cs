@@ -69,7 +69,8 @@ namespace Garage.Unity
             purpose = node.Purpose ?? context.Purpose;
             bool isHidden = context.IsHidden || node.Visibility == "invisible";
             flags = (shown.IsStrong ? 1 : 0) | (rubs.IsStrong ? 2 : 0) | (isHidden ? 4 : 0)
-                | (context.IsMovable ? 8 : 0) | (isStall ? 16 : 0) | (node.Labels != null ? 32 : 0) | (context.IsMirrored ? 64 : 0);
+                | (context.IsMovable ? 8 : 0) | (isStall ? 16 : 0)
+                | (node.Labels != null ? 32 : 0) | (context.IsMirrored ? 64 : 0);
         }
 
         public bool Equals(TemplateKey other)
