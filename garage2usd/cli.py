@@ -28,8 +28,7 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""
-        # SIGTERM unwinds like an exception, so that temporary files go
-        signal.signal(signal.SIGTERM, _terminate)
+        signal.signal(signal.SIGTERM, _termination)
         try:
             return super().invoke(ctx)
         except Garage2UsdError as error:
@@ -38,8 +37,24 @@ class _Commands(click.Group):
             ctx.exit(2 if usage else 1)
 
 
-def _terminate(_signal: int, _frame: FrameType | None) -> None:
-    sys.exit(_TERMINATED)
+class _Termination:
+    """SIGTERM unwinds like an exception, so that temporary files go."""
+
+    def __init__(self) -> None:
+        self._asked = False
+
+    def __call__(self, _signal: int, _frame: FrameType | None) -> None:
+        """Handle the signal."""
+        self._asked = True
+        sys.exit(_TERMINATED)
+
+    def insist(self) -> None:
+        """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do."""
+        if self._asked:
+            sys.exit(_TERMINATED)
+
+
+_termination = _Termination()
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -155,6 +170,7 @@ class _Bars:
 
     def __call__(self, step: str, done: int, total: int) -> None:
         """Show that `done` of `total` units of `step` are finished."""
+        _termination.insist()
         if not self._stream.isatty():
             return
         if step != self._step or self._bar is None:
