@@ -88,7 +88,7 @@ def write_garage_layer(
         shared_followers = shared.followers
     else:
         tiles, shared_followers = _tiles(arrangement, labels, writer), {}
-    variants = variant_texts(class_names, shared_followers, within=_CLASSES)
+    variants = variant_texts(class_names, shared_followers, within=_CLASSES, selected=not arrangement.nested)
     groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
     names = (*(switch.class_name for switch in class_names), *shared_followers)
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)

@@ -218,16 +218,16 @@ def test_occupancy_lights_and_ceiling_are_variants(form, request):
     )
     assert state() == (cars, lights, ceilings)
     sets = stage.GetPrimAtPath("/Garage").GetVariantSets()
-    for name, choice, expected in (
-        ("occupancy", "empty", (0, lights, ceilings)),
-        ("lights", "off", (cars, 0, ceilings)),
-        ("ceiling", "hidden", (cars, lights, 0)),
+    for name, usual, other, expected in (
+        ("occupancy", "parked", "empty", (0, lights, ceilings)),
+        ("lights", "on", "off", (cars, 0, ceilings)),
+        ("ceiling", "shown", "hidden", (cars, lights, 0)),
     ):
-        usual = sets.GetVariantSelection(name)
-        sets.SetSelection(name, choice)
+        assert sets.GetVariantSelection(name) == (usual if form == "made" else "")
+        sets.SetSelection(name, other)
         assert state() == expected
         sets.SetSelection(name, usual)
-    assert state() == (cars, lights, ceilings)
+        assert state() == (cars, lights, ceilings)
 
 
 def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
