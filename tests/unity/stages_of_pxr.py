@@ -1,6 +1,7 @@
 """What ``pxr`` says of a composed stage, in the form of the C# dump."""
 
-from pxr import Sdf, Usd, UsdGeom
+import numpy as np
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from values_of_pxr import anything, dumped
 
 PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded
@@ -8,11 +9,20 @@ PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded
 
 def stage_dump(stage: Usd.Stage) -> dict:
     """As ``StageDump`` writes it, but for the warnings and the numbers of prototypes."""
-    prims = {}
+    places, shown = {}, []
     for root in [stage.GetPseudoRoot(), *stage.GetPrototypes()]:
+        places[root.GetPath()] = Gf.Matrix4d(1)
         for prim in Usd.PrimRange(root, PREDICATE):
             if prim != root:
-                prims[str(prim.GetPath())] = prim_dump(prim)
+                local, resets = local_transform(prim)
+                places[prim.GetPath()] = local if resets else local * places[prim.GetPath().GetParentPath()]
+                shown.append(prim)
+    prims = {str(prim.GetPath()): prim_dump(prim, places[prim.GetPath()]) for prim in shown}
+    for key, purpose in ("material", UsdShade.Tokens.preview), ("physicsMaterial", "physics"):
+        bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(shown, purpose)
+        for prim, material in zip(shown, bound, strict=True):
+            if material:
+                prims[str(prim.GetPath())][key] = str(material.GetPath())
     return {
         "metersPerUnit": UsdGeom.GetStageMetersPerUnit(stage),
         "isZUp": UsdGeom.GetStageUpAxis(stage) == "Z",
@@ -20,7 +30,20 @@ def stage_dump(stage: Usd.Stage) -> dict:
     }
 
 
-def prim_dump(prim: Usd.Prim) -> dict:
+def local_transform(prim: Usd.Prim) -> tuple[Gf.Matrix4d, bool]:
+    """To the parent, of the values without time, else of the first samples; whether it leads to the world instead."""
+    xformable = UsdGeom.Xformable(prim)
+    if not xformable or not prim.GetAttribute("xformOpOrder").IsAuthored():
+        return Gf.Matrix4d(1), False
+    if not xformable.TransformMightBeTimeVarying():
+        return xformable.GetLocalTransformation(Usd.TimeCode.Default()), xformable.GetResetXformStack()
+    local = Gf.Matrix4d(1)
+    for operation in xformable.GetOrderedXformOps():
+        local = operation.GetOpTransform(first_time(operation.GetAttr())) * local
+    return local, xformable.GetResetXformStack()
+
+
+def prim_dump(prim: Usd.Prim, world: Gf.Matrix4d) -> dict:
     specifier = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}[prim.GetSpecifier()]
     out = {
         "specifier": specifier,
@@ -32,6 +55,8 @@ def prim_dump(prim: Usd.Prim) -> dict:
             for one in prim.GetAuthoredProperties()
         },
     }  # fmt: skip
+    if prim.GetAttribute("xformOpOrder").IsAuthored():
+        out["world"] = [number for row in world for number in row]
     if prim.IsInstance():
         out["prototype"] = str(prim.GetPrototype().GetPath())
     variants = {}
@@ -69,10 +94,8 @@ def property_dump(one) -> dict:
     # the authored type: a schema may have another
     kind = next(spec.typeName for spec in one.GetPropertyStack() if spec.typeName)
     out = {"type": str(kind)}
-    value = None
     times = one.GetTimeSamples()
-    if one.HasAuthoredValue():
-        value = one.Get(Usd.TimeCode.Default()) if has_default(one) else one.Get(times[0]) if times else None
+    value = first_value(one)
     if value is not None:
         if kind != one.GetTypeName():
             value = next(spec.default for spec in one.GetPropertyStack() if spec.HasDefaultValue())
@@ -86,6 +109,16 @@ def property_dump(one) -> dict:
     if one.HasAuthoredMetadata("interpolation"):
         out["interpolation"] = one.GetMetadata("interpolation")
     return out
+
+
+def first_value(one: Usd.Attribute):
+    """The value without time, else that of the first sample, else None."""
+    return one.Get(first_time(one)) if one.HasAuthoredValue() else None
+
+
+def first_time(one: Usd.Attribute) -> Usd.TimeCode:
+    times = [] if has_default(one) else one.GetTimeSamples()
+    return Usd.TimeCode(times[0]) if times else Usd.TimeCode.Default()
 
 
 def has_default(attribute: Usd.Attribute) -> bool:
@@ -113,9 +146,21 @@ def renamed(path: str, names: dict[str, str]) -> str:
 
 
 def renamed_in(prim: dict, names: dict[str, str]) -> dict:
-    if "prototype" in prim:
-        prim["prototype"] = renamed(prim["prototype"], names)
+    for key in prim.keys() & {"prototype", "material", "physicsMaterial"}:
+        prim[key] = renamed(prim[key], names)
     for one in prim["properties"].values():
         if "targets" in one:
             one["targets"] = [renamed(target, names) for target in one["targets"]]
     return prim
+
+
+def misplaced(wanted: dict, found: dict) -> list[str]:
+    """Prims that stand at different places; takes the places out of both dumps."""
+    lines = []
+    for path in wanted["prims"].keys() & found["prims"].keys():
+        there, here = wanted["prims"][path].pop("world", None), found["prims"][path].pop("world", None)
+        if (there is None) != (here is None) or (
+            there and not np.allclose(there, here, rtol=0, atol=1e-6, equal_nan=True)
+        ):
+            lines.append(f"{path}: pxr {there}, C# {here}")
+    return lines

@@ -16,6 +16,7 @@ def same(reader, path) -> list[str]:
     warnings = found.pop("warnings")
     wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))
     stages_of_pxr.numbered_alike(wanted, found)
+    assert not stages_of_pxr.misplaced(wanted, found)
     assert not values_of_pxr.differences(wanted, found)
     return warnings
 

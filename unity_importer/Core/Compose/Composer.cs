@@ -14,6 +14,9 @@ namespace Garage.Usd
         const long LeastNodeBudget = 300000;
         const long NodesPerSpec = 400;
 
+        // looking at a node costs this much less than making it
+        const int NodesPassedPerCharge = 16;
+
         readonly LayerLibrary library;
         readonly Dictionary<string, ArcNode> templates = new Dictionary<string, ArcNode>();
         readonly HashSet<string> inProgress = new HashSet<string>();
@@ -48,7 +51,7 @@ namespace Garage.Usd
         {
             ArcNode root = parent.Extended(name);
             Expand(root, true);
-            Charge(root, Count(root));
+            Charge(root, root.Size);
             return root;
         }
 
@@ -107,6 +110,7 @@ namespace Garage.Usd
         void Expand(ArcNode root, bool withVariants)
         {
             var pending = new List<ArcNode>();
+            root.Size = Count(root);
             AddUnexpanded(root, pending);
             for (;;)
             {
@@ -261,9 +265,9 @@ namespace Garage.Usd
                 Specs = template.Specs, IsExpanded = template.IsExpanded,
                 ChosenSets = template.ChosenSets == null ? null : new List<string>(template.ChosenSets),
             };
-            int size = CountOf(node) + 1;
             node.Add(root);
-            CopyChildren(node, template, root, ref size);
+            CountIn(node, 1);
+            CopyChildren(node, template, root);
             if (arc != Arc.Inherit && arc != Arc.Specialize && root.Children != null)
             {
                 foreach (ArcNode child in root.Children.ToArray())
@@ -284,10 +288,13 @@ namespace Garage.Usd
             }
         }
 
-        static int CountOf(ArcNode node)
+        void CountIn(ArcNode place, int count)
         {
-            while (node.Parent != null) { node = node.Parent; }
-            return Count(node);
+            ArcNode root = place;
+            while (root.Parent != null) { root = root.Parent; }
+            root.Size += count;
+            if (root.Size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
+            Charge(place, count);
         }
 
         static int Count(ArcNode node)
@@ -300,7 +307,7 @@ namespace Garage.Usd
             return count;
         }
 
-        void CopyChildren(ArcNode place, ArcNode from, ArcNode to, ref int size)
+        void CopyChildren(ArcNode place, ArcNode from, ArcNode to)
         {
             if (from.Children == null) { return; }
             foreach (ArcNode child in from.Children)
@@ -310,14 +317,13 @@ namespace Garage.Usd
                     library.Warn("<" + place.Path + "> leads back to <" + child.Path + ">");
                     continue;
                 }
-                if (++size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
-                Charge(place, 1);
+                CountIn(place, 1);
                 ArcNode copy = child.Copy(child.Depth);
                 copy.IsAncestral = false;
                 copy.Parent = to;
                 to.Children = to.Children ?? new List<ArcNode>(from.Children.Count);
                 to.Children.Add(copy);
-                CopyChildren(place, child, copy, ref size);
+                CopyChildren(place, child, copy);
             }
         }
 
@@ -396,18 +402,10 @@ namespace Garage.Usd
         {
             var order = new List<ArcNode>();
             root.AddByStrength(order);
+            Charge(root, 1 + order.Count / NodesPassedPerCharge);
             foreach (ArcNode node in order)
             {
-                bool hasSets = false;
-                foreach (LayerSpec spec in node.Specs) { hasSets |= spec.Spec.VariantSetNames != null; }
-                if (!hasSets) { continue; }
-                var names = new List<string>();
-                for (int i = node.Specs.Length - 1; i >= 0; i--)
-                {
-                    ListOp<string> op = node.Specs[i].Spec.VariantSetNames;
-                    if (op != null) { op.ApplyTo(names); }
-                }
-                foreach (string set in names)
+                foreach (string set in node.VariantSets)
                 {
                     if (node.ChosenSets != null && node.ChosenSets.Contains(set)) { continue; }
                     string selection = SelectionOf(order, set);
@@ -449,6 +447,7 @@ namespace Garage.Usd
                 Specs = specs.ToArray(),
             };
             node.Add(variant);
+            CountIn(node, 1);
             return variant;
         }
     }

@@ -12,6 +12,8 @@ namespace Garage.Usd.Dump
     /// </summary>
     static class Program
     {
+        const long MostDumped = 20000;
+
         static int Main(string[] arguments)
         {
             Console.InputEncoding = new UTF8Encoding(false);
@@ -76,7 +78,8 @@ namespace Garage.Usd.Dump
             {
                 UsdStage stage = UsdStage.Open(path);
                 StageDump.Of(stage);
-                SceneDump.Of(stage);
+                // what is shown at very many places is not written out for each of them
+                if (new SceneModel(stage).ShownCount <= MostDumped) { SceneDump.Of(stage); }
             }
             catch (UsdFormatException refusal)
             {
