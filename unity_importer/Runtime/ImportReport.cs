@@ -1,0 +1,41 @@
+using System;
+using System.Collections.Generic;
+
+namespace Garage.Unity
+{
+    /// <summary>What was left out or changed, by reason.</summary>
+    [Serializable]
+    public sealed class ImportReport
+    {
+        const int MostExamples = 5;
+
+        /// <summary>One reason with how often it came up and the first few places.</summary>
+        [Serializable]
+        public sealed class Entry
+        {
+            public string reason;
+            public int count;
+            public List<string> places = new List<string>();
+
+            public override string ToString()
+            {
+                return reason + " (" + count + "): " + string.Join(", ", places.ToArray()) + (count > places.Count ? ", ..." : "");
+            }
+        }
+
+        public List<Entry> entries = new List<Entry>();
+
+        /// <summary>Notes a place, such as a prim's path, under a reason.</summary>
+        public void Add(string reason, string place)
+        {
+            Entry entry = entries.Find(one => one.reason == reason);
+            if (entry == null)
+            {
+                entry = new Entry { reason = reason };
+                entries.Add(entry);
+            }
+            entry.count++;
+            if (entry.places.Count < MostExamples && !entry.places.Contains(place)) { entry.places.Add(place); }
+        }
+    }
+}

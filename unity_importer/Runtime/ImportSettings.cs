@@ -1,0 +1,85 @@
+using System;
+using UnityEngine;
+
+namespace Garage.Unity
+{
+    /// <summary>What stands for a light with an area, which Unity draws in real time in HDRP alone.</summary>
+    public enum LightMode
+    {
+        /// <summary>A spot as wide and as strong, in real time.</summary>
+        SpotProxy,
+
+        /// <summary>A rectangle or a disc for the lightmapper; in a player, where nothing bakes, a spot.</summary>
+        BakedRectangle,
+
+        /// <summary>No light at all, only surfaces that glow.</summary>
+        EmissiveOnly,
+    }
+
+    /// <summary>Which colliders a prefab gets.</summary>
+    public enum ColliderMode
+    {
+        /// <summary>As each prim's physics:approximation says.</summary>
+        AsAuthored,
+
+        /// <summary>A box around everything that collides.</summary>
+        Boxes,
+
+        None,
+    }
+
+    /// <summary>For whose shaders materials are made.</summary>
+    public enum PipelineKind
+    {
+        /// <summary>That of the project.</summary>
+        Automatic,
+
+        BuiltIn,
+        Universal,
+        HighDefinition,
+    }
+
+    /// <summary>How a stage becomes a prefab.</summary>
+    [Serializable]
+    public sealed class ImportSettings
+    {
+        [Tooltip("Metres in Unity for each metre of the stage.")]
+        public float scale = 1;
+
+        [Tooltip("What stands for lights with an area.")]
+        public LightMode lightMode = LightMode.SpotProxy;
+
+        [Tooltip("Doubles all lights and glowing surfaces for each whole number; negative ones halve.")]
+        public float exposureStops;
+
+        [Tooltip("HDRP only: candela a square metre for each unit of intensity in the stage. Stages of garage2usd hold true values at 27.")]
+        public float nitsPerUnit = 1;
+
+        [Tooltip("Whether spots and distant lights cast shadows. Every one costs a map of its own.")]
+        public bool lightShadows;
+
+        [Tooltip("Which colliders are made.")]
+        public ColliderMode colliders = ColliderMode.AsAuthored;
+
+        [Tooltip("GPU instancing on all materials. Static batching is left off then, as it would win.")]
+        public bool gpuInstancing = true;
+
+        [Tooltip("Marks what never moves as static for global illumination, occlusion and reflections (editor only).")]
+        public bool staticFlags = true;
+
+        [Tooltip("Labels (class) of objects that may move, and so are not static.")]
+        public string[] movableLabels = { "car", "barrier" };
+
+        [Tooltip("Makes cameras of the stage's, switched off.")]
+        public bool cameras = true;
+
+        [Tooltip("Compresses textures whose sides are multiples of four.")]
+        public bool compressTextures = true;
+
+        [Tooltip("Unwraps meshes for lightmaps (editor only); BakedRectangle does so anyway.")]
+        public bool lightmapCoordinates;
+
+        [Tooltip("For whose shaders materials are made.")]
+        public PipelineKind pipeline = PipelineKind.Automatic;
+    }
+}
