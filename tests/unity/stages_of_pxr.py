@@ -4,6 +4,7 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from values_of_pxr import anything, dumped
 
+SPECIFIERS = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}
 PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded
 
 
@@ -44,29 +45,26 @@ def local_transform(prim: Usd.Prim) -> tuple[Gf.Matrix4d, bool]:
 
 
 def prim_dump(prim: Usd.Prim, world: Gf.Matrix4d) -> dict:
-    specifier = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}[prim.GetSpecifier()]
     out = {
-        "specifier": specifier,
+        "specifier": SPECIFIERS[prim.GetSpecifier()],
         "type": prim.GetTypeName(),
-        "apis": applied(prim),
+        "apis": list(prim.GetPrimTypeInfo().GetAppliedAPISchemas()),
         "children": [child.GetName() for child in prim.GetFilteredChildren(PREDICATE)],
-        "properties": {
-            one.GetName(): property_dump(one)
-            for one in prim.GetAuthoredProperties()
-        },
-    }  # fmt: skip
-    if prim.GetAttribute("xformOpOrder").IsAuthored():
-        out["world"] = [number for row in world for number in row]
+        "properties": {one.GetName(): property_dump(one) for one in prim.GetAuthoredProperties()},
+    }
+    if "xformOpOrder" in out["properties"]:
+        out["world"] = world
     if prim.IsInstance():
         out["prototype"] = str(prim.GetPrototype().GetPath())
+    stack = prim.GetPrimStack()
     variants = {}
-    for spec in prim.GetPrimStack():
-        for name, selection in dict(spec.variantSelections).items():
+    for spec in stack:
+        for name, selection in spec.variantSelections.items():
             variants.setdefault(name, selection)
     if variants:
         out["variants"] = variants
     for field in ("kind", "customData", "assetInfo"):
-        authored = [spec.GetInfo(field) for spec in prim.GetPrimStack() if spec.HasInfo(field)]
+        authored = [spec.GetInfo(field) for spec in stack if spec.HasInfo(field)]
         if authored:
             out[field] = anything(merged(authored) if isinstance(authored[0], dict) else authored[0])
     return out
@@ -82,30 +80,29 @@ def merged(dictionaries: list[dict]) -> dict:
     return together
 
 
-def applied(prim: Usd.Prim) -> list[str]:
-    """Authored names of applied schemas."""
-    return list(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
-
-
 def property_dump(one) -> dict:
     if isinstance(one, Usd.Relationship):
         targets = [str(target) for target in one.GetTargets()]
         return {"type": ""} | ({"targets": targets} if targets else {})
+    specs = one.GetPropertyStack()
     # the authored type: a schema may have another
-    kind = next(spec.typeName for spec in one.GetPropertyStack() if spec.typeName)
+    kind = next(spec.typeName for spec in specs if spec.typeName)
     out = {"type": str(kind)}
-    times = one.GetTimeSamples()
-    value = first_value(one)
+    if any(spec.HasDefaultValue() for spec in specs):
+        # a value of another type than the schema's is nothing to the schema
+        same = kind == one.GetTypeName()
+        value = one.Get() if same else next(spec.default for spec in specs if spec.HasDefaultValue())
+    else:
+        value = first_value(one)
+    value = dumped(kind, value)
     if value is not None:
-        if kind != one.GetTypeName():
-            value = next(spec.default for spec in one.GetPropertyStack() if spec.HasDefaultValue())
-        if dumped(kind, value) is not None:
-            out["value"] = dumped(kind, value)
+        out["value"] = value
+    times = one.GetTimeSamples()
     if times:
         out["times"] = list(times)
-    targets = [str(target) for target in one.GetConnections()]
+    targets = one.GetConnections()
     if targets:
-        out["targets"] = targets
+        out["targets"] = [str(target) for target in targets]
     if one.HasAuthoredMetadata("interpolation"):
         out["interpolation"] = one.GetMetadata("interpolation")
     return out
@@ -117,13 +114,10 @@ def first_value(one: Usd.Attribute):
 
 
 def first_time(one: Usd.Attribute) -> Usd.TimeCode:
-    times = [] if has_default(one) else one.GetTimeSamples()
+    if any(spec.HasDefaultValue() for spec in one.GetPropertyStack()):
+        return Usd.TimeCode.Default()
+    times = one.GetTimeSamples()
     return Usd.TimeCode(times[0]) if times else Usd.TimeCode.Default()
-
-
-def has_default(attribute: Usd.Attribute) -> bool:
-    """Whether a layer gives a value without time, or blocks it."""
-    return any(spec.HasDefaultValue() for spec in attribute.GetPropertyStack(Usd.TimeCode.Default()))
 
 
 def numbered_alike(wanted: dict, found: dict) -> None:
@@ -159,8 +153,8 @@ def misplaced(wanted: dict, found: dict) -> list[str]:
     lines = []
     for path in wanted["prims"].keys() & found["prims"].keys():
         there, here = wanted["prims"][path].pop("world", None), found["prims"][path].pop("world", None)
-        if (there is None) != (here is None) or (
-            there and not np.allclose(there, here, rtol=0, atol=1e-6, equal_nan=True)
-        ):
+        if there is None and here is None:
+            continue
+        if there is None or here is None or not np.allclose(np.array(there).ravel(), here, rtol=0, atol=1e-6):
             lines.append(f"{path}: pxr {there}, C# {here}")
     return lines

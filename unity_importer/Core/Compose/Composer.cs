@@ -201,7 +201,7 @@ namespace Garage.Usd
                 library.Warn(layer.Identifier + ": <" + node.Path + "> refers to " + stack.Root.Identifier + ", which has no default prim");
                 return null;
             }
-            LayerOffset offset = node.Stack.Offsets[layerNumber].After(LayerLibrary.Rated(arc.Offset, layer, stack.Root));
+            LayerOffset offset = node.Stack.Offsets[layerNumber].After(library.Rated(arc.Offset, layer, stack.Root));
             return new Target { Stack = stack, Path = path, Offset = offset, IsInternal = arc.Asset.Length == 0 };
         }
 

@@ -55,8 +55,11 @@ namespace Garage.Usd.Dump
             json.Open('{');
             json.Key("world");
             Numbers(world);
-            Text("material", material.Path);
-            if (material.Path != null) { materials.Add(material.Path); }
+            if (material.Material(scene.Stage) != null)
+            {
+                Text("material", material.Path);
+                materials.Add(material.Path);
+            }
             if (node.Mesh != null) { Mesh(node.Mesh); }
             if (node.Light != null) { Light(node.Light); }
             if (node.Camera != null)
@@ -73,7 +76,7 @@ namespace Garage.Usd.Dump
             if (node.Collider != null)
             {
                 Text("collider", node.Collider.Approximation);
-                PhysicsMaterialData data = PhysicsMaterialData.Of(physics.Path == null ? null : scene.Stage.PrimAt(physics.Path));
+                PhysicsMaterialData data = PhysicsMaterialData.Of(physics.Material(scene.Stage));
                 if (data != null)
                 {
                     json.Key("friction");
@@ -114,7 +117,7 @@ namespace Garage.Usd.Dump
 
         static MaterialBinding Rebased(MaterialBinding binding, string prototype, string instance)
         {
-            return new MaterialBinding(Shown(binding.Path, prototype, instance), binding.IsStrong);
+            return binding.Moved(delegate(string path) { return Shown(path, prototype, instance); });
         }
 
         void Text(string key, string value)

@@ -83,8 +83,8 @@ namespace Garage.Usd.Dump
                 foreach (double number in world) { json.Number(number); }
                 json.Close(']');
             }
-            Binding(json, "material", material);
-            Binding(json, "physicsMaterial", physics);
+            Binding(json, "material", material.Material(prim.Stage));
+            Binding(json, "physicsMaterial", physics.Material(prim.Stage));
             json.Key("properties");
             json.Open('{');
             foreach (string name in prim.PropertyNames) { Property(json, prim.Property(name)); }
@@ -93,11 +93,11 @@ namespace Garage.Usd.Dump
             foreach (UsdPrim child in prim.Children) { Prim(json, child, world, material, physics); }
         }
 
-        static void Binding(JsonText json, string key, MaterialBinding binding)
+        static void Binding(JsonText json, string key, UsdPrim material)
         {
-            if (binding.Path == null) { return; }
+            if (material == null) { return; }
             json.Key(key);
-            json.String(binding.Path);
+            json.String(material.Path);
         }
 
         static void Property(JsonText json, UsdProperty property)
