@@ -37,6 +37,12 @@ def compile_layer(folder: Path, *defines: str) -> None:
         compile_assembly(folder / f"{layer}.Editor.dll", sources_of("Editor"), [core, fakes, layer], defines)
 
 
+def compile_package(folder: Path, *defines: str) -> list[str]:
+    """All assemblies of the package that Unity compiles; their names."""
+    compile_layer(folder, *defines)
+    return ["Garage.Unity", "Garage.Unity.Editor"]
+
+
 def compile_prefab_dump(folder: Path, *defines: str) -> Path:
     """The program that imports stages on the fakes and prints the prefabs."""
     compile_layer(folder, EDITOR, *defines)
@@ -54,6 +60,7 @@ class Prefab:
     found: dict
 
     def __post_init__(self):
+        assert "crash" not in self.found, self.found["crash"]
         assert self.found["errors"] == []
         assert self.found["progressBarLeft"] is False
 

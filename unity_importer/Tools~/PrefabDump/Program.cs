@@ -59,6 +59,23 @@ namespace Garage.Unity.Dump
 
         static string Answer(string[] command)
         {
+            try
+            {
+                return Made(command);
+            }
+            catch (Exception crash)
+            {
+                var json = new JsonText();
+                json.Open('{');
+                json.Key("crash");
+                json.String(crash.ToString());
+                json.Close('}');
+                return json.ToString();
+            }
+        }
+
+        static string Made(string[] command)
+        {
             string file = Path.GetFullPath(command[1]);
             var rest = new string[command.Length - 2];
             Array.Copy(command, 2, rest, 0, rest.Length);
