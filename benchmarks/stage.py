@@ -5,7 +5,6 @@ Usage: python benchmarks/stage.py STEP ROWS COLS FORM FOLDER   (one measurement,
 
 import json
 import pickle
-import resource
 import statistics
 import subprocess
 import sys
@@ -14,6 +13,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from memory import peak_mb, resident_mb
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 
 from garage2usd.config import GarageConfig
@@ -108,7 +108,7 @@ def _naive(path: Path) -> dict[str, float]:
     prototypes = name_prototypes(layout)
     start = time.perf_counter()
     _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, path.with_stem("naive"))
-    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb()}
+    return {"seconds": time.perf_counter() - start, "peak_mb": peak_mb()}
 
 
 def _export(path: Path) -> dict[str, float]:
@@ -122,7 +122,7 @@ def _export(path: Path) -> dict[str, float]:
 def _open(path: Path) -> dict[str, float]:
     start = time.perf_counter()
     stage = Usd.Stage.Open(str(path))
-    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "layers": len(stage.GetUsedLayers())}
+    return {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "layers": len(stage.GetUsedLayers())}
 
 
 def _traverse(path: Path) -> dict[str, float]:
@@ -145,7 +145,7 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     """Lay a garage out, keep the layout for the other steps, and write its stage with all assets."""
     start = time.perf_counter()
     layout, graph, config = _garage(rows, cols, form)
-    figures = {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "objects": len(layout.placements)}
+    figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
     write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
     return figures
@@ -168,7 +168,7 @@ def _author(path: Path) -> dict[str, float]:
     prototypes = name_prototypes(layout)
     for spec in prototypes:
         asset_of(spec)
-    before_mb = _resident_mb()
+    before_mb = resident_mb()
     start = time.perf_counter()
     write_garage_layer(
         layout,
@@ -183,7 +183,7 @@ def _author(path: Path) -> dict[str, float]:
     )
     seconds = time.perf_counter() - start
     size = sum(file.stat().st_size for file in _own_layers(path)) / 1e6
-    return {"seconds": seconds, "peak_mb": _peak_mb(), "own_mb": _peak_mb() - before_mb, "megabytes": size}
+    return {"seconds": seconds, "peak_mb": peak_mb(), "own_mb": peak_mb() - before_mb, "megabytes": size}
 
 
 def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> None:
@@ -204,14 +204,6 @@ def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> Non
         if placement.yaw_rad:
             xform.AddRotateYOp().Set(float(np.degrees(placement.yaw_rad)))
     stage.GetRootLayer().Save()
-
-
-def _peak_mb() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
-def _resident_mb() -> float:
-    return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20
 
 
 _MEASURES = {

@@ -216,13 +216,8 @@ def _generate(
 
 def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
     """The plan with R and C chosen, each where the user gave none; its archive keeps the sizes it was learnt with."""
-    given = config.bay.model_fields_set
-    structure = dimension(
-        plan.structure,
-        bay=config.bay,
-        rows="row_depths_m" not in given,
-        columns="column_widths_m" not in given,
-    )
+    bay = config.bay
+    structure = dimension(plan.structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
     return replace(plan, structure=structure, score=evaluate(structure, bay=config.bay, plan=config.plan))
 
 

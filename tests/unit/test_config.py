@@ -7,6 +7,7 @@ from sample_files import each_sample
 
 from garage2usd.config import GarageConfig, config_from_mapping, config_schema, load_config
 from garage2usd.errors import ConfigError
+from garage2usd.pipeline import generate
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,17 @@ def test_samples_satisfy_the_schema(sample):
     jsonschema.Draft202012Validator.check_schema(schema)
     jsonschema.validate(tomllib.loads(sample.read_text()), schema)
     assert load_config(sample).digest()
+
+
+@each_sample
+def test_a_saved_configuration_is_the_same_configuration(sample):
+    config = load_config(sample)
+    saved = GarageConfig(**json.loads(json.dumps(config.model_dump(mode="json"))))
+    assert saved == config
+    assert saved.digest() == config.digest()
+    learn_little = {"plan": {**config.plan.model_dump(), "episodes": 20, "starts": 1}}
+    one, other = (generate(GarageConfig(**{**kept.model_dump(), **learn_little})) for kept in (config, saved))
+    assert one.plan.structure == other.plan.structure
 
 
 def test_the_schema_refuses_what_the_models_refuse():
