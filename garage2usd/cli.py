@@ -3,6 +3,7 @@
 import json
 import signal
 import sys
+from collections import Counter
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Self, TextIO
@@ -109,13 +110,14 @@ def _describe(made: "Build") -> None:
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
+    uses = ", ".join(f"{count} {use}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
     figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
-        ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
+        ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
         ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
-        ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
+        ("reachable", "every stall, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),

@@ -112,7 +112,7 @@ def write_garage_layer(
 
 
 def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
-    """Semantic class of each tile: the kind of its lane square, or the type of its stalls."""
+    """What a label says of each tile: the kind of its lane square, or the type of its stalls."""
     stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
     kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
     return [kinds.get(square) or stalls[square] for square in squares]

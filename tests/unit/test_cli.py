@@ -137,14 +137,17 @@ def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     assert "?===" in result.output
 
 
-@pytest.mark.parametrize("arguments", [["--output", "g.obj"], ["--output", "g"], ["--seed", "-1"], ["--sed", "1"]])
+@pytest.mark.parametrize(
+    "arguments", [["--output", "g.obj"], ["--output", "g"], ["--output", "a@b.usda"], ["--seed", "-1"], ["--sed", "1"]]
+)
 def test_bad_usage_ends_in_two(tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     result = run("build", *arguments)
     assert result.exit_code == 2
     assert list(tmp_path.iterdir()) == []
     if arguments[0] == "--output":
-        assert "ends in .usda, .usdc, .usdz" in result.output
+        allowed = "a file name without" if "@" in arguments[1] else "a path that ends in .usda, .usdc, .usdz"
+        assert f"allowed: {allowed}" in result.output
 
 
 @pytest.mark.parametrize("output", ["/proc/garage/g.usda", "/dev/null/g.usda"])
