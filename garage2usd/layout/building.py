@@ -9,16 +9,18 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.lanes import Square
+from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.stalls import Edge
 
-__all__ = ["columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
+__all__ = ["DOOR_FRAME_M", "columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_JAMB_M = 0.6
 _DOOR_HEAD_M = 0.3
+DOOR_FRAME_M = 0.08
 
 
 def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> list[Placement]:
@@ -72,6 +74,11 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
 
     In a reflex corner the wall along X gives way to the one along Z by its thickness.
+
+    Raises
+    ------
+    ConfigError
+        If a portal's square is too narrow for a door that cars get through.
     """
     thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
     outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
@@ -108,11 +115,13 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
     kind = ObjectKind.WALL
     if _holds_door(tile, edge, outside):
         kind = ObjectKind.PORTAL
+        door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M)
+        check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)
         spec = PortalSpec(
             spec.length_m,
             spec.height_m,
             spec.thickness_m,
-            door_width_m=round(min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M), 6),
+            door_width_m=round(door_width_m, 6),
             door_height_m=round(max(fittings.clear_height_m, spec.height_m - 2 * _DOOR_HEAD_M), 6),
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
