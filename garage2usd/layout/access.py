@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from garage2usd.config import FittingsConfig
+from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.placement import ObjectKind, Placement, to_world
 from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, TubeLightSpec
 
@@ -20,7 +21,6 @@ _FOOT_M = 0.5
 _LANDING_M = 2.5
 _PARAPET_M = 1.3
 _SKY_M = 3.0
-_DOOR_FRAME_M = 0.08
 _KERB_ROOM_M = 0.1
 _BARRIER_GAP_M = 0.32
 _BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
@@ -83,7 +83,7 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
     return RampSpec(
         width_m=round(portal.door_width_m + 2 * _KERB_ROOM_M, 6),
         wall_m=portal.thickness_m,
-        threshold_width_m=round(portal.door_width_m - 2 * _DOOR_FRAME_M, 6),
+        threshold_width_m=round(portal.door_width_m - 2 * DOOR_FRAME_M, 6),
         profile=tuple((round(run, 6), round(height, 6)) for run, height in zip(runs.tolist(), heights, strict=True)),
         cover_end_m=round(cover_end, 6),
         cover_height_m=portal.height_m,
@@ -140,7 +140,7 @@ def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement
         portal = wall.spec
         if not isinstance(portal, PortalSpec) or not portal.is_open:
             continue
-        half = portal.door_width_m / 2 - _DOOR_FRAME_M
+        half = portal.door_width_m / 2 - DOOR_FRAME_M
         elbow = max(
             fittings.clear_height_m + _ARM_HALF_M + 0.02, min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M)
         )

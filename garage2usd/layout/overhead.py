@@ -78,11 +78,12 @@ def mirrors(
     -----
     Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
     that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
+    There are none where the ceiling leaves no room over the clear height.
     """
-    if not fittings.mirrors:
+    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, _TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
+    if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, _TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
     placed: list[Placement] = []
     for tile in grid:
@@ -126,7 +127,10 @@ def _mount_m(
     side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
     point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
     if point in feet:
-        return round(column_size_m / 2 + _MIRROR_FROM_COLUMN_M, 6), _ARM_TO_COLUMN_M
+        # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
+        nearest = column_size_m / 2 + _MIRROR_FROM_COLUMN_M
+        inset = max(nearest, _MIRROR_RADIUS_M)
+        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2), 6)
     if any(grid.neighbour(tile, edge) is None for edge in corner):
         return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
     if grid.neighbour(tile, *corner) is None:
