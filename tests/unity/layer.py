@@ -9,6 +9,7 @@ from reader import PACKAGE
 
 EDITOR = "UNITY_EDITOR"
 UNITY_6 = "UNITY_6000_0_OR_NEWER"
+LAYER = ["Garage.Usd", "UnityFakes", "Garage.Unity"]
 FLAGS = ["-warnaserror", "-langversion:7.2", "-optimize+", "-r:System.Core"]
 
 
@@ -38,17 +39,27 @@ def compile_layer(folder: Path, *defines: str) -> None:
 
 
 def compile_package(folder: Path, *defines: str) -> list[str]:
-    """All assemblies of the package that Unity compiles; their names."""
+    """All assemblies of the package that Unity compiles, with its tests and samples for the editor; their names."""
     compile_layer(folder, *defines)
-    return ["Garage.Unity", "Garage.Unity.Editor"]
+    compile_assembly(folder / "NUnitFakes.dll", sources_of("Tools~/NUnitFakes"), [], defines)
+    tests = [*LAYER, "NUnitFakes"]
+    compile_assembly(folder / "Garage.Unity.Samples.dll", sources_of("Samples~"), LAYER, defines)
+    compile_assembly(folder / "Garage.Unity.Tests.dll", sources_of("Tests/Runtime"), tests, defines)
+    names = ["Garage.Unity", "Garage.Unity.Samples", "Garage.Unity.Tests"]
+    if EDITOR in defines:
+        editor = [*tests, "Garage.Unity.Editor"]
+        compile_assembly(folder / "Garage.Unity.Editor.Tests.dll", sources_of("Tests/Editor"), editor, defines)
+        names += ["Garage.Unity.Editor", "Garage.Unity.Editor.Tests"]
+    return names
 
 
 def compile_prefab_dump(folder: Path, *defines: str) -> Path:
     """The program that imports stages on the fakes and prints the prefabs."""
     compile_layer(folder, EDITOR, *defines)
+    compile_assembly(folder / "Garage.Unity.Samples.dll", sources_of("Samples~"), LAYER, (EDITOR, *defines))
     program = folder / "PrefabDump.exe"
     sources = [*sources_of("Tools~/PrefabDump"), PACKAGE / "Tools~" / "UsdDump" / "JsonText.cs"]
-    assemblies = ["Garage.Usd", "UnityFakes", "Garage.Unity", "Garage.Unity.Editor"]
+    assemblies = [*LAYER, "Garage.Unity.Editor", "Garage.Unity.Samples"]
     compile_assembly(program, sources, assemblies, (EDITOR, *defines))
     return program
 

@@ -2,11 +2,13 @@
 
 import itertools
 import math
+import re
+import subprocess
 
 import numpy as np
 import pytest
 import reader
-from layer import EDITOR, UNITY_6, compile_layer, compile_prefab_dump
+from layer import EDITOR, UNITY_6, compile_assembly, compile_package, compile_prefab_dump, sources_of
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
 from sample_files import SAMPLES
 
@@ -19,8 +21,27 @@ SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
     [(), (UNITY_6,), (EDITOR, "GARAGE_OTHER_USD_IMPORTER"), ("UNITY_WEBGL",)],
     ids="-".join,
 )
-def test_the_layer_compiles_without_a_warning(tmp_path, defines):
-    compile_layer(tmp_path, *defines)
+def test_the_package_compiles_without_a_warning(tmp_path, defines):
+    compile_package(tmp_path, *defines)
+
+
+@pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
+@pytest.mark.parametrize("defines", [(EDITOR,), (EDITOR, UNITY_6)], ids="-".join)
+def test_the_tests_for_unity_s_own_runner_pass_on_the_fakes(tmp_path, defines):
+    compile_package(tmp_path, *defines)
+    names = ["Garage.Usd", "UnityFakes", "Garage.Unity", "Garage.Unity.Editor", "NUnitFakes"]
+    program = tmp_path / "TestRun.exe"
+    compile_assembly(program, sources_of("Tools~/TestRun"), names, defines)
+    tests = [
+        tmp_path / f"{name}.dll" for name in ("Garage.Unity.Editor", "Garage.Unity.Editor.Tests", "Garage.Unity.Tests")
+    ]
+    command = ["mono", program, tmp_path / "project", *tests]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    outcomes = dict(line.split("\t", maxsplit=1) for line in done.stdout.splitlines())
+    assert {name: outcome for name, outcome in outcomes.items() if outcome != "passed"} == {}
+    assert len(outcomes) == len(
+        re.findall(r"\[(?:Unity)?Test\]", "".join(one.read_text() for one in sources_of("Tests")))
+    )
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))

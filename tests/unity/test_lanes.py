@@ -6,6 +6,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from layer import from_usd
+from reader import PACKAGE
 from sample_files import SAMPLES
 
 from garage2usd.stalls import Edge
@@ -179,3 +180,26 @@ def Xform "Lanes"
     assert there["nodes"] == [0, 1]
     assert there["length"] == pytest.approx(1.5 + np.hypot(0.5, 2) + 10 + np.hypot(0.5, 2) + 1.5)
     assert "nodes" not in back
+
+
+def test_the_sample_drives_along_the_lanes(prefabs, prefab_dump):
+    """For four minutes, always on a lane square or a portal, at its speed, looking where it goes."""
+    stage = PACKAGE / "Samples~" / "SmallGarage" / "SmallGarage.usdz"
+    graph = prefabs(stage).found["graph"]
+    nodes = np.array([node["position"] for node in graph["nodes"]])
+    entrances = np.array([node["position"] for node in graph["nodes"] if node["kind"] == "entrance"])
+    drive = prefab_dump.ask("drive", stage, 2400)
+    places = np.array([step["position"] for step in drive])
+    assert np.allclose(places[:, 1], nodes[0, 1] + 1.4, atol=1e-4)
+    # squares of 8.1 m, and no farther than into the mouths of stalls
+    assert np.abs(places[:, None, [0, 2]] - nodes[None, :, [0, 2]]).max(axis=2).min(axis=1).max() <= 8.1 / 2 + 1e-3
+    steps = np.diff(places, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    rounds = np.flatnonzero(lengths > 0.401)
+    assert len(rounds) >= 3
+    # shorter around corners alone
+    assert np.median(lengths) == pytest.approx(0.4, abs=1e-3)
+    for start in rounds:
+        assert np.linalg.norm(places[start + 1] - entrances - [0, 1.4, 0], axis=1).min() < 1e-3
+    assert np.allclose([np.linalg.norm(step["forward"]) for step in drive], 1, atol=1e-3)
+    assert len({round(step["length"], 3) for step in drive}) > 2

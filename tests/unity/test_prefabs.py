@@ -2,6 +2,9 @@
 
 import hashlib
 import itertools
+import json
+import re
+import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -232,10 +235,49 @@ def test_lights_shine_down_from_the_tubes_as_strongly_as_the_formula_says(import
     assert not [item for item in prefab.objects if item["path"].endswith("/Glow")]
 
 
-def test_labels_number_the_objects_and_what_moves_is_not_static(imported):
+@pytest.mark.parametrize(("extension", "form"), [("usda", None), ("usdc", "nested"), ("usdz", "flat")])
+def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, extension, form):
+    build, prefab = imported(SAMPLE["irregular"], extension, form)
+    expected = {item["path"]: (item["id"], item["class"]) for item in json.loads(build.labels.read_text())["objects"]}
+    found = {}
+    for item in prefab.objects:
+        if "labels" in item:
+            path = item["path"].partition("/")[2]
+            # points are below their instancer and named after it
+            path = re.sub(r"(\w+)/\1\[", r"\1[", path)
+            found[f"/{path}"] = item["instance"], item["labels"]["class"][0]
+    assert {path: found[path] for path in expected} == expected
+    others = [instance for path, (instance, _) in found.items() if path not in expected]
+    assert sorted(others) == list(range(len(expected) + 1, len(found) + 1))
+
+
+def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, prefab_dump, builds, tmp_path):
+    build = builds(SAMPLE["paper_7x9"], "usdz")
+    alone = tmp_path / "alone" / "alone.usdz"
+    alone.parent.mkdir()
+    shutil.copy(build.stage, alone)
+    labelled = [item["instance"] for item in prefabs(alone).objects if "labels" in item]
+    assert sorted(labelled) == list(range(1, len(labelled) + 1))
+    table = alone.with_name("alone_labels.json")
+    for text in (
+        '{"objects": [{"id": 1}]}',
+        '{"objects": [{"path": "/A", "id": "x"}]}',
+        '{"objects": [',
+        "[" * 300,
+        "",
+    ):
+        table.write_text(text)
+        (error,) = prefab_dump.ask("prefab", alone)["errors"]
+        assert "alone_labels.json" in error
+    name = json.dumps('\u00e9\\/\n"')
+    table.write_text(
+        f'{{"a": [[1.5e3, null, {{"b": {name}}}]], "objects": [{{"x": {name}, "path": {name}, "id": 7}}]}}'
+    )
+    assert len([item for item in prefabs(alone).objects if item.get("instance") == 7]) == 1
+
+
+def test_what_moves_is_not_static(imported):
     _, prefab = imported(SAMPLE["paper_7x9"], "usda")
-    labelled = [item for item in prefab.objects if "labels" in item]
-    assert sorted(item["instance"] for item in labelled) == list(range(1, len(labelled) + 1))
     moving = {item["path"] for label in ("car", "barrier") for item in prefab.labelled(label)}
     assert moving
     for item in prefab.objects[1:]:

@@ -51,7 +51,7 @@ namespace Garage.Unity.Editor
             {
                 Look(name, "Reading", 0);
                 SceneModel scene = StageReader.Read(files, Path.GetFileName(ctx.assetPath));
-                builder = new SceneBuilder(scene, settings, name);
+                builder = new SceneBuilder(scene, StageReader.Labels(files, name), settings, name);
                 var clock = Stopwatch.StartNew();
                 while (builder.Step())
                 {

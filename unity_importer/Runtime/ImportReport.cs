@@ -25,9 +25,13 @@ namespace Garage.Unity
 
         public List<Entry> entries = new List<Entry>();
 
+        /// <summary>Makes places readable; null leaves them as they are.</summary>
+        [NonSerialized] internal Func<string, string> Readable;
+
         /// <summary>Notes a place, such as a prim's path, under a reason.</summary>
         public void Add(string reason, string place)
         {
+            place = Readable == null ? place : Readable(place);
             Entry entry = entries.Find(one => one.reason == reason);
             if (entry == null)
             {

@@ -27,6 +27,7 @@ namespace Garage.Unity
         };
 
         readonly SceneModel scene;
+        readonly LabelTable table;
         readonly ImportSettings settings;
         readonly Basis basis;
         readonly MeshAssets meshes;
@@ -121,13 +122,14 @@ namespace Garage.Unity
             }
         }
 
-        /// <summary>Begins a prefab with a name; a scene is read best on another thread before.</summary>
-        public SceneBuilder(SceneModel scene, ImportSettings settings, string name)
+        /// <summary>Begins a prefab with a name; a scene is read best on another thread before. The table of labels may be null.</summary>
+        public SceneBuilder(SceneModel scene, LabelTable table, ImportSettings settings, string name)
         {
             this.scene = scene;
+            this.table = table;
             this.settings = settings;
             basis = new Basis(scene.Stage.IsZUp, scene.Stage.MetersPerUnit * settings.scale);
-            Report = new ImportReport();
+            Report = new ImportReport { Readable = Readable };
             meshes = new MeshAssets(basis, settings.lightmapCoordinates || settings.lightMode == LightMode.BakedRectangle, Store);
             materials = new MaterialAssets(scene, settings, Report, Store);
             lights = new LightBuilder(basis, settings, Report);
@@ -179,6 +181,18 @@ namespace Garage.Unity
             if (Root != null) { UnityEngine.Object.DestroyImmediate(Root); }
             foreach (UnityEngine.Object asset in assets.Values) { UnityEngine.Object.DestroyImmediate(asset); }
             assets.Clear();
+        }
+
+        // a prototype's name is only a number: that of its asset says more
+        string Readable(string place)
+        {
+            if (!place.StartsWith("/__Prototype_", StringComparison.Ordinal)) { return place; }
+            int slash = place.IndexOf('/', 1);
+            string root = slash < 0 ? place : place.Substring(0, slash);
+            UsdPrim prim = scene.Stage.PrimAt(root);
+            var asset = prim == null ? null : prim.Metadata("assetInfo") as UsdDictionary;
+            string name = asset == null ? null : asset.Text("name");
+            return name == null ? place : name + place.Substring(root.Length);
         }
 
         void Store(string key, UnityEngine.Object asset)
@@ -419,8 +433,7 @@ namespace Garage.Unity
             isFinished = true;
             Progress = 1;
             lanes.Finish(Root.transform);
-            int count = 0;
-            foreach (SemanticLabels labels in Root.GetComponentsInChildren<SemanticLabels>(true)) { labels.InstanceId = ++count; }
+            LabelTable.Apply(table, Root.transform);
             foreach (string warning in scene.Stage.Warnings) { Report.Add("the reader left out", warning); }
             Root.AddComponent<ImportedStage>().Set(Root.name, scene.Stage.IsZUp ? "Z" : "Y", scene.Stage.MetersPerUnit, Report);
         }

@@ -45,18 +45,24 @@ namespace Garage.Unity
         /// </summary>
         public static Task<LoadedStage> LoadAsync(string path, ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
         {
-            string full = Path.GetFullPath(path);
-            return MakeAsync(() => StageReader.Read(new FolderResolver(Path.GetDirectoryName(full)), Path.GetFileName(full)), Path.GetFileNameWithoutExtension(full), settings, parent,
-                progress, cancel);
+            string full = Path.GetFullPath(path), name = Path.GetFileNameWithoutExtension(full);
+            var files = new FolderResolver(Path.GetDirectoryName(full));
+            LabelTable table = null;
+            return MakeAsync(() =>
+            {
+                table = StageReader.Labels(files, name);
+                return StageReader.Read(files, Path.GetFileName(full));
+            }, () => table, name, settings, parent, progress, cancel);
         }
 
         /// <summary>The same for a .usdz that is in memory, such as one that was downloaded.</summary>
         public static Task<LoadedStage> LoadAsync(byte[] package, string name, ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
         {
-            return MakeAsync(() => StageReader.Whole(UsdStage.OpenPackage(package, name + ".usdz")), name, settings, parent, progress, cancel);
+            return MakeAsync(() => StageReader.Whole(UsdStage.OpenPackage(package, name + ".usdz")), () => null, name, settings, parent, progress, cancel);
         }
 
-        static async Task<LoadedStage> MakeAsync(Func<SceneModel> read, string name, ImportSettings settings, Transform parent, IProgress<float> progress, CancellationToken cancel)
+        static async Task<LoadedStage> MakeAsync(Func<SceneModel> read, Func<LabelTable> labels, string name, ImportSettings settings, Transform parent,
+            IProgress<float> progress, CancellationToken cancel)
         {
 #if UNITY_WEBGL && !UNITY_EDITOR
             // the web has no threads
@@ -65,7 +71,7 @@ namespace Garage.Unity
             SceneModel scene = await Task.Run(read, cancel);
 #endif
             cancel.ThrowIfCancellationRequested();
-            var builder = new SceneBuilder(scene, settings, name);
+            var builder = new SceneBuilder(scene, labels(), settings, name);
             try
             {
                 builder.Root.SetActive(false);

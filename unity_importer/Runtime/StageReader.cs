@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Garage.Usd;
 
@@ -13,6 +14,21 @@ namespace Garage.Unity
             string identifier = files.Resolve("", name, out reason);
             if (identifier == null) { throw new UsdFormatException(name, "file", reason); }
             return Whole(UsdStage.Open(files.Read(identifier), identifier, files));
+        }
+
+        /// <summary>The table that stands beside a stage as "NAME_labels.json"; null where there is none. Throws UsdFormatException.</summary>
+        public static LabelTable Labels(IAssetResolver files, string name)
+        {
+            string file = name + "_labels.json", reason, identifier = files.Resolve("", file, out reason);
+            if (identifier == null) { return null; }
+            try
+            {
+                return LabelTable.Read(files.Read(identifier));
+            }
+            catch (FormatException failure)
+            {
+                throw new UsdFormatException(file, "labels", failure.Message);
+            }
         }
 
         /// <summary>The scene of a stage, with all that it holds read. Throws UsdFormatException.</summary>

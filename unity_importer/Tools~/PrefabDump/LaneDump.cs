@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Globalization;
+using Garage.Unity.Samples;
 using Garage.Usd.Dump;
 using UnityEngine;
 
@@ -122,6 +123,26 @@ namespace Garage.Unity.Dump
                 Number(json, "distance", point.Distance);
                 Vector(json, "position", point.Position);
                 json.Close('}');
+            }
+            json.Close(']');
+            return json.ToString();
+        }
+
+        /// <summary>Where the sample drives, every tenth of a second.</summary>
+        public static string Drive(GameObject prefab, int count)
+        {
+            DriveAlongLanes driver = new GameObject("Eye").AddComponent<DriveAlongLanes>();
+            driver.SetOut(prefab);
+            var json = new JsonText();
+            json.Open('[');
+            for (int i = 0; i < count; i++)
+            {
+                json.Open('{');
+                Vector(json, "position", driver.transform.position);
+                Vector(json, "forward", driver.transform.forward);
+                Number(json, "length", driver.Path.Length);
+                json.Close('}');
+                driver.Drive(0.1f);
             }
             json.Close(']');
             return json.ToString();

@@ -28,7 +28,7 @@ namespace Garage.Unity.Dump
     /// <summary>
     /// Imports a stage on fakes of Unity's classes and prints what it became as a line of JSON. <c>prefab FILE [SETTING=VALUE ...]</c> all of it,
     /// <c>time FILE COUNT</c> what it costs, <c>load FILE</c> what the loader of players makes, <c>ways FILE FROM TO ...</c> ways between
-    /// stalls, <c>near FILE X Y Z ...</c> the nearest lanes; <c>batch</c> takes such commands from lines of the standard input, parts separated
+    /// stalls, <c>near FILE X Y Z ...</c> the nearest lanes, <c>drive FILE COUNT</c> where the sample is at so many tenths of a second; <c>batch</c> takes such commands from lines of the standard input, parts separated
     /// by tabs.
     /// </summary>
     static class Program
@@ -49,7 +49,7 @@ namespace Garage.Unity.Dump
             }
             if (arguments.Length < 2)
             {
-                Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE | ways FILE FROM TO ... | near FILE X Y Z ... | batch");
+                Console.Error.WriteLine("usage: PrefabDump prefab FILE [SETTING=VALUE ...] | time FILE COUNT | load FILE | ways FILE FROM TO ... | near FILE X Y Z ... | drive FILE COUNT | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -85,6 +85,7 @@ namespace Garage.Unity.Dump
                 case "time": return Times(file, int.Parse(rest[0]));
                 case "load": return Load(file, rest);
                 case "ways": return LaneDump.Ways(Imported(file, new string[0]), rest);
+                case "drive": return LaneDump.Drive(Imported(file, new string[0]), int.Parse(rest[0]));
                 case "near": return LaneDump.Near(Imported(file, new string[0]), rest);
                 default: return "{\"error\":\"unknown command\"}";
             }
@@ -181,9 +182,11 @@ namespace Garage.Unity.Dump
             {
                 GC.Collect();
                 TimeSpan start = Process.GetCurrentProcess().TotalProcessorTime;
-                SceneModel scene = StageReader.Read(new FolderResolver(Path.GetDirectoryName(file)), Path.GetFileName(file));
+                var files = new FolderResolver(Path.GetDirectoryName(file));
+                SceneModel scene = StageReader.Read(files, Path.GetFileName(file));
+                LabelTable table = StageReader.Labels(files, Path.GetFileNameWithoutExtension(file));
                 TimeSpan read = Process.GetCurrentProcess().TotalProcessorTime;
-                var builder = new SceneBuilder(scene, new ImportSettings(), "garage");
+                var builder = new SceneBuilder(scene, table, new ImportSettings(), "garage");
                 builder.Run();
                 TimeSpan made = Process.GetCurrentProcess().TotalProcessorTime;
                 json.Open('{');

@@ -133,6 +133,29 @@ namespace UnityEditor
             assets[path] = asset;
         }
 
+        /// <summary>Runs the importer of the file's extension.</summary>
+        public static void ImportAsset(string path)
+        {
+            foreach (Assembly assembly in AppDomain.CurrentDomain.GetAssemblies())
+            {
+                foreach (Type type in assembly.GetTypes())
+                {
+                    object[] marks = type.GetCustomAttributes(typeof(AssetImporters.ScriptedImporterAttribute), false);
+                    string extension = System.IO.Path.GetExtension(path).TrimStart('.');
+                    if (marks.Length == 0 || Array.IndexOf(((AssetImporters.ScriptedImporterAttribute)marks[0]).fileExtensions, extension) < 0) { continue; }
+                    var context = new AssetImporters.AssetImportContext { assetPath = path };
+                    ((AssetImporters.ScriptedImporter)Activator.CreateInstance(type)).OnImportAsset(context);
+                    assets[path] = context.mainObject;
+                }
+            }
+        }
+
+        public static bool DeleteAsset(string path)
+        {
+            System.IO.Directory.Delete(path, true);
+            return true;
+        }
+
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {
             Object found;

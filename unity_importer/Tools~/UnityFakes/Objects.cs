@@ -68,6 +68,13 @@ namespace UnityEngine
         public override string ToString() { return name + " (" + GetType().FullName + ")"; }
     }
 
+    public class MissingReferenceException : Exception
+    {
+        public MissingReferenceException(string message) : base(message)
+        {
+        }
+    }
+
     public class ScriptableObject : Object
     {
         public static T CreateInstance<T>() where T : ScriptableObject
@@ -202,6 +209,8 @@ namespace UnityEngine
             component.gameObject = this;
             if (count == components.Length) { Array.Resize(ref components, 2 * count); }
             components[count++] = component;
+            var collider = component as Collider;
+            if (!ReferenceEquals(collider, null)) { Physics.Know(collider); }
         }
 
         internal void Remove(Component component)
@@ -261,6 +270,12 @@ namespace UnityEngine
                 if (found != null) { return found; }
             }
             return default(T);
+        }
+
+        public T GetComponentInChildren<T>()
+        {
+            T[] found = GetComponentsInChildren<T>(false);
+            return found.Length > 0 ? found[0] : default(T);
         }
 
         public T[] GetComponentsInChildren<T>()

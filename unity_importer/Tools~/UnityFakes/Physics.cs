@@ -112,6 +112,90 @@ namespace UnityEngine
     }
 }
 
+namespace UnityEngine
+{
+    public struct RaycastHit
+    {
+        internal Collider struck;
+
+        public Collider collider { get { return struck; } }
+        public float distance { get; set; }
+    }
+
+    /// <summary>Strikes boxes and meshes whose objects were made one by one; clones are not known.</summary>
+    public class Physics
+    {
+        static readonly List<WeakReference> Known = new List<WeakReference>();
+
+        internal static void Know(Collider collider)
+        {
+            if (Known.Count > 10000) { Known.RemoveAll(one => !one.IsAlive); }
+            Known.Add(new WeakReference(collider));
+        }
+
+        public static void SyncTransforms()
+        {
+        }
+
+        public static bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit hitInfo)
+        {
+            hitInfo = new RaycastHit { distance = float.PositiveInfinity };
+            foreach (WeakReference one in Known)
+            {
+                var collider = one.Target as Collider;
+                if (collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy) { continue; }
+                Matrix4x4 matrix = collider.transform.localToWorldMatrix;
+                foreach (Vector3[] triangle in Triangles(collider))
+                {
+                    Vector3 a = matrix.MultiplyPoint3x4(triangle[0]), b = matrix.MultiplyPoint3x4(triangle[1]), c = matrix.MultiplyPoint3x4(triangle[2]);
+                    float distance = Distance(origin, direction.normalized, a, b, c);
+                    if (distance < hitInfo.distance) { hitInfo = new RaycastHit { struck = collider, distance = distance }; }
+                }
+            }
+            return hitInfo.struck != null;
+        }
+
+        // fronts only, as of meshes that are not convex
+        static float Distance(Vector3 origin, Vector3 direction, Vector3 a, Vector3 b, Vector3 c)
+        {
+            Vector3 normal = Vector3.Cross(b - a, c - a);
+            float along = Vector3.Dot(normal, direction);
+            if (along >= 0) { return float.PositiveInfinity; }
+            float distance = Vector3.Dot(normal, a - origin) / along;
+            Vector3 point = origin + direction * distance;
+            bool isInside = Vector3.Dot(Vector3.Cross(b - a, point - a), normal) >= 0 && Vector3.Dot(Vector3.Cross(c - b, point - b), normal) >= 0
+                && Vector3.Dot(Vector3.Cross(a - c, point - c), normal) >= 0;
+            return isInside && distance >= 0 ? distance : float.PositiveInfinity;
+        }
+
+        static IEnumerable<Vector3[]> Triangles(Collider collider)
+        {
+            var box = collider as BoxCollider;
+            var mesh = collider as MeshCollider;
+            if (mesh != null)
+            {
+                Vector3[] points = mesh.sharedMesh.vertices;
+                int[] triangles = mesh.sharedMesh.triangles;
+                for (int i = 0; i < triangles.Length; i += 3) { yield return new[] { points[triangles[i]], points[triangles[i + 1]], points[triangles[i + 2]] }; }
+            }
+            for (int side = 0; box != null && side < 6; side++)
+            {
+                var corners = new Vector3[4];
+                for (int corner = 0; corner < 4; corner++)
+                {
+                    float sign = side < 3 ? 1 : -1, u = corner == 1 || corner == 2 ? 1 : -1, v = corner >= 2 ? 1 : -1;
+                    var offset = new[] { sign, sign * u, v };
+                    int axis = side % 3;
+                    var own = new Vector3(offset[(3 - axis) % 3], offset[(4 - axis) % 3], offset[(5 - axis) % 3]);
+                    corners[corner] = box.center + Vector3.Scale(own, box.size * 0.5f);
+                }
+                yield return new[] { corners[0], corners[1], corners[2] };
+                yield return new[] { corners[0], corners[2], corners[3] };
+            }
+        }
+    }
+}
+
 namespace UnityEngine.AI
 {
     public enum NavMeshCollectGeometry { RenderMeshes, PhysicsColliders }
