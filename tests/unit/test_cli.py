@@ -44,7 +44,10 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     stalls = report["score"]["stalls"]
     assert report["seed"] == 4
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
-    assert f"{stalls} of {stalls} stalls, from an entrance and to an exit" in result.output
+    assert sum(report["stall_uses"].values()) == stalls
+    assert report["stall_uses"]["standard"] > stalls / 2
+    assert f"stalls  {stalls} ({report['stall_uses']['standard']} standard, " in result.output
+    assert "every stall, from an entrance and to an exit" in result.output
     assert f"{report['score']['value']:.2f} (N_S {stalls}, " in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
