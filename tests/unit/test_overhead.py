@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import shapely
 from footprints import footprint
-from overlaps import HANGING, assert_nothing_overhead_meets
+from overlaps import HANGING, assert_solid_objects_keep_apart
 from sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
@@ -17,7 +17,7 @@ from garage2usd.stalls import Edge
 @each_sample
 def test_nothing_overhead_meets_anything_or_hangs_into_the_way(sample):
     config = load_config(sample)
-    assert_nothing_overhead_meets(generate(config).layout, config)
+    assert_solid_objects_keep_apart(generate(config).layout, config)
 
 
 def laid_out(text, **fittings):
@@ -37,7 +37,7 @@ E======X
 @pytest.mark.parametrize("ceiling_m", [2.4, 3.2, 4.0])
 def test_any_ceiling_leaves_the_clear_height(ceiling_m):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
     assert bool(layout.of_kind(ObjectKind.EXIT_SIGN)) == (ceiling_m > 3)
 
 
@@ -57,7 +57,7 @@ def ways_seen(place):
 
 def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
     layout, config = laid_out(CROSS)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
     seen = {}
     for place in layout.of_kind(ObjectKind.MIRROR):
         seen.setdefault(place.square, set()).update(ways_seen(place))
@@ -148,6 +148,6 @@ E======X
 )
 def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, **switches)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
     assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent
     assert {place.spec.depth_m for place in layout.of_kind(ObjectKind.BEAM)} == ({depth_m} if depth_m else set())
