@@ -22,8 +22,8 @@ STANDING = (*BUILDING, ObjectKind.BARRIER, ObjectKind.CAR, ObjectKind.CONE, Obje
 STANDING = (*STANDING, ObjectKind.NO_PARKING_SIGN)
 SOLID = (*HANGING, *STANDING, ObjectKind.SPEED_BUMP)
 TOUCH_M = 1e-4
-# flanges of ducts that meet; beams and walls that end in each other's line
-MAY_TOUCH = {ObjectKind.DUCT}
+# flanges of ducts that meet; doors of cores that stand side by side
+MAY_TOUCH = {ObjectKind.DUCT, ObjectKind.OBSTACLE}
 SECTIONS = (1 / 6, 1 / 2, 5 / 6)
 """Where two pieces are compared, as shares of the height that both of them span."""
 
@@ -134,7 +134,7 @@ class Solids:
         """The pairs of placements of which two pieces meet."""
         for one, other in self.near().tolist():
             first, second = self.placements[one], self.placements[other]
-            if {first.kind, second.kind} <= MAY_TOUCH:
+            if first.kind is second.kind and first.kind in MAY_TOUCH:
                 continue
             candidates = meet(self.piece_boxes[one][:, None], self.piece_boxes[other][None])
             if any(self._meet(one, i, other, j) for i, j in np.argwhere(candidates).tolist()):

@@ -16,11 +16,13 @@ from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBum
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["TUBE", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
 """The tube light, before it is known how bright it must be."""
+TUBE_DEPTH_M = 0.105
+"""How far it hangs below the ceiling."""
 _CONES_ACROSS_M = (-0.75, 0.0, 0.75)
 _CONES_FROM_MOUTH_M = 0.9
 _CONES_FROM_EDGE_M = 0.95
