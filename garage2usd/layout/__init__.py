@@ -101,9 +101,8 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
-    tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
-
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+    tubes, illuminance = light_up(tube_lights(grid, fittings, levels), grid, stalls, fittings)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there

@@ -5,7 +5,6 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import lru_cache
-from itertools import chain
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -79,13 +78,14 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterabl
     places = KDTree(np.array([stall.centre_m for stall in stalls]))
     for end in ends:
         tile = grid.tiles[end.tip]
-        middle = tile.x_m, tile.z_m
-        _, nearest = places.query(middle, k=min(len(stalls), _NEAR_STALLS))
-        own = (
-            sorted(opening_on.get(square, ()), key=lambda index: round(math.dist(stalls[index].centre_m, middle), 6))
-            for square in end.squares
-        )
-        for index in chain(*own, np.atleast_1d(nearest).tolist()):
+        _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))
+        own = (index for square in end.squares for index in opening_on.get(square, ()))
+        back = {square: squares_back for squares_back, square in enumerate(end.squares)}
+        # a stable sort: the nearest first among those that open onto the same lane
+        for index in sorted(
+            dict.fromkeys((*np.atleast_1d(nearest).tolist(), *own)),
+            key=lambda index: back.get(stalls[index].access_square, len(back)),
+        ):
             if turned[index].use is StallUse.STANDARD:
                 turned[index] = replace(turned[index], use=StallUse.TURNING)
                 break

@@ -20,6 +20,9 @@ from garage2usd.pipeline import generate
         ({"bay": {"column_widths_m": -3}}, "bay.column_widths_m", "greater than or equal to 1"),
         ({"bay": {"column_widths_m": [8.1, "a"]}}, "bay.column_widths_m", "number"),
         ({"plan": {"preset": "best"}}, "plan.preset", "'paper' or 'tuned'"),
+        ({"fittings": {"clear_height_m": 6, "ceiling_height_m": 2.4}}, "fittings.ceiling_height_m", "which is 6.0"),
+        ({"fittings": {"clear_height_m": 3.1}}, "fittings.ceiling_height_m", "at least 0.15 m over"),
+        ({"fittings": {"clear_height_m": 2.3, "ceiling_height_m": 2.4}}, "fittings.ceiling_height_m", "which is 2.3"),
         ({"seed": -1}, "seed", "greater than or equal to 0"),
         ({"parking": {"occupancy": 1.5}}, "parking.occupancy", "less than or equal to 1"),
         ({"site": {"structure": "E=X", "contour": "..."}}, "site", "no contour beside a complete structure"),
@@ -32,6 +35,11 @@ def test_bad_settings_name_field_value_and_what_is_allowed(settings, field, allo
     assert caught.value.field.startswith(field)
     assert allowed in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_ceiling_may_hang_just_over_the_clear_height():
+    fittings = GarageConfig(fittings={"clear_height_m": 2.7, "ceiling_height_m": 2.85}).fittings
+    assert (fittings.clear_height_m, fittings.ceiling_height_m) == (2.7, 2.85)
 
 
 def test_configurations_are_frozen():
