@@ -105,6 +105,19 @@ namespace Garage.Usd
             get { return Arc == Arc.Inherit || Arc == Arc.Specialize; }
         }
 
+        /// <summary>Whether the prim itself inherits this place, directly or by way of others, and not a prim above it.</summary>
+        public bool IsInheritedDirectly
+        {
+            get
+            {
+                for (ArcNode node = this; node.Parent != null; node = node.Parent)
+                {
+                    if (node.IsClass && UsdPaths.Depth(node.Parent.Path) == node.Depth) { return true; }
+                }
+                return false;
+            }
+        }
+
         /// <summary>Adds a child at its place by strength, behind equally strong ones.</summary>
         public void Add(ArcNode child)
         {
@@ -125,7 +138,8 @@ namespace Garage.Usd
         {
             if (From == null) { return path; }
             if (UsdPaths.HasPrefix(path, From)) { return From == To ? path : To == "/" ? path.Substring(From.Length) : To + path.Substring(From == "/" ? 0 : From.Length); }
-            return KeepsOtherPaths ? path : null;
+            // what stands at the parent's place there is hidden by what this node brings to that place
+            return KeepsOtherPaths && !UsdPaths.HasPrefix(path, To) ? path : null;
         }
 
         /// <summary>A copy of a node, of its place and its specs, without what is around it.</summary>

@@ -66,16 +66,6 @@ namespace Garage.Usd
             return specs.ToArray();
         }
 
-        static int DepthOf(string path)
-        {
-            int depth = 0;
-            foreach (char letter in path)
-            {
-                if (letter == '/') { depth++; }
-            }
-            return depth;
-        }
-
         // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
         ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, Choices choices)
         {
@@ -88,7 +78,7 @@ namespace Garage.Usd
             ArcNode root;
             if (parentPath == "/" || parentPath == null || !withAncestors)
             {
-                root = ArcNode.OfRoot(stack, path, DepthOf(path));
+                root = ArcNode.OfRoot(stack, path, UsdPaths.Depth(path));
                 root.Specs = SpecsAt(stack, path);
             }
             else
@@ -261,7 +251,7 @@ namespace Garage.Usd
             {
                 library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of " + stack.Root.Identifier + ", which does not exist");
             }
-            var root = new ArcNode(stack, path, arc, DepthOf(node.Path), path, node.Path, keepsOtherPaths, offset, null)
+            var root = new ArcNode(stack, path, arc, UsdPaths.Depth(node.Path), path, node.Path, keepsOtherPaths, offset, null)
             {
                 Specs = template.Specs, IsExpanded = template.IsExpanded,
                 ChosenSets = template.ChosenSets == null ? null : new List<string>(template.ChosenSets),
@@ -483,7 +473,7 @@ namespace Garage.Usd
                 if (found != null) { specs.Add(new LayerSpec(spec.Layer, found)); }
             }
             if (specs.Count == 0) { return null; }
-            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, DepthOf(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
+            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, UsdPaths.Depth(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
             {
                 Specs = specs.ToArray(),
             };
