@@ -13,10 +13,14 @@ LAYER = ["Garage.Usd", "UnityFakes", "Garage.Unity"]
 FLAGS = ["-warnaserror", "-langversion:7.2", "-optimize+", "-r:System.Core"]
 
 
-def compile_assembly(output: Path, sources: list[Path], references: list[str], defines: tuple[str, ...]) -> None:
-    """An assembly beside those that it refers to, each warning an error."""
+def compile_assembly(
+    output: Path, sources: list[Path], references: list[str], defines: tuple[str, ...], *, documented: bool = False
+) -> None:
+    """An assembly beside those that it refers to, each warning an error; and what is public without a comment, if told."""
     target = "exe" if output.suffix == ".exe" else "library"
     command = ["mcs", f"-target:{target}", *FLAGS, *(f"-define:{name}" for name in defines), f"-out:{output}"]
+    if documented:
+        command.append(f"-doc:{output.with_suffix('.xml')}")
     command += [f"-r:{output.parent / name}.dll" for name in references] + [str(source) for source in sources]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     if done.returncode:
@@ -33,9 +37,10 @@ def compile_layer(folder: Path, *defines: str) -> None:
     core, fakes, layer = "Garage.Usd", "UnityFakes", "Garage.Unity"
     compile_assembly(folder / f"{core}.dll", sources_of("Core"), [], defines)
     compile_assembly(folder / f"{fakes}.dll", sources_of("Tools~/UnityFakes"), [], defines)
-    compile_assembly(folder / f"{layer}.dll", sources_of("Runtime"), [core, fakes], defines)
+    compile_assembly(folder / f"{layer}.dll", sources_of("Runtime"), [core, fakes], defines, documented=True)
     if EDITOR in defines:
-        compile_assembly(folder / f"{layer}.Editor.dll", sources_of("Editor"), [core, fakes, layer], defines)
+        editor = folder / f"{layer}.Editor.dll"
+        compile_assembly(editor, sources_of("Editor"), [core, fakes, layer], defines, documented=True)
 
 
 def compile_package(folder: Path, *defines: str) -> list[str]:

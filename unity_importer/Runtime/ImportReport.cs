@@ -13,16 +13,21 @@ namespace Garage.Unity
         [Serializable]
         public sealed class Entry
         {
+            /// <summary>What happened, for all these places.</summary>
             public string reason;
+            /// <summary>How often.</summary>
             public int count;
+            /// <summary>The first few places, such as paths of prims.</summary>
             public List<string> places = new List<string>();
 
+            /// <summary>Reason, count and places in a line.</summary>
             public override string ToString()
             {
                 return reason + " (" + count + "): " + string.Join(", ", places.ToArray()) + (count > places.Count ? ", ..." : "");
             }
         }
 
+        /// <summary>All reasons in the order in which they came up.</summary>
         public List<Entry> entries = new List<Entry>();
 
         /// <summary>Makes places readable; null leaves them as they are.</summary>

@@ -25,6 +25,7 @@ namespace Garage.Unity
         /// <summary>A box around everything that collides.</summary>
         Boxes,
 
+        /// <summary>No colliders.</summary>
         None,
     }
 
@@ -34,8 +35,13 @@ namespace Garage.Unity
         /// <summary>That of the project.</summary>
         Automatic,
 
+        /// <summary>Standard.</summary>
         BuiltIn,
+
+        /// <summary>Universal Render Pipeline/Lit.</summary>
         Universal,
+
+        /// <summary>HDRP/Lit.</summary>
         HighDefinition,
     }
 
@@ -43,42 +49,55 @@ namespace Garage.Unity
     [Serializable]
     public sealed class ImportSettings
     {
+        /// <summary>Metres in Unity for each metre of the stage.</summary>
         [Tooltip("Metres in Unity for each metre of the stage.")]
         public float scale = 1;
 
+        /// <summary>What stands for lights with an area.</summary>
         [Tooltip("What stands for lights with an area.")]
         public LightMode lightMode = LightMode.SpotProxy;
 
+        /// <summary>Doubles all lights and glowing surfaces for each whole number; negative ones halve.</summary>
         [Tooltip("Doubles all lights and glowing surfaces for each whole number; negative ones halve.")]
         public float exposureStops;
 
+        /// <summary>HDRP only: candela a square metre for each unit of intensity in the stage. Stages of garage2usd hold true values at 27.</summary>
         [Tooltip("HDRP only: candela a square metre for each unit of intensity in the stage. Stages of garage2usd hold true values at 27.")]
         public float nitsPerUnit = 1;
 
+        /// <summary>Whether spots and distant lights cast shadows. Every one costs a map of its own.</summary>
         [Tooltip("Whether spots and distant lights cast shadows. Every one costs a map of its own.")]
         public bool lightShadows;
 
+        /// <summary>Which colliders are made.</summary>
         [Tooltip("Which colliders are made.")]
         public ColliderMode colliders = ColliderMode.AsAuthored;
 
+        /// <summary>GPU instancing on all materials. Static batching is left off then, as it would win.</summary>
         [Tooltip("GPU instancing on all materials. Static batching is left off then, as it would win.")]
         public bool gpuInstancing = true;
 
+        /// <summary>Marks what never moves as static for global illumination, occlusion and reflections (editor only).</summary>
         [Tooltip("Marks what never moves as static for global illumination, occlusion and reflections (editor only).")]
         public bool staticFlags = true;
 
+        /// <summary>Labels (class) of objects that may move, and so are not static.</summary>
         [Tooltip("Labels (class) of objects that may move, and so are not static.")]
         public string[] movableLabels = { "car", "barrier" };
 
+        /// <summary>Makes cameras of the stage's, switched off.</summary>
         [Tooltip("Makes cameras of the stage's, switched off.")]
         public bool cameras = true;
 
+        /// <summary>Compresses textures whose sides are multiples of four.</summary>
         [Tooltip("Compresses textures whose sides are multiples of four.")]
         public bool compressTextures = true;
 
+        /// <summary>Unwraps meshes for lightmaps (editor only); BakedRectangle does so anyway.</summary>
         [Tooltip("Unwraps meshes for lightmaps (editor only); BakedRectangle does so anyway.")]
         public bool lightmapCoordinates;
 
+        /// <summary>For whose shaders materials are made.</summary>
         [Tooltip("For whose shaders materials are made.")]
         public PipelineKind pipeline = PipelineKind.Automatic;
     }

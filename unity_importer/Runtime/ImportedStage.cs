@@ -30,6 +30,7 @@ namespace Garage.Unity
             get { return metersPerUnit; }
         }
 
+        /// <summary>How many reasons there are to leave something out.</summary>
         public int LeftOutCount
         {
             get { return leftOut.Length; }

@@ -14,7 +14,11 @@ namespace Garage.Unity
         /// <summary>"straight", "t_junction", "crossroads", "entrance", "exit".</summary>
         public string kind;
 
-        public int row, column;
+        /// <summary>Row of its square.</summary>
+        public int row;
+
+        /// <summary>Column of its square.</summary>
+        public int column;
 
         /// <summary>Metres of carriageway along the stage's x and z.</summary>
         public Vector2 widths;
@@ -24,11 +28,17 @@ namespace Garage.Unity
     [Serializable]
     public struct LaneEdge
     {
-        /// <summary>Numbers of nodes.</summary>
-        public int from, to;
+        /// <summary>Number of the node where it begins.</summary>
+        public int from;
 
-        /// <summary>Metres.</summary>
-        public float length, width;
+        /// <summary>Number of the node where it ends.</summary>
+        public int to;
+
+        /// <summary>Metres from node to node.</summary>
+        public float length;
+
+        /// <summary>Metres of carriageway.</summary>
+        public float width;
 
         /// <summary>Whether cars drive from the one node to the other only.</summary>
         public bool isOneWay;
@@ -60,26 +70,31 @@ namespace Garage.Unity
         [SerializeField] Stall[] stalls = new Stall[0];
         [NonSerialized] List<int>[] edgesOfNode;
 
+        /// <summary>Lane squares and portals.</summary>
         public int NodeCount
         {
             get { return nodes.Length; }
         }
 
+        /// <summary>Ways between nodes.</summary>
         public int EdgeCount
         {
             get { return edges.Length; }
         }
 
+        /// <summary>Stalls of the stage, also those where nobody parks.</summary>
         public int StallCount
         {
             get { return stalls.Length; }
         }
 
+        /// <summary>A node by its number. Throws IndexOutOfRangeException.</summary>
         public LaneNode Node(int number)
         {
             return nodes[number];
         }
 
+        /// <summary>An edge by its number. Throws IndexOutOfRangeException.</summary>
         public LaneEdge Edge(int number)
         {
             return edges[number];

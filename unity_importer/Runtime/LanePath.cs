@@ -22,11 +22,13 @@ namespace Garage.Unity
             for (int i = 1; i < reached.Length; i++) { reached[i] = reached[i - 1] + Vector3.Distance(different[i - 1], different[i]); }
         }
 
+        /// <summary>Points between which the way is straight.</summary>
         public int Count
         {
             get { return points.Length; }
         }
 
+        /// <summary>A point, in the world. Throws IndexOutOfRangeException.</summary>
         public Vector3 this[int index]
         {
             get { return points[index]; }

@@ -10,6 +10,7 @@ namespace Garage.Unity
         /// <summary>Metres.</summary>
         public Vector3 Position;
 
+        /// <summary>Of what the scale has stretched.</summary>
         public Quaternion Rotation;
 
         /// <summary>x is negative where the matrix mirrors.</summary>

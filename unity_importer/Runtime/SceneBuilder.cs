@@ -51,6 +51,7 @@ namespace Garage.Unity
             get { return assets; }
         }
 
+        /// <summary>What was left out so far.</summary>
         public ImportReport Report { get; private set; }
 
         /// <summary>0 to 1.</summary>

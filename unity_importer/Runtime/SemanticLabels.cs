@@ -16,7 +16,10 @@ namespace Garage.Unity
         [Serializable]
         public struct Taxonomy
         {
+            /// <summary>Such as "class".</summary>
             public string name;
+
+            /// <summary>All that the object is in it.</summary>
             public string[] labels;
         }
 
@@ -40,11 +43,13 @@ namespace Garage.Unity
             }
         }
 
+        /// <summary>How many taxonomies say something.</summary>
         public int TaxonomyCount
         {
             get { return taxonomies.Length; }
         }
 
+        /// <summary>A taxonomy with its labels. Throws IndexOutOfRangeException.</summary>
         public Taxonomy TaxonomyAt(int index)
         {
             return taxonomies[index];

@@ -18,16 +18,19 @@ namespace Garage.Unity
             this.builder = builder;
         }
 
+        /// <summary>The stage's root object.</summary>
         public GameObject Root
         {
             get { return builder.Root; }
         }
 
+        /// <summary>What was left out.</summary>
         public ImportReport Report
         {
             get { return builder.Report; }
         }
 
+        /// <summary>Destroys the objects, meshes, materials and textures.</summary>
         public void Dispose()
         {
             builder.Abandon();

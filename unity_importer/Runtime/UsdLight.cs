@@ -9,42 +9,55 @@ namespace Garage.Unity
     [AddComponentMenu("Garage/USD Light")]
     public sealed class UsdLight : MonoBehaviour
     {
-        [Tooltip("Rect, Disk, Sphere, Cylinder, Distant or Dome.")]
+        /// <summary>Rect, Disk, Sphere, Cylinder, Distant or Dome.</summary>
         public LightKind kind;
 
-        [Tooltip("Linear.")]
+        /// <summary>Linear.</summary>
         public Color color = Color.white;
 
+        /// <summary>inputs:intensity.</summary>
         public float intensity;
+
+        /// <summary>inputs:exposure: doublings of the intensity.</summary>
         public float exposure;
+
+        /// <summary>Whether a larger light is no stronger.</summary>
         public bool isNormalized;
+
+        /// <summary>Of a rectangle, along x.</summary>
         public float width;
+
+        /// <summary>Of a rectangle, along y.</summary>
         public float height;
+
+        /// <summary>Of a disk, a sphere or a cylinder.</summary>
         public float radius;
+
+        /// <summary>Of a cylinder, along x.</summary>
         public float length;
 
-        [Tooltip("Degrees that a distant light spans.")]
+        /// <summary>Degrees that a distant light spans.</summary>
         public float angle;
 
-        [Tooltip("Half of the cone, in degrees; 90 where the light is not shaped.")]
+        /// <summary>Half of the cone, in degrees; 90 where the light is not shaped.</summary>
         public float coneAngle = 90;
 
-        [Tooltip("Kelvin; 0 where the color alone counts.")]
+        /// <summary>Kelvin; 0 where the color alone counts.</summary>
         public float colorTemperature;
 
-        [Tooltip("Units of the stage a square metre; candela where one unit is one.")]
+        /// <summary>Units of the stage a square metre; candela where one unit is one.</summary>
         public float luminance;
 
-        [Tooltip("Straight ahead, in units of the stage; 0 for lights at infinity.")]
+        /// <summary>Straight ahead, in units of the stage; 0 for lights at infinity.</summary>
         public float candela;
 
-        [Tooltip("Of a light with an area, in units of the stage.")]
+        /// <summary>Of a light with an area, in units of the stage.</summary>
         public float lumen;
 
-        [Tooltip("On a surface that faces a distant light, in units of the stage.")]
+        /// <summary>On a surface that faces a distant light, in units of the stage.</summary>
         public float lux;
 
-        [Tooltip("What garage:light:luminance says: the true candela a square metre; 0 where it is not said.")]
+        /// <summary>What garage:light:luminance says: the true candela a square metre; 0 where it is not said.</summary>
         public float statedLuminance;
 
         /// <summary>Fills this from a prim's light.</summary>
