@@ -16,7 +16,7 @@ FLAGS = ["-warnaserror", "-langversion:7.2", "-optimize+", "-r:System.Core"]
 def compile_assembly(
     output: Path, sources: list[Path], references: list[str], defines: tuple[str, ...], *, documented: bool = False
 ) -> None:
-    """An assembly beside those that it refers to, each warning an error; and what is public without a comment, if told."""
+    """An assembly beside those that it refers to, each warning an error; public without a comment too, if told."""
     target = "exe" if output.suffix == ".exe" else "library"
     command = ["mcs", f"-target:{target}", *FLAGS, *(f"-define:{name}" for name in defines), f"-out:{output}"]
     if documented:
