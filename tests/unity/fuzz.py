@@ -1,150 +1,164 @@
-"""Damaged files into the C# readers: ``python tests/unity/fuzz.py COUNT SEED``.
+"""Damaged and hostile files into the C# readers: ``python tests/unity/fuzz.py [--count COUNT] [--seed SEED]``.
 
-Each is read or refused with the one exception, within two seconds and a bounded memory.
+COUNT files into each of the three readers: texts, crates and packages. Each is read or refused with the one exception,
+within two seconds and a bounded memory; whatever is not so is kept and named.
 """
 
-import random
-import struct
+import argparse
+import shutil
 import sys
 import tempfile
-import time
 import zipfile
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
+from random import Random
 
+import damage
+import hostile
 import reader
 from pxr import Sdf
 from small_stages import SMALL_STAGES
 
 SLOWEST_S = 2.0
-LARGEST_BYTES = 600_000_000
+LARGEST_MB = 600.0
+HANGS_S = 30.0
 STAGES = Path(__file__).parent / "stages"
+FORMATS = ("usda", "usdc", "usdz")
+
+Files = dict[str, bytes]
+"""Names and contents of files, the first the root."""
 
 
-def seeds(folder: Path) -> list[Path]:
-    """Sound files of all three formats to damage: with every type of value, every arc, long arrays."""
-    made = []
-    texts = {"values": (STAGES / "values.usda").read_text()}
-    for name in ("variants", "instances", "references", "list edits", "inherits", "sublayers with offsets"):
-        root = next(iter(SMALL_STAGES[name].values()))
-        texts[name.replace(" ", "_")] = "#usda 1.0\n" + root.replace(" }", "\n}")
-    numbers = ", ".join(str(index * 7 % 1000) for index in range(4000))
-    texts["arrays"] = (
-        f'#usda 1.0\ndef Mesh "A" {{\n int[] i = [{numbers}]\n double[] d = [{numbers}]\n float[] f = [{numbers}]\n}}\n'
-    )
-    for name, text in texts.items():
-        layer = Sdf.Layer.CreateAnonymous(".usda")
-        layer.ImportFromString(text)
-        for form in ("usda", "usdc"):
-            path = folder / f"{name}.{form}"
-            layer.Export(str(path))
-            made.append(path)
-        package = folder / f"{name}.usdz"
-        with zipfile.ZipFile(package, "w", zipfile.ZIP_STORED) as archive:
-            archive.write(folder / f"{name}.usdc", f"{name}.usdc")
-            archive.write(folder / f"{name}.usda", f"sub/{name}.usda")
-        made.append(package)
-    return made
+class Fuzz:
+    """Draws files for one of the three readers; the same seed draws the same files."""
+
+    def __init__(self, form: str, seed: int) -> None:
+        self.form = form
+        self.draw = Random(f"{form} {seed}")  # noqa: S311 - of test inputs
+        self.texts = {path.stem: path.read_text() for path in sorted(STAGES.glob("*.usda"))}
+        for name in ("variants", "instances", "references", "list edits", "inherits", "sublayers with offsets"):
+            self.texts[name] = "#usda 1.0\n" + next(iter(SMALL_STAGES[name].values())).replace(" }", "\n}")
+        numbers = ", ".join(str(index * 7 % 1000) for index in range(4000))
+        arrays = f"int[] i = [{numbers}]\n double[] d = [{numbers}]\n float[] f = [{numbers}]"
+        self.texts["arrays"] = f'#usda 1.0\ndef Mesh "A" {{\n {arrays}\n}}\n'
+        inner = "usda" if form == "usda" else "usdc"
+        self.sound = {name: converted(text, inner) for name, text in self.texts.items()}
+
+    def kinds(self) -> list[Callable]:
+        """All kinds of files that this one draws from."""
+        if self.form == "usdz":
+            return [*damage.OF_PACKAGES, *hostile.ZIP_TRICKS, hostile.circles]
+        return [*(damage.OF_TEXTS if self.form == "usda" else damage.OF_CRATES), *hostile.HOSTILE]
+
+    def files(self) -> tuple[str, Files]:
+        """The kind of the next case, and its files."""
+        kind = self.draw.choice(self.kinds())
+        name = self.draw.choice(list(self.sound))
+        if kind in hostile.HOSTILE:
+            inner = "usda" if self.form == "usda" else "usdc"
+            files = {f"{key}": converted(f"#usda 1.0\n{text}", inner) for key, text in kind(self.draw).items()}
+            return kind.__name__, {"root.usdz": zipped(files)} if self.form == "usdz" else files
+        if self.form != "usdz":
+            return kind.__name__, {f"damaged.{self.form}": kind(self.sound[name], self.draw)}
+        entries = {f"{name}.usdc": self.sound[name], f"sub/{name}.usda": self.texts[name].encode()}
+        if kind in hostile.ZIP_TRICKS:
+            return kind.__name__, {"tricky.usdz": kind(entries, self.draw)}
+        return kind.__name__, {"damaged.usdz": kind(zipped(entries), self.draw)}
 
 
-def damaged(data: bytes, draw: random.Random) -> bytes:
-    """One kind of damage, or several."""
-    data = bytearray(data)
-    for _ in range(draw.choice([1, 1, 2, 5, 20])):
-        kind = draw.randrange(8)
-        place = draw.randrange(len(data)) if data else 0
-        if kind == 0 and data:
-            data[place] ^= 1 << draw.randrange(8)
-        elif kind == 1 and data:
-            data[place] = draw.choice([0, 1, 127, 128, 254, 255])
-        elif kind == 2:
-            del data[place:]
-        elif kind == 3:
-            huge = draw.choice([2**31 - 1, 2**32 - 1, 2**40, 2**63 - 1, 2**63, 2**64 - 1, 0, 1, 65535])
-            data[place : place + 8] = struct.pack("<Q", huge)
-        elif kind == 4:
-            del data[place : place + draw.randrange(1, 30)]
-        elif kind == 5:
-            start = draw.randrange(len(data)) if data else 0
-            data[place:place] = data[start : start + draw.randrange(1, 200)]
-        elif kind == 6:
-            data[place:place] = draw.choice(
-                [b"{", b"}", b"[", b"(", b'"', b"@", b"<", b"def ", b"1e999", b"\xff\xfe", b"None"]
-            )
-        elif len(data) > 100:
-            # near the end and the beginning stand tables of contents
-            place = draw.choice([draw.randrange(8, 96), len(data) - 1 - draw.randrange(min(400, len(data) - 1))])
-            data[place] = draw.randrange(256)
-    return bytes(data)
+def converted(text: str, form: str) -> bytes:
+    """The layer of a text in a format."""
+    if form == "usda":
+        return text.encode()
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString(text)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"layer.{form}"
+        layer.Export(str(path))
+        return path.read_bytes()
 
 
-def hostile(draw: random.Random) -> str:
-    """Text that grows when it is composed: each of many prims leads to several others."""
-    depth, fan = draw.randrange(8, 40), draw.randrange(2, 6)
-    arc = draw.choice(["references", "inherits", "payload", "specializes", "children", "deep", "variants"])
-    lines = ["#usda 1.0"]
-    if arc == "children":
-        for level in range(depth):
-            kids = "".join(f'def "k{i}" ( references = </L{level + 1}> ) {{}}\n' for i in range(fan))
-            lines.append(f'def "L{level}" {{\n{kids}}}')
-    elif arc == "deep":
-        count = draw.choice([50, 500, 3000])
-        lines += [
-            f'def "L{level}" ( references = </L{level + 1}> ) {{ def "k{level}" ( references = </L0> ) {{}}\n}}'
-            for level in range(count)
-        ]
-    elif arc == "variants":
-        inner = 'def "x" {}\n'
-        for level in range(draw.choice([5, 30, 200])):
-            head = f'def "v{level}" ( variants = {{ string s = "a" }} prepend variantSets = "s" )'
-            inner = f'{head} {{ variantSet "s" = {{ "a" {{ {inner} }} }} }}\n'
-        lines.append(inner)
-    else:
-        for level in range(depth):
-            targets = ", ".join(
-                f"</L{level + 1}/k{i}>" if arc == "inherits" and level % 2 else f"</L{level + 1}_{i}>"
-                for i in range(fan)
-            )
-            for i in range(fan):
-                lines.append(f'def "L{level}_{i}" ( {arc} = [{targets}] ) {{ float a = {i}\n }}')
-    return "\n".join(lines)
+def zipped(entries: Files) -> bytes:
+    with tempfile.TemporaryFile() as file:
+        with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
+            for name, data in entries.items():
+                archive.writestr(name, data)
+        file.seek(0)
+        return file.read()
 
 
-def run(count: int, seed: int, usd_dump: reader.Reader, folder: Path) -> list[str]:
-    """Whatever went wrong, one line each."""
-    draw = random.Random(seed)  # noqa: S311 - of test inputs
-    sound = [(path, path.read_bytes()) for path in seeds(folder)]
-    wrong = []
+@dataclass
+class Outcome:
+    """How many files of each kind were read and refused, what the dearest cost, and what went wrong, a line each."""
+
+    seen: Counter = field(default_factory=Counter)
+    wrong: list[str] = field(default_factory=list)
+    slowest_s: float = 0.0
+    peak_mb: float = 0.0
+
+    def __str__(self) -> str:
+        counts = (
+            f"  {kind}: {self.seen[kind, 'read']} read, {self.seen[kind, 'refused']} refused" for kind in self.kinds()
+        )
+        cost = f"  slowest {self.slowest_s:.2f} s, peak {self.peak_mb:.0f} MB, {len(self.wrong)} wrong"
+        return "\n".join([*counts, cost, *self.wrong[:40]])
+
+    def kinds(self) -> list[str]:
+        return sorted({kind for kind, _ in self.seen})
+
+
+def run(count: int, seed: int, form: str, usd_dump: reader.Reader, folder: Path) -> Outcome:
+    """Files into one of the readers; those that are not taken well stay in the folder."""
+    fuzz, outcome = Fuzz(form, seed), Outcome()
     for number in range(count):
-        if draw.random() < 0.05:
-            path, data = folder / "hostile.usda", hostile(draw).encode()
+        kind, files = fuzz.files()
+        case = folder / f"{form}_{seed}_{number}"
+        case.mkdir()
+        for name, data in files.items():
+            (case / name).write_bytes(data)
+        reason = take(kind, case / next(iter(files)), usd_dump, outcome)
+        if reason is None:
+            shutil.rmtree(case)
         else:
-            source, original = draw.choice(sound)
-            path, data = folder / f"damaged{source.suffix}", damaged(original, draw)
-        path.write_bytes(data)
-        start = time.process_time(), time.monotonic()
-        try:
-            answer = usd_dump.ask("fuzz", path)
-        except AssertionError as error:
-            wrong.append(f"{seed}:{number} {path.suffix}: {error}")
-            usd_dump.close()
-            (folder / f"wrong_{number}{path.suffix}").write_bytes(data)
-            continue
-        seconds = answer["cpu_s"]
-        if "crash" in answer or seconds > SLOWEST_S or answer["bytes"] > LARGEST_BYTES:
-            wrong.append(f"{seed}:{number} {path.suffix}: {answer} {time.monotonic() - start[1]:.1f} s")
-            (folder / f"wrong_{number}{path.suffix}").write_bytes(data)
-    return wrong
+            outcome.wrong.append(f"{case.name} ({kind}): {reason}")
+    return outcome
+
+
+def take(kind: str, path: Path, usd_dump: reader.Reader, outcome: Outcome) -> str | None:
+    """Read one file; what is wrong with how that went."""
+    usd_dump.forget_peak()
+    try:
+        answer = usd_dump.ask("fuzz", path, timeout_s=HANGS_S)
+    except AssertionError as error:
+        usd_dump.close()
+        return str(error)
+    peak_mb = usd_dump.peak_mb()
+    outcome.seen[kind, "refused" if "refused" in answer else "read"] += 1
+    outcome.slowest_s = max(outcome.slowest_s, answer["cpu_s"])
+    outcome.peak_mb = max(outcome.peak_mb, peak_mb)
+    if "crash" in answer:
+        return answer["crash"]
+    if answer["cpu_s"] > SLOWEST_S:
+        return f"took {answer['cpu_s']:.1f} s"
+    return f"took {peak_mb:.0f} MB" if peak_mb > LARGEST_MB else None
 
 
 def main() -> None:
-    count, seed = int(sys.argv[1]), int(sys.argv[2])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=5000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
     folder = Path(tempfile.mkdtemp(prefix="usd_fuzz_"))
-    running = reader.Reader(reader.compile_program(folder))
-    wrong = run(count, seed, running, folder)
-    running.close()
-    print("\n".join(wrong[:40]))  # noqa: T201
-    print(f"{count} files, {len(wrong)} wrong; kept in {folder}")  # noqa: T201
-    sys.exit(bool(wrong))
+    usd_dump = reader.Reader(reader.compile_program(folder))
+    outcomes = [run(arguments.count, arguments.seed, form, usd_dump, folder) for form in FORMATS]
+    usd_dump.close()
+    for form, outcome in zip(FORMATS, outcomes, strict=True):
+        print(f"{form}, {arguments.count} files:\n{outcome}")  # noqa: T201
+    if any(outcome.wrong for outcome in outcomes):
+        sys.exit(f"kept in {folder}")
+    shutil.rmtree(folder)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+import threading
 from pathlib import Path
 
 PACKAGE = Path(__file__).parents[2] / "unity_importer"
@@ -33,7 +34,8 @@ class Reader:
         self.program = program
         self.process = None
 
-    def ask(self, command: str, *arguments: object) -> dict:
+    def ask(self, command: str, *arguments: object, timeout_s: float | None = None) -> dict:
+        """The answer to a command; ends the process where that takes longer than the time given."""
         if self.process is None:
             self.process = subprocess.Popen(
                 ["mono", str(self.program), "batch"],
@@ -43,9 +45,24 @@ class Reader:
             )
         self.process.stdin.write("\t".join([command, *map(str, arguments)]) + "\n")
         self.process.stdin.flush()
+        watch = None if timeout_s is None else threading.Timer(timeout_s, self.process.kill)
+        if watch:
+            watch.start()
         answer = self.process.stdout.readline()
+        if watch:
+            watch.cancel()
         assert answer, f"the reader died of {command} {arguments}"
         return json.loads(answer)
+
+    def forget_peak(self) -> None:
+        """Let the memory that the process holds now be its peak."""
+        if self.process is not None:
+            Path(f"/proc/{self.process.pid}/clear_refs").write_text("5")
+
+    def peak_mb(self) -> float:
+        """Most memory that the process held since ``forget_peak``."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(status.split("VmHWM:")[1].split()[0]) / 1024
 
     def close(self) -> None:
         if self.process is not None:

@@ -1,18 +1,29 @@
 """What ``pxr`` says of a composed stage, in the form of the C# dump."""
 
-from pxr import Sdf, Usd, UsdGeom
+import numpy as np
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from values_of_pxr import anything, dumped
 
+SPECIFIERS = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}
 PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded
 
 
 def stage_dump(stage: Usd.Stage) -> dict:
     """As ``StageDump`` writes it, but for the warnings and the numbers of prototypes."""
-    prims = {}
+    places, shown = {}, []
     for root in [stage.GetPseudoRoot(), *stage.GetPrototypes()]:
+        places[root.GetPath()] = Gf.Matrix4d(1)
         for prim in Usd.PrimRange(root, PREDICATE):
             if prim != root:
-                prims[str(prim.GetPath())] = prim_dump(prim)
+                local, resets = local_transform(prim)
+                places[prim.GetPath()] = local if resets else local * places[prim.GetPath().GetParentPath()]
+                shown.append(prim)
+    prims = {str(prim.GetPath()): prim_dump(prim, places[prim.GetPath()]) for prim in shown}
+    for key, purpose in ("material", UsdShade.Tokens.preview), ("physicsMaterial", "physics"):
+        bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(shown, purpose)
+        for prim, material in zip(shown, bound, strict=True):
+            if material:
+                prims[str(prim.GetPath())][key] = str(material.GetPath())
     return {
         "metersPerUnit": UsdGeom.GetStageMetersPerUnit(stage),
         "isZUp": UsdGeom.GetStageUpAxis(stage) == "Z",
@@ -20,28 +31,40 @@ def stage_dump(stage: Usd.Stage) -> dict:
     }
 
 
-def prim_dump(prim: Usd.Prim) -> dict:
-    specifier = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}[prim.GetSpecifier()]
+def local_transform(prim: Usd.Prim) -> tuple[Gf.Matrix4d, bool]:
+    """To the parent, of the values without time, else of the first samples; whether it leads to the world instead."""
+    xformable = UsdGeom.Xformable(prim)
+    if not xformable or not prim.GetAttribute("xformOpOrder").IsAuthored():
+        return Gf.Matrix4d(1), False
+    if not xformable.TransformMightBeTimeVarying():
+        return xformable.GetLocalTransformation(Usd.TimeCode.Default()), xformable.GetResetXformStack()
+    local = Gf.Matrix4d(1)
+    for operation in xformable.GetOrderedXformOps():
+        local = operation.GetOpTransform(first_time(operation.GetAttr())) * local
+    return local, xformable.GetResetXformStack()
+
+
+def prim_dump(prim: Usd.Prim, world: Gf.Matrix4d) -> dict:
     out = {
-        "specifier": specifier,
+        "specifier": SPECIFIERS[prim.GetSpecifier()],
         "type": prim.GetTypeName(),
-        "apis": applied(prim),
+        "apis": list(prim.GetPrimTypeInfo().GetAppliedAPISchemas()),
         "children": [child.GetName() for child in prim.GetFilteredChildren(PREDICATE)],
-        "properties": {
-            one.GetName(): property_dump(one)
-            for one in prim.GetAuthoredProperties()
-        },
-    }  # fmt: skip
+        "properties": {one.GetName(): property_dump(one) for one in prim.GetAuthoredProperties()},
+    }
+    if "xformOpOrder" in out["properties"]:
+        out["world"] = world
     if prim.IsInstance():
         out["prototype"] = str(prim.GetPrototype().GetPath())
+    stack = prim.GetPrimStack()
     variants = {}
-    for spec in prim.GetPrimStack():
-        for name, selection in dict(spec.variantSelections).items():
+    for spec in stack:
+        for name, selection in spec.variantSelections.items():
             variants.setdefault(name, selection)
     if variants:
         out["variants"] = variants
     for field in ("kind", "customData", "assetInfo"):
-        authored = [spec.GetInfo(field) for spec in prim.GetPrimStack() if spec.HasInfo(field)]
+        authored = [spec.GetInfo(field) for spec in stack if spec.HasInfo(field)]
         if authored:
             out[field] = anything(merged(authored) if isinstance(authored[0], dict) else authored[0])
     return out
@@ -57,40 +80,44 @@ def merged(dictionaries: list[dict]) -> dict:
     return together
 
 
-def applied(prim: Usd.Prim) -> list[str]:
-    """Authored names of applied schemas."""
-    return list(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
-
-
 def property_dump(one) -> dict:
     if isinstance(one, Usd.Relationship):
         targets = [str(target) for target in one.GetTargets()]
         return {"type": ""} | ({"targets": targets} if targets else {})
+    specs = one.GetPropertyStack()
     # the authored type: a schema may have another
-    kind = next(spec.typeName for spec in one.GetPropertyStack() if spec.typeName)
+    kind = next(spec.typeName for spec in specs if spec.typeName)
     out = {"type": str(kind)}
-    value = None
-    times = one.GetTimeSamples()
-    if one.HasAuthoredValue():
-        value = one.Get(Usd.TimeCode.Default()) if has_default(one) else one.Get(times[0]) if times else None
+    if any(spec.HasDefaultValue() for spec in specs):
+        # a value of another type than the schema's is nothing to the schema
+        same = kind == one.GetTypeName()
+        value = one.Get() if same else next(spec.default for spec in specs if spec.HasDefaultValue())
+    else:
+        value = first_value(one)
+    value = dumped(kind, value)
     if value is not None:
-        if kind != one.GetTypeName():
-            value = next(spec.default for spec in one.GetPropertyStack() if spec.HasDefaultValue())
-        if dumped(kind, value) is not None:
-            out["value"] = dumped(kind, value)
+        out["value"] = value
+    times = one.GetTimeSamples()
     if times:
         out["times"] = list(times)
-    targets = [str(target) for target in one.GetConnections()]
+    targets = one.GetConnections()
     if targets:
-        out["targets"] = targets
+        out["targets"] = [str(target) for target in targets]
     if one.HasAuthoredMetadata("interpolation"):
         out["interpolation"] = one.GetMetadata("interpolation")
     return out
 
 
-def has_default(attribute: Usd.Attribute) -> bool:
-    """Whether a layer gives a value without time, or blocks it."""
-    return any(spec.HasDefaultValue() for spec in attribute.GetPropertyStack(Usd.TimeCode.Default()))
+def first_value(one: Usd.Attribute):
+    """The value without time, else that of the first sample, else None."""
+    return one.Get(first_time(one)) if one.HasAuthoredValue() else None
+
+
+def first_time(one: Usd.Attribute) -> Usd.TimeCode:
+    if any(spec.HasDefaultValue() for spec in one.GetPropertyStack()):
+        return Usd.TimeCode.Default()
+    times = one.GetTimeSamples()
+    return Usd.TimeCode(times[0]) if times else Usd.TimeCode.Default()
 
 
 def numbered_alike(wanted: dict, found: dict) -> None:
@@ -113,9 +140,21 @@ def renamed(path: str, names: dict[str, str]) -> str:
 
 
 def renamed_in(prim: dict, names: dict[str, str]) -> dict:
-    if "prototype" in prim:
-        prim["prototype"] = renamed(prim["prototype"], names)
+    for key in prim.keys() & {"prototype", "material", "physicsMaterial"}:
+        prim[key] = renamed(prim[key], names)
     for one in prim["properties"].values():
         if "targets" in one:
             one["targets"] = [renamed(target, names) for target in one["targets"]]
     return prim
+
+
+def misplaced(wanted: dict, found: dict) -> list[str]:
+    """Prims that stand at different places; takes the places out of both dumps."""
+    lines = []
+    for path in wanted["prims"].keys() & found["prims"].keys():
+        there, here = wanted["prims"][path].pop("world", None), found["prims"][path].pop("world", None)
+        if there is None and here is None:
+            continue
+        if there is None or here is None or not np.allclose(np.array(there).ravel(), here, rtol=0, atol=1e-6):
+            lines.append(f"{path}: pxr {there}, C# {here}")
+    return lines

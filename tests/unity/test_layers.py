@@ -1,6 +1,9 @@
 """One layer at a time: the C# readers against ``pxr``, every opinion of every spec."""
 
+import os
 import random
+import subprocess
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -82,6 +85,20 @@ def test_numbers_of_crates_in_every_coding(usd_dump, tmp_path):
     same(usd_dump, layer.identifier)
 
 
+@pytest.mark.parametrize("minor", range(7, 14))
+def test_crates_of_every_version(usd_dump, tmp_path, minor):
+    newer = {"timecode": 9, "pathExpression": 10}
+    kept = [kind for kind, version in newer.items() if minor < version]
+    lines = (STAGES / "values.usda").read_text().splitlines(keepends=True)
+    (tmp_path / "values.usda").write_text("".join(line for line in lines if not any(kind in line for kind in kept)))
+    crate = tmp_path / "values.usdc"
+    code = "import sys; from pxr import Sdf; Sdf.Layer.FindOrOpen(sys.argv[1]).Export(sys.argv[2])"
+    environment = os.environ | {"USD_WRITE_NEW_USDC_FILES_AS_VERSION": f"0.{minor}.0"}
+    subprocess.run([sys.executable, "-c", code, tmp_path / "values.usda", crate], env=environment, check=True)
+    assert crate.read_bytes()[8:10] == bytes([0, minor])
+    same(usd_dump, crate)
+
+
 def decimal(draw: random.Random) -> str:
     """Numbers of all lengths and sizes, many of them close to the middle between two doubles."""
     if draw.random() < 0.3:
@@ -111,6 +128,7 @@ def test_numbers_are_the_nearest(usd_dump, tmp_path):
         ('#usda 1.0\ndef "A" { rel a = <../../B> }', "leads out of the layer"),
         ('#usda 1.0\ndef "A" {}\ndef "A" {}', "a second prim 'A'"),
         ("#usda 1.0\n(\n relocates = { </A/B>: </A/C> }\n)", "relocates are not supported"),
+        ('#usda 1.0\ndef "A" (\n relocates = { <B>: <C> }\n) {}', "relocates are not supported"),
         ('#usda 1.0\ndef "A" { int[] a = edit [ append 1 ] }', "edits of arrays are not supported"),
         ("#usda 1.0\n" + 'def "A" {' * 2000, "nested more than"),
         ("#usda 1.0\n(a = " + "[" * 5000, "nested more than"),
@@ -123,6 +141,13 @@ def test_refuses(usd_dump, tmp_path, text, reason):
     file, place, found = usd_dump.ask("layer", path)["refused"]
     assert (file, place.split()[0]) == (str(path), "byte" if "crate" in reason else "line")
     assert reason in found
+
+
+def test_relocates_of_a_crate_are_refused(usd_dump, tmp_path):
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "relocates.usdc"))
+    layer.relocates = [(Sdf.Path("/A/B"), Sdf.Path("/A/C"))]
+    layer.Save()
+    assert usd_dump.ask("layer", layer.identifier)["refused"][2] == "relocates are not supported"
 
 
 assert Usd  # registers the fields of prims

@@ -1,12 +1,12 @@
 """Composed stages: the C# readers against ``pxr``, every prim, value, target and prototype."""
 
 import pytest
-import sample_files
 import stages_of_pxr
 import values_of_pxr
 from pxr import Sdf, Tf, Usd, UsdUtils
+from sample_files import SAMPLES, each_format, each_sample
 from small_stages import SMALL_STAGES
-from test_layers import installed
+from test_layers import STAGES, installed
 
 
 def same(reader, path) -> list[str]:
@@ -16,6 +16,7 @@ def same(reader, path) -> list[str]:
     warnings = found.pop("warnings")
     wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))
     stages_of_pxr.numbered_alike(wanted, found)
+    assert not stages_of_pxr.misplaced(wanted, found)
     assert not values_of_pxr.differences(wanted, found)
     return warnings
 
@@ -57,7 +58,12 @@ def "B" ( references = @sub/package.usdz[root.usd]@</World/I1> ) {}
     same(usd_dump, written(tmp_path, {"outer.usda": text}, "usda"))
 
 
-@pytest.mark.parametrize("package", ["pxr", "usd_validation_nvidia"])
+@pytest.mark.parametrize("path", sorted(STAGES.glob("*.usda")), ids=lambda path: path.stem)
+def test_stage_of_the_tests(usd_dump, path):
+    same(usd_dump, path)
+
+
+@pytest.mark.parametrize("package", ["pxr", "usd_validation_nvidia", "newton"])
 def test_stages_of_installed_packages(usd_dump, package):
     paths = installed(package, (".usda", ".usdc", ".usd", ".usdz"))
     if not paths:
@@ -71,35 +77,16 @@ def test_stages_of_installed_packages(usd_dump, package):
         assert stage
         same(usd_dump, path)
         read += 1
-    assert read > len(paths) / 2
+    assert read > 0.8 * len(paths)
 
 
-SAMPLES = {sample.stem: sample for sample in sample_files.SAMPLES}
+@each_sample
+@each_format
+def test_sample(usd_dump, builds, sample, extension):
+    assert same(usd_dump, builds(sample, extension).stage) == []
 
 
-@pytest.mark.parametrize("name", SAMPLES)
-def test_sample(usd_dump, builds, tmp_path, name):
-    """Each sample as it is built against ``pxr``; the same stage as a crate and in a package reads the same."""
-    build = builds(SAMPLES[name], "usda")
-    assert same(usd_dump, build.stage) == []
-    found = usd_dump.ask("stage", build.stage)
-    crate = build.stage.with_suffix(".usdc")
-    Sdf.Layer.FindOrOpen(str(build.stage)).Export(str(crate))
-    package = tmp_path / f"{name}.usdz"
-    assert UsdUtils.CreateNewUsdzPackage(str(crate), str(package))
-    assert usd_dump.ask("stage", crate) == found
-    assert with_bare_assets(usd_dump.ask("stage", package)) == with_bare_assets(found)
-
-
-def with_bare_assets(dump: dict) -> dict:
-    """The dump with the names alone of textures: a package has folders of its own."""
-    for prim in dump["prims"].values():
-        for one in prim["properties"].values():
-            if one["type"] == "asset" and "value" in one:
-                one["value"][1] = [text.rpartition("/")[2] for text in one["value"][1]]
-    return dump
-
-
-@pytest.mark.parametrize(("extension", "form"), [("usdc", "flat"), ("usda", "nested"), ("usdz", None)])
+@pytest.mark.parametrize(("extension", "form"), [("usdc", "flat"), ("usda", "nested")])
 def test_form_of_a_sample(usd_dump, builds, extension, form):
-    assert same(usd_dump, builds(SAMPLES["paper_7x9"], extension, form).stage) == []
+    paper = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
+    assert same(usd_dump, builds(paper, extension, form).stage) == []

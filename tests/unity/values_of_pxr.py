@@ -2,6 +2,7 @@
 
 import struct
 import zlib
+from functools import cache
 
 import numpy as np
 from pxr import Gf, Sdf, Vt
@@ -19,6 +20,7 @@ SHAPES = {
 LETTERS = {"d": ("Double", "d"), "f": ("Float", "f"), "h": ("Half", "f"), "i": ("Int", "i")}
 
 
+@cache
 def type_of(name: Sdf.ValueTypeName) -> tuple[str, str | None] | None:
     """Name of the type in C#, and the struct letter of its numbers (None for texts)."""
     scalar = name.scalarType

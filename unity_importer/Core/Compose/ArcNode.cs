@@ -25,6 +25,7 @@ namespace Garage.Usd
     sealed class ArcNode
     {
         static readonly LayerSpec[] NoSpecs = new LayerSpec[0];
+        static readonly List<string> NoNames = new List<string>(0);
 
         public readonly LayerStack Stack;
         public readonly string Path;
@@ -58,6 +59,29 @@ namespace Garage.Usd
         /// <summary>Names of variant sets that have a variant below this node.</summary>
         public List<string> ChosenSets;
 
+        List<string> variantSets;
+
+        /// <summary>Names of the variant sets that the specs give, in the order in which they are chosen.</summary>
+        public List<string> VariantSets
+        {
+            get
+            {
+                if (variantSets != null) { return variantSets; }
+                variantSets = NoNames;
+                for (int i = Specs.Length - 1; i >= 0; i--)
+                {
+                    ListOp<string> op = Specs[i].Spec.VariantSetNames;
+                    if (op == null) { continue; }
+                    if (ReferenceEquals(variantSets, NoNames)) { variantSets = new List<string>(1); }
+                    op.ApplyTo(variantSets);
+                }
+                return variantSets;
+            }
+        }
+
+        /// <summary>Of a root: how many nodes are below it, itself included.</summary>
+        public int Size;
+
         public ArcNode(LayerStack stack, string path, Arc arc, int depth, string from, string to, bool keepsOtherPaths, LayerOffset offset, string variant)
         {
             Stack = stack;
@@ -81,6 +105,19 @@ namespace Garage.Usd
             get { return Arc == Arc.Inherit || Arc == Arc.Specialize; }
         }
 
+        /// <summary>Whether the prim itself inherits this place, directly or by way of others, and not a prim above it.</summary>
+        public bool IsInheritedDirectly
+        {
+            get
+            {
+                for (ArcNode node = this; node.Parent != null; node = node.Parent)
+                {
+                    if (node.IsClass && UsdPaths.Depth(node.Parent.Path) == node.Depth) { return true; }
+                }
+                return false;
+            }
+        }
+
         /// <summary>Adds a child at its place by strength, behind equally strong ones.</summary>
         public void Add(ArcNode child)
         {
@@ -101,7 +138,8 @@ namespace Garage.Usd
         {
             if (From == null) { return path; }
             if (UsdPaths.HasPrefix(path, From)) { return From == To ? path : To == "/" ? path.Substring(From.Length) : To + path.Substring(From == "/" ? 0 : From.Length); }
-            return KeepsOtherPaths ? path : null;
+            // what stands at the parent's place there is hidden by what this node brings to that place
+            return KeepsOtherPaths && !UsdPaths.HasPrefix(path, To) ? path : null;
         }
 
         /// <summary>A copy of a node, of its place and its specs, without what is around it.</summary>
@@ -109,7 +147,8 @@ namespace Garage.Usd
         {
             return new ArcNode(Stack, Path, Arc, depth, From, To, KeepsOtherPaths, Offset, Variant)
             {
-                Specs = Specs, IsAncestral = IsAncestral, IsExpanded = IsExpanded, ChosenSets = ChosenSets == null ? null : new List<string>(ChosenSets),
+                Specs = Specs, variantSets = variantSets, IsAncestral = IsAncestral, IsExpanded = IsExpanded,
+                ChosenSets = ChosenSets == null ? null : new List<string>(ChosenSets),
             };
         }
 
@@ -150,30 +189,27 @@ namespace Garage.Usd
         /// <summary>All nodes that have opinions, strongest first; whatever is specialized comes last.</summary>
         public void AddByStrength(List<ArcNode> list)
         {
-            var later = new Queue<ArcNode>();
-            AddByStrength(list, later);
-            while (later.Count > 0)
-            {
-                ArcNode special = later.Dequeue();
-                var deeper = new Queue<ArcNode>();
-                special.AddSelfAndChildren(list, deeper);
-                // what a specialized prim specializes comes before other specialized prims
-                foreach (ArcNode other in later) { deeper.Enqueue(other); }
-                later = deeper;
-            }
+            List<ArcNode> specialized = null;
+            AddButSpecialized(list, ref specialized);
+            if (specialized == null) { return; }
+            // what a specialized prim specializes comes before other specialized prims
+            foreach (ArcNode one in specialized) { one.AddByStrength(list); }
         }
 
-        void AddByStrength(List<ArcNode> list, Queue<ArcNode> later)
-        {
-            if (Arc == Arc.Specialize) { later.Enqueue(this); }
-            else { AddSelfAndChildren(list, later); }
-        }
-
-        void AddSelfAndChildren(List<ArcNode> list, Queue<ArcNode> later)
+        void AddButSpecialized(List<ArcNode> list, ref List<ArcNode> specialized)
         {
             if (Specs.Length > 0) { list.Add(this); }
             if (Children == null) { return; }
-            foreach (ArcNode child in Children) { child.AddByStrength(list, later); }
+            foreach (ArcNode child in Children)
+            {
+                if (child.Arc != Arc.Specialize)
+                {
+                    child.AddButSpecialized(list, ref specialized);
+                    continue;
+                }
+                specialized = specialized ?? new List<ArcNode>(2);
+                specialized.Add(child);
+            }
         }
     }
 }

@@ -14,6 +14,9 @@ namespace Garage.Usd
         const long LeastNodeBudget = 300000;
         const long NodesPerSpec = 400;
 
+        // looking at a node costs this much less than making it
+        const int NodesPassedPerCharge = 16;
+
         readonly LayerLibrary library;
         readonly Dictionary<string, ArcNode> templates = new Dictionary<string, ArcNode>();
         readonly HashSet<string> inProgress = new HashSet<string>();
@@ -48,7 +51,7 @@ namespace Garage.Usd
         {
             ArcNode root = parent.Extended(name);
             Expand(root, true, null);
-            Charge(root, Count(root));
+            Charge(root, root.Size);
             return root;
         }
 
@@ -63,16 +66,6 @@ namespace Garage.Usd
             return specs.ToArray();
         }
 
-        static int DepthOf(string path)
-        {
-            int depth = 0;
-            foreach (char letter in path)
-            {
-                if (letter == '/') { depth++; }
-            }
-            return depth;
-        }
-
         // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
         ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, Choices choices)
         {
@@ -85,7 +78,7 @@ namespace Garage.Usd
             ArcNode root;
             if (parentPath == "/" || parentPath == null || !withAncestors)
             {
-                root = ArcNode.OfRoot(stack, path, DepthOf(path));
+                root = ArcNode.OfRoot(stack, path, UsdPaths.Depth(path));
                 root.Specs = SpecsAt(stack, path);
             }
             else
@@ -107,6 +100,7 @@ namespace Garage.Usd
         void Expand(ArcNode root, bool withVariants, Choices choices)
         {
             var pending = new List<ArcNode>();
+            root.Size = Count(root);
             AddUnexpanded(root, pending);
             for (;;)
             {
@@ -197,7 +191,7 @@ namespace Garage.Usd
                 library.Warn(layer.Identifier + ": <" + node.Path + "> refers to " + stack.Root.Identifier + ", which has no default prim");
                 return null;
             }
-            LayerOffset offset = node.Stack.Offsets[layerNumber].After(LayerLibrary.Rated(arc.Offset, layer, stack.Root));
+            LayerOffset offset = node.Stack.Offsets[layerNumber].After(library.Rated(arc.Offset, layer, stack.Root));
             return new Target { Stack = stack, Path = path, Offset = offset, IsInternal = arc.Asset.Length == 0 };
         }
 
@@ -257,14 +251,14 @@ namespace Garage.Usd
             {
                 library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of " + stack.Root.Identifier + ", which does not exist");
             }
-            var root = new ArcNode(stack, path, arc, DepthOf(node.Path), path, node.Path, keepsOtherPaths, offset, null)
+            var root = new ArcNode(stack, path, arc, UsdPaths.Depth(node.Path), path, node.Path, keepsOtherPaths, offset, null)
             {
                 Specs = template.Specs, IsExpanded = template.IsExpanded,
                 ChosenSets = template.ChosenSets == null ? null : new List<string>(template.ChosenSets),
             };
-            int size = CountOf(node) + 1;
             node.Add(root);
-            CopyChildren(node, template, root, ref size);
+            CountIn(node, 1);
+            CopyChildren(node, template, root);
             if (!isClass && root.Children != null)
             {
                 foreach (ArcNode child in root.Children.ToArray())
@@ -285,10 +279,13 @@ namespace Garage.Usd
             }
         }
 
-        static int CountOf(ArcNode node)
+        void CountIn(ArcNode place, int count)
         {
-            while (node.Parent != null) { node = node.Parent; }
-            return Count(node);
+            ArcNode root = place;
+            while (root.Parent != null) { root = root.Parent; }
+            root.Size += count;
+            if (root.Size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
+            Charge(place, count);
         }
 
         static int Count(ArcNode node)
@@ -301,7 +298,7 @@ namespace Garage.Usd
             return count;
         }
 
-        void CopyChildren(ArcNode place, ArcNode from, ArcNode to, ref int size)
+        void CopyChildren(ArcNode place, ArcNode from, ArcNode to)
         {
             if (from.Children == null) { return; }
             foreach (ArcNode child in from.Children)
@@ -311,14 +308,13 @@ namespace Garage.Usd
                     library.Warn("<" + place.Path + "> leads back to <" + child.Path + ">");
                     continue;
                 }
-                if (++size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
-                Charge(place, 1);
+                CountIn(place, 1);
                 ArcNode copy = child.Copy(child.Depth);
                 copy.IsAncestral = false;
                 copy.Parent = to;
                 to.Children = to.Children ?? new List<ArcNode>(from.Children.Count);
                 to.Children.Add(copy);
-                CopyChildren(place, child, copy, ref size);
+                CopyChildren(place, child, copy);
             }
         }
 
@@ -397,18 +393,10 @@ namespace Garage.Usd
         {
             var order = new List<ArcNode>();
             root.AddByStrength(order);
+            Charge(root, 1 + order.Count / NodesPassedPerCharge);
             foreach (ArcNode node in order)
             {
-                bool hasSets = false;
-                foreach (LayerSpec spec in node.Specs) { hasSets |= spec.Spec.VariantSetNames != null; }
-                if (!hasSets) { continue; }
-                var names = new List<string>();
-                for (int i = node.Specs.Length - 1; i >= 0; i--)
-                {
-                    ListOp<string> op = node.Specs[i].Spec.VariantSetNames;
-                    if (op != null) { op.ApplyTo(names); }
-                }
-                foreach (string set in names)
+                foreach (string set in node.VariantSets)
                 {
                     if (node.ChosenSets != null && node.ChosenSets.Contains(set)) { continue; }
                     string selection = (choices == null ? null : choices.Find(root.Path, set)) ?? SelectionOf(order, set);
@@ -485,11 +473,12 @@ namespace Garage.Usd
                 if (found != null) { specs.Add(new LayerSpec(spec.Layer, found)); }
             }
             if (specs.Count == 0) { return null; }
-            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, DepthOf(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
+            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, UsdPaths.Depth(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
             {
                 Specs = specs.ToArray(),
             };
             node.Add(variant);
+            CountIn(node, 1);
             return variant;
         }
     }

@@ -137,9 +137,14 @@ namespace Garage.Usd
             above.RemoveAt(above.Count - 1);
         }
 
-        /// <summary>An offset between layers that count time differently.</summary>
-        public static LayerOffset Rated(LayerOffset offset, Layer outer, Layer inner)
+        /// <summary>An offset between layers that count time differently; none where time would stand still or run backwards.</summary>
+        public LayerOffset Rated(LayerOffset offset, Layer outer, Layer inner)
         {
+            if (!(offset.Scale > 0) || double.IsInfinity(offset.Scale) || double.IsNaN(offset.Offset) || double.IsInfinity(offset.Offset))
+            {
+                Warn(outer.Identifier + ": the offset " + offset.Offset + " and scale " + offset.Scale + " of " + inner.Identifier + " are no times");
+                offset = LayerOffset.Identity;
+            }
             double ratio = outer.TimeCodesPerSecond / inner.TimeCodesPerSecond;
             return ratio == 1 ? offset : new LayerOffset(offset.Offset, offset.Scale * ratio);
         }

@@ -103,7 +103,7 @@ namespace Garage.Usd
                 PrimSpec spec = opinion.Spec.Spec;
                 if (TypeName.Length == 0) { TypeName = spec.TypeName; }
                 if (isFound || spec.Specifier == Specifier.Over) { continue; }
-                if (spec.Specifier == Specifier.Class && opinion.Node.IsClass)
+                if (spec.Specifier == Specifier.Class && opinion.Node.IsInheritedDirectly)
                 {
                     isInheritedClass = true;
                     continue;

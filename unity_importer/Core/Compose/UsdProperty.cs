@@ -63,7 +63,7 @@ namespace Garage.Usd
             {
                 TimeSamples samples = specs[place].Samples;
                 if (samples == null || samples.Times.Length == 0) { continue; }
-                UsdValue value = samples.Values[places[place].Offset.Scale < 0 ? samples.Values.Length - 1 : 0];
+                UsdValue value = samples.Values[0];
                 return ReferenceEquals(value, UsdValue.Blocked) ? null : Timed(value, place);
             }
             place = -1;

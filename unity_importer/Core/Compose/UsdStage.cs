@@ -55,6 +55,12 @@ namespace Garage.Usd
             return new UsdStage(LayerReader.Read(root, identifier), resolver);
         }
 
+        /// <summary>The root layer, as errors name it.</summary>
+        public string Identifier
+        {
+            get { return rootLayer.Identifier; }
+        }
+
         /// <summary>What was left out, such as references to files that do not exist.</summary>
         public IList<string> Warnings
         {

@@ -58,6 +58,17 @@ namespace Garage.Usd
             return slash <= 0 ? "/" : path.Substring(0, slash);
         }
 
+        /// <summary>How many prims a path of a prim names: 2 for "/A/B".</summary>
+        public static int Depth(string path)
+        {
+            int depth = 0;
+            foreach (char letter in path)
+            {
+                if (letter == '/') { depth++; }
+            }
+            return depth;
+        }
+
         /// <summary>The path without its property.</summary>
         public static string Prim(string path)
         {

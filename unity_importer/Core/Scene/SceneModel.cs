@@ -79,7 +79,10 @@ namespace Garage.Usd
     /// <summary>All that a scene shows of a stage.</summary>
     public sealed class SceneModel
     {
+        const long MostShown = 10000000;
+
         readonly Dictionary<UsdPrim, List<SceneNode>> prototypes = new Dictionary<UsdPrim, List<SceneNode>>();
+        readonly Dictionary<UsdPrim, long> shownBelow = new Dictionary<UsdPrim, long>();
         readonly Dictionary<string, MaterialData> materials = new Dictionary<string, MaterialData>();
 
         public UsdStage Stage { get; private set; }
@@ -88,11 +91,37 @@ namespace Garage.Usd
         /// <summary>Root prims that define something.</summary>
         public List<SceneNode> Roots { get; private set; }
 
+        /// <summary>Prims that the scene shows, at all places of all instances.</summary>
+        public long ShownCount { get; private set; }
+
+        /// <summary>Throws UsdFormatException where instances within instances stand for more prims than anything can show.</summary>
         public SceneModel(UsdStage stage)
         {
             Stage = stage;
             Basis = Basis.Of(stage);
             Roots = Nodes(stage.Root.Children);
+            ShownCount = Shown(Roots);
+        }
+
+        long Shown(List<SceneNode> nodes)
+        {
+            long count = nodes.Count;
+            foreach (SceneNode node in nodes)
+            {
+                UsdPrim prototype = node.Prim.Prototype;
+                long below;
+                if (prototype == null || !shownBelow.TryGetValue(prototype, out below))
+                {
+                    below = Shown(ChildrenOf(node));
+                    if (prototype != null) { shownBelow.Add(prototype, below); }
+                }
+                count += below;
+                if (count > MostShown)
+                {
+                    throw new UsdFormatException(Stage.Identifier, "<" + node.Prim.Path + ">", "instances stand for more than " + MostShown + " prims");
+                }
+            }
+            return count;
         }
 
         List<SceneNode> Nodes(IList<UsdPrim> prims)

@@ -6,13 +6,22 @@ namespace Garage.Usd
     /// <summary>The transform that a prim's xformOps make.</summary>
     public static class Xform
     {
+        // types without a place of their own: what such a prim says of a transform means nothing
+        static readonly HashSet<string> Placeless = new HashSet<string>
+        {
+            "", "Backdrop", "BlendShape", "GeomSubset", "LODDistanceHeuristic", "LODScreenSizeHeuristic", "Material", "NodeGraph",
+            "PhysicsCollisionGroup", "PhysicsDistanceJoint", "PhysicsFixedJoint", "PhysicsJoint", "PhysicsPrismaticJoint",
+            "PhysicsRevoluteJoint", "PhysicsScene", "PhysicsSphericalJoint", "RenderPass", "RenderProduct", "RenderSettings",
+            "RenderVar", "Scope", "Shader", "SkelAnimation",
+        };
+
         /// <summary>The matrix to the parent's space; whether the prim leaves its parents' transforms aside.</summary>
         public static double[] Local(UsdPrim prim, out bool resets)
         {
             resets = false;
             double[] local = null;
             UsdValue order = prim.Value("xformOpOrder");
-            if (order == null) { return Matrix4.Identity(); }
+            if (order == null || Placeless.Contains(prim.TypeName)) { return Matrix4.Identity(); }
             string[] names = order.Texts;
             int first = 0;
             for (int i = 0; i < names.Length; i++)
@@ -36,7 +45,8 @@ namespace Garage.Usd
 
         static double[] Operation(string name, UsdValue value)
         {
-            if (value == null || !name.StartsWith("xformOp:", StringComparison.Ordinal)) { return null; }
+            bool isReal = value != null && (value.Data is float[] || value.Data is double[]);
+            if (!isReal || !name.StartsWith("xformOp:", StringComparison.Ordinal)) { return null; }
             double[] v = value.Doubles();
             int end = name.IndexOf(':', 8);
             string kind = end < 0 ? name.Substring(8) : name.Substring(8, end - 8);
@@ -69,47 +79,6 @@ namespace Garage.Usd
                     return turned;
                 default: return null;
             }
-        }
-    }
-
-    /// <summary>Which material a prim shows.</summary>
-    public struct MaterialBinding
-    {
-        /// <summary>Path of the material; null where none is bound.</summary>
-        public readonly string Path;
-
-        /// <summary>Whether it wins over what is bound below.</summary>
-        public readonly bool IsStrong;
-
-        public MaterialBinding(string path, bool isStrong)
-        {
-            Path = path;
-            IsStrong = isStrong;
-        }
-
-        /// <summary>
-        /// The binding of the prim itself for a purpose ("preview", "full", "physics"), and for all purposes where there is none
-        /// for this one.
-        /// </summary>
-        public static MaterialBinding Of(UsdPrim prim, string purpose)
-        {
-            MaterialBinding special = Direct(prim, "material:binding:" + purpose);
-            return special.Path != null ? special : Direct(prim, "material:binding");
-        }
-
-        static MaterialBinding Direct(UsdPrim prim, string name)
-        {
-            UsdProperty relationship = prim.Property(name);
-            if (relationship == null || !relationship.IsRelationship) { return new MaterialBinding(null, false); }
-            IList<string> targets = relationship.Targets;
-            if (targets.Count == 0) { return new MaterialBinding(null, false); }
-            return new MaterialBinding(targets[0], relationship.MetadataText("bindMaterialAs") == "strongerThanDescendants");
-        }
-
-        /// <summary>This binding below one that it inherits.</summary>
-        public MaterialBinding Under(MaterialBinding above)
-        {
-            return Path == null || above.IsStrong ? above : this;
         }
     }
 }

@@ -460,7 +460,8 @@ namespace Garage.Usd
 
         static ListOp<T> Edited<T>(ListOp<T> op, string edit, List<T> items)
         {
-            op = op ?? new ListOp<T>();
+            // a whole list and edits of one replace each other
+            if (op == null || edit == null || op.IsExplicit) { op = new ListOp<T>(); }
             switch (edit)
             {
                 case "prepend": op.Prepended = items; break;

@@ -201,8 +201,9 @@ namespace Garage.Usd
                 if ((uint)path >= (uint)count || pathParents[path] != -2) { throw Error("PATHS", "a path is missing or twice in the table"); }
                 int token = elements[at];
                 pathIsProperty[path] = token < 0;
-                pathTokens[path] = Math.Abs(token);
-                if (parent >= 0 && (uint)Math.Abs(token) >= (uint)tokens.Length) { throw Error("PATHS", "there is no token " + token); }
+                // the number of a property's name is negative
+                pathTokens[path] = token < 0 ? -token : token;
+                if (parent >= 0 && (uint)pathTokens[path] >= (uint)tokens.Length) { throw Error("PATHS", "there is no token " + token); }
                 pathParents[path] = parent;
                 depths[path] = parent < 0 ? 0 : depths[parent] + 1;
                 if (depths[path] > DeepestPath) { throw Error("PATHS", "paths are nested more than " + DeepestPath + " deep"); }

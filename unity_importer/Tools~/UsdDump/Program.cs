@@ -1,5 +1,6 @@
 using System;
 using System.Diagnostics;
+using System.Globalization;
 using System.IO;
 using System.Text;
 
@@ -8,10 +9,13 @@ namespace Garage.Usd.Dump
     /// <summary>
     /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
     /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time FILE COUNT</c> reads it several
-    /// times, <c>fuzz FILE</c> tells only whether that ends well; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
+    /// times, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c> takes a quaternion and its
+    /// vector to the axes of Unity; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
     /// </summary>
     static class Program
     {
+        const long MostDumped = 20000;
+
         static int Main(string[] arguments)
         {
             Console.InputEncoding = new UTF8Encoding(false);
@@ -46,6 +50,7 @@ namespace Garage.Usd.Dump
                     case "stage": return StageDump.Of(UsdStage.Open(command[1]));
                     case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
                     case "fuzz": return Survival(command[1]);
+                    case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]), Number(command[4]), Number(command[5]));
                     case "time": return Time(command[1], int.Parse(command[2]));
                     default: return "{\"error\":\"unknown command\"}";
                 }
@@ -76,7 +81,8 @@ namespace Garage.Usd.Dump
             {
                 UsdStage stage = UsdStage.Open(path);
                 StageDump.Of(stage);
-                SceneDump.Of(stage);
+                // what is shown at very many places is not written out for each of them
+                if (new SceneModel(stage).ShownCount <= MostDumped) { SceneDump.Of(stage); }
             }
             catch (UsdFormatException refusal)
             {
@@ -94,6 +100,36 @@ namespace Garage.Usd.Dump
             json.Number(GC.GetTotalMemory(false) - bytesBefore);
             json.Close('}');
             return json.ToString();
+        }
+
+        static double Number(string text)
+        {
+            return double.Parse(text, CultureInfo.InvariantCulture);
+        }
+
+        static string InUnity(string path, double w, double x, double y, double z)
+        {
+            Basis basis = Basis.Of(UsdStage.Open(path));
+            var direction = new double[3];
+            basis.Direction(x, y, z, direction);
+            float[] point = basis.Vectors(new[] { (float)x, (float)y, (float)z }, true);
+            double[] placed = Matrix4.Multiply(Matrix4.Quaternion(w, x, y, z), Matrix4.Translation(x, y, z));
+            var json = new JsonText();
+            json.Open('{');
+            Numbers(json, "direction", direction);
+            Numbers(json, "point", Array.ConvertAll(point, delegate(float number) { return (double)number; }));
+            Numbers(json, "rotation", basis.Rotation(w, x, y, z));
+            Numbers(json, "matrix", basis.Matrix(placed));
+            json.Close('}');
+            return json.ToString();
+        }
+
+        static void Numbers(JsonText json, string key, double[] numbers)
+        {
+            json.Key(key);
+            json.Open('[');
+            foreach (double number in numbers) { json.Number(number); }
+            json.Close(']');
         }
 
         static string Time(string path, int count)

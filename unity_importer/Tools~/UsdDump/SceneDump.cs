@@ -55,29 +55,28 @@ namespace Garage.Usd.Dump
             json.Open('{');
             json.Key("world");
             Numbers(world);
-            Text("material", material.Path);
-            if (material.Path != null) { materials.Add(material.Path); }
+            if (material.Material(scene.Stage) != null)
+            {
+                Text("material", material.Path);
+                materials.Add(material.Path);
+            }
+            if (node.Visibility != "inherited") { Text("visibility", node.Visibility); }
+            Text("purpose", node.Purpose);
             if (node.Mesh != null) { Mesh(node.Mesh); }
             if (node.Light != null) { Light(node.Light); }
-            if (node.Camera != null)
-            {
-                json.Key("fieldOfView");
-                json.Number(node.Camera.VerticalFieldOfViewDegrees);
-            }
-            if (node.Shape != null) { Text("shape", node.Shape.Kind); }
-            if (node.Curves != null)
-            {
-                json.Key("curves");
-                json.Number(node.Curves.VertexCounts.Length);
-            }
+            if (node.Camera != null) { Camera(node.Camera); }
+            if (node.Shape != null) { Shape(node.Shape); }
+            if (node.Curves != null) { Curves(node.Curves); }
             if (node.Collider != null)
             {
-                Text("collider", node.Collider.Approximation);
-                PhysicsMaterialData data = PhysicsMaterialData.Of(physics.Path == null ? null : scene.Stage.PrimAt(physics.Path));
+                Text("collider", node.Collider.IsEnabled ? node.Collider.Approximation : "disabled");
+                PhysicsMaterialData data = PhysicsMaterialData.Of(physics.Material(scene.Stage));
                 if (data != null)
                 {
-                    json.Key("friction");
-                    json.Number(data.StaticFriction);
+                    Number("friction", data.StaticFriction);
+                    Number("slidingFriction", data.DynamicFriction);
+                    Number("restitution", data.Restitution);
+                    Number("density", data.Density);
                 }
             }
             if (node.Labels != null)
@@ -93,13 +92,7 @@ namespace Garage.Usd.Dump
                 }
                 json.Close('}');
             }
-            if (node.PointInstancer != null)
-            {
-                json.Key("instances");
-                json.Open('[');
-                foreach (double[] matrix in node.PointInstancer.Matrices) { Numbers(matrix); }
-                json.Close(']');
-            }
+            if (node.PointInstancer != null) { PointInstancer(node.PointInstancer); }
             json.Close('}');
             if (node.Prim.Prototype != null)
             {
@@ -114,7 +107,7 @@ namespace Garage.Usd.Dump
 
         static MaterialBinding Rebased(MaterialBinding binding, string prototype, string instance)
         {
-            return new MaterialBinding(Shown(binding.Path, prototype, instance), binding.IsStrong);
+            return binding.Moved(delegate(string path) { return Shown(path, prototype, instance); });
         }
 
         void Text(string key, string value)
@@ -124,6 +117,26 @@ namespace Garage.Usd.Dump
             json.String(value);
         }
 
+        void Number(string key, double value)
+        {
+            json.Key(key);
+            json.Number(value);
+        }
+
+        void Numbers(string key, IEnumerable<float> numbers)
+        {
+            json.Key(key);
+            Floats(numbers);
+        }
+
+        void Numbers(string key, IEnumerable<int> numbers)
+        {
+            json.Key(key);
+            json.Open('[');
+            foreach (int number in numbers) { json.Number(number); }
+            json.Close(']');
+        }
+
         void Numbers(IEnumerable<double> numbers)
         {
             json.Open('[');
@@ -131,7 +144,7 @@ namespace Garage.Usd.Dump
             json.Close(']');
         }
 
-        void Floats(float[] numbers)
+        void Floats(IEnumerable<float> numbers)
         {
             json.Open('[');
             foreach (float number in numbers) { json.Number(number); }
@@ -170,9 +183,15 @@ namespace Garage.Usd.Dump
             json.Number(area);
             json.Key("sum");
             Numbers(sum);
+            json.Key("isDoubleSided");
+            json.Bool(mesh.IsDoubleSided);
             json.Key("parts");
             json.Open('[');
             foreach (SubMesh part in mesh.SubMeshes) { json.Number(part.Triangles.Length / 3); }
+            json.Close(']');
+            json.Key("materials");
+            json.Open('[');
+            foreach (SubMesh part in mesh.SubMeshes) { json.String(part.MaterialPath ?? ""); }
             json.Close(']');
             if (triangles <= 200)
             {
@@ -186,6 +205,11 @@ namespace Garage.Usd.Dump
                 json.Close(']');
                 json.Key("normals");
                 Corners(mesh, mesh.Normals, 3);
+                if (mesh.Colors != null)
+                {
+                    json.Key("colors");
+                    Corners(mesh, mesh.Colors, 3);
+                }
                 foreach (KeyValuePair<string, float[]> channel in mesh.TextureCoordinates)
                 {
                     json.Key("primvars:" + channel.Key);
@@ -214,15 +238,68 @@ namespace Garage.Usd.Dump
             json.Key("light");
             json.Open('{');
             Text("kind", light.Kind.ToString());
-            json.Key("luminance");
-            json.Number(light.Luminance(metres));
-            json.Key("candela");
-            json.Number(light.Candela(metres));
-            json.Key("lumen");
-            json.Number(light.Lumen(metres));
-            json.Key("lux");
-            json.Number(light.Lux);
+            Numbers("color", light.Color);
+            Number("luminance", light.Luminance(metres));
+            Number("candela", light.Candela(metres));
+            Number("lumen", light.Lumen(metres));
+            Number("lux", light.Lux);
+            Number("cone", light.ConeAngleDegrees);
+            Number("softness", light.ConeSoftness);
+            Number("temperature", light.ColorTemperature);
             json.Close('}');
+        }
+
+        void Camera(CameraData camera)
+        {
+            json.Key("camera");
+            json.Open('{');
+            Number("fieldOfView", camera.VerticalFieldOfViewDegrees);
+            Number("horizontalAperture", camera.HorizontalAperture);
+            Number("near", camera.Near);
+            Number("far", camera.Far);
+            json.Key("isOrthographic");
+            json.Bool(camera.IsOrthographic);
+            json.Close('}');
+        }
+
+        void Shape(ShapeData shape)
+        {
+            json.Key("shape");
+            json.Open('{');
+            Text("kind", shape.Kind);
+            Text("axis", shape.Axis.ToString());
+            Number("size", shape.Size);
+            Number("radius", shape.Radius);
+            Number("height", shape.Height);
+            Number("width", shape.Width);
+            Number("length", shape.Length);
+            json.Close('}');
+        }
+
+        void Curves(CurvesData curves)
+        {
+            json.Key("curves");
+            json.Open('{');
+            Text("type", curves.IsLinear ? "linear" : curves.Basis);
+            Text("wrap", curves.Wrap);
+            Numbers("counts", curves.VertexCounts);
+            Numbers("points", curves.Points);
+            Numbers("widths", curves.Widths);
+            json.Close('}');
+        }
+
+        void PointInstancer(PointInstancerData instancer)
+        {
+            json.Key("prototypes");
+            json.Open('[');
+            foreach (string path in instancer.Prototypes) { json.String(path); }
+            json.Close(']');
+            Numbers("numbers", instancer.Numbers);
+            Numbers("prototypeOf", instancer.PrototypeOf);
+            json.Key("instances");
+            json.Open('[');
+            foreach (double[] matrix in instancer.Matrices) { Numbers(matrix); }
+            json.Close(']');
         }
 
         void Material(string path)

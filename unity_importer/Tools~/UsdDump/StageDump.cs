@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace Garage.Usd.Dump
 {
-    /// <summary>The composed prims as JSON.</summary>
+    /// <summary>The composed prims as JSON, each with its place in the world and the materials that it shows.</summary>
     static class StageDump
     {
         public static string Of(UsdStage stage)
@@ -15,10 +15,11 @@ namespace Garage.Usd.Dump
             json.Bool(stage.IsZUp);
             json.Key("prims");
             json.Open('{');
-            foreach (UsdPrim child in stage.Root.Children) { Prim(json, child); }
+            var none = new MaterialBinding(null, false);
+            foreach (UsdPrim child in stage.Root.Children) { Prim(json, child, Matrix4.Identity(), none, none); }
             for (int i = 0; i < stage.Prototypes.Count; i++)
             {
-                foreach (UsdPrim child in stage.Prototypes[i].Children) { Prim(json, child); }
+                foreach (UsdPrim child in stage.Prototypes[i].Children) { Prim(json, child, Matrix4.Identity(), none, none); }
             }
             json.Close('}');
             json.Key("warnings");
@@ -29,8 +30,14 @@ namespace Garage.Usd.Dump
             return json.ToString();
         }
 
-        static void Prim(JsonText json, UsdPrim prim)
+        // transform and bindings are those of the parent, within a prototype those of the prototype alone
+        static void Prim(JsonText json, UsdPrim prim, double[] world, MaterialBinding material, MaterialBinding physics)
         {
+            bool resets;
+            double[] local = Xform.Local(prim, out resets);
+            world = resets ? local : Matrix4.Multiply(local, world);
+            material = MaterialBinding.Of(prim, "preview").Under(material);
+            physics = MaterialBinding.Of(prim, "physics").Under(physics);
             json.Key(prim.Path);
             json.Open('{');
             json.Key("specifier");
@@ -69,12 +76,28 @@ namespace Garage.Usd.Dump
                 json.Key(field);
                 json.Anything(value);
             }
+            if (prim.Property("xformOpOrder") != null)
+            {
+                json.Key("world");
+                json.Open('[');
+                foreach (double number in world) { json.Number(number); }
+                json.Close(']');
+            }
+            Binding(json, "material", material.Material(prim.Stage));
+            Binding(json, "physicsMaterial", physics.Material(prim.Stage));
             json.Key("properties");
             json.Open('{');
             foreach (string name in prim.PropertyNames) { Property(json, prim.Property(name)); }
             json.Close('}');
             json.Close('}');
-            foreach (UsdPrim child in prim.Children) { Prim(json, child); }
+            foreach (UsdPrim child in prim.Children) { Prim(json, child, world, material, physics); }
+        }
+
+        static void Binding(JsonText json, string key, UsdPrim material)
+        {
+            if (material == null) { return; }
+            json.Key(key);
+            json.String(material.Path);
         }
 
         static void Property(JsonText json, UsdProperty property)
