@@ -71,8 +71,8 @@ namespace Garage.Unity
         }
 
         /// <summary>
-        /// Begins a prefab with a name; a scene is read best on another thread before. The table of labels may be null. Of
-        /// what becomes an asset the textures keep their pixels, as they could not be saved without.
+        /// Begins a prefab with a name; a scene is read best on another thread before. The table of labels may be null.
+        /// Of what becomes an asset the textures keep their pixels, as they could not be saved without.
         /// </summary>
         public SceneBuilder(SceneModel scene, LabelTable table, ImportSettings settings, string name, bool isAsset)
         {
