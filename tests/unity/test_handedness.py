@@ -81,6 +81,7 @@ def test_points_stand_where_the_basis_puts_them_and_fronts_look_out(prefabs, tmp
         mesh = prefab.assets[item["mesh"]]
         points, normals = (np.array(mesh[key]).reshape(-1, 3) for key in ("vertices", "normals"))
         a, b, c = np.array(mesh["parts"][0]).reshape(-1, 3).T
+        assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-5)
         assert (np.einsum("ij,ij->i", np.cross(points[b] - points[a], points[c] - points[a]), normals[a]) > 0).all()
 
 

@@ -263,6 +263,7 @@ def test_players_load_the_same_as_the_editor_imports(prefab_dump, prefabs, build
     assert found["objects"] == len(expected.objects)
     assert found["renderers"] == len([item for item in expected.objects if "mesh" in item])
     assert found["steps"] > 2
+    assert found["droppedTextures"] == len(expected.of_type("Texture2D")) > 10
     assert found["last"] == 1
     # disposing of it takes all away
     assert found["left"] == 0

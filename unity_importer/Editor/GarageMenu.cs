@@ -15,18 +15,36 @@ namespace Garage.Unity.Editor
         {
             string source = EditorUtility.OpenFilePanel("Import a stage", "", "usdz,usda,usdc");
             if (string.IsNullOrEmpty(source)) { return; }
-            string target = "Assets/" + Path.GetFileName(source);
-            if (File.Exists(target))
+            try
             {
-                EditorUtility.DisplayDialog("Import a stage", target + " exists already.", "OK");
-                return;
+                string target = CopyStage(source, "Assets");
+                AssetDatabase.Refresh();
+                Selection.activeObject = AssetDatabase.LoadAssetAtPath<GameObject>(target);
             }
+            catch (IOException failure)
+            {
+                EditorUtility.DisplayDialog("Import a stage", failure.Message, "OK");
+            }
+        }
+
+        /// <summary>
+        /// Copies a stage with its folder of assets and its table of labels into a folder; gives the path of the stage.
+        /// Throws IOException, also where the stage is there already.
+        /// </summary>
+        public static string CopyStage(string source, string folder)
+        {
+            string target = folder + "/" + Path.GetFileName(source), name = Path.GetFileNameWithoutExtension(source);
+            string beside = Path.GetDirectoryName(source), labels = name + "_labels.json", assets = name + "_assets";
             File.Copy(source, target);
-            string name = Path.GetFileNameWithoutExtension(source);
-            string assets = Path.Combine(Path.GetDirectoryName(source), name + "_assets");
-            if (Directory.Exists(assets)) { CopyFolder(assets, "Assets/" + Path.GetFileName(assets)); }
-            AssetDatabase.Refresh();
-            Selection.activeObject = AssetDatabase.LoadAssetAtPath<GameObject>(target);
+            if (File.Exists(Path.Combine(beside, labels)))
+            {
+                File.Copy(Path.Combine(beside, labels), folder + "/" + labels, true);
+            }
+            if (Directory.Exists(Path.Combine(beside, assets)))
+            {
+                CopyFolder(Path.Combine(beside, assets), folder + "/" + assets);
+            }
+            return target;
         }
 
         static void CopyFolder(string source, string target)

@@ -37,6 +37,8 @@ namespace Garage.Unity.Editor
         [InitializeOnLoadMethod]
         static void WatchPipeline()
         {
+            // workers learn it from the editor that they work for
+            if (AssetDatabase.IsAssetImportWorkerProcess()) { return; }
             AssetDatabase.RegisterCustomDependency(PipelineDependency, Hash128.Compute(LitShader.InUse().ToString()));
         }
 
@@ -53,7 +55,7 @@ namespace Garage.Unity.Editor
             {
                 Look(name, "Reading", 0);
                 SceneModel scene = StageReader.Read(files, Path.GetFileName(ctx.assetPath));
-                builder = new SceneBuilder(scene, StageReader.Labels(files, name), settings, name);
+                builder = new SceneBuilder(scene, StageReader.Labels(files, name), settings, name, true);
                 var clock = Stopwatch.StartNew();
                 while (builder.Step())
                 {

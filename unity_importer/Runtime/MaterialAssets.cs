@@ -25,16 +25,16 @@ namespace Garage.Unity
         readonly Dictionary<string, Material> byKey = new Dictionary<string, Material>();
         Shader shader;
 
-        public MaterialAssets(SceneModel scene, ImportSettings settings, ImportReport report,
+        public MaterialAssets(SceneModel scene, ImportSettings settings, TextureAssets textures, ImportReport report,
             Action<string, UnityEngine.Object> store)
         {
             this.scene = scene;
+            this.textures = textures;
             this.report = report;
             this.store = store;
             isInstanced = settings.gpuInstancing;
             lit = LitShader.Of(settings.pipeline);
             emission = Mathf.Pow(2, settings.exposureStops) * (lit is HighDefinitionLit ? settings.nitsPerUnit : 1);
-            textures = new TextureAssets(scene.Stage, settings.compressTextures, report, store);
         }
 
         /// <summary>The surface of the material at a path; that of a plain color where there is none.</summary>

@@ -19,8 +19,8 @@ namespace Garage.Unity
         readonly LightBuilder lights;
         readonly ColliderBuilder colliders;
 
-        public PartBuilder(SceneModel scene, ImportSettings settings, Basis basis, HashSet<string> movable,
-            ImportReport report, Action<string, UnityEngine.Object> store)
+        public PartBuilder(SceneModel scene, ImportSettings settings, bool isAsset, Basis basis,
+            HashSet<string> movable, ImportReport report, Action<string, UnityEngine.Object> store)
         {
             this.scene = scene;
             this.settings = settings;
@@ -29,7 +29,8 @@ namespace Garage.Unity
             this.movable = movable;
             bool unwraps = settings.lightmapCoordinates || settings.lightMode == LightMode.BakedRectangle;
             meshes = new MeshAssets(basis, unwraps, store);
-            materials = new MaterialAssets(scene, settings, report, store);
+            var textures = new TextureAssets(scene.Stage, settings.compressTextures, isAsset, report, store);
+            materials = new MaterialAssets(scene, settings, textures, report, store);
             lights = new LightBuilder(basis, settings, report);
             colliders = new ColliderBuilder(scene, basis, settings.colliders, report, store);
         }

@@ -70,9 +70,11 @@ namespace Garage.Unity
             public float From, Span;
         }
 
-        /// <summary>Begins a prefab with a name; a scene is read best on another thread before. The table of labels may
-        /// be null.</summary>
-        public SceneBuilder(SceneModel scene, LabelTable table, ImportSettings settings, string name)
+        /// <summary>
+        /// Begins a prefab with a name; a scene is read best on another thread before. The table of labels may be null.
+        /// Of what becomes an asset the textures keep their pixels, as they could not be saved without.
+        /// </summary>
+        public SceneBuilder(SceneModel scene, LabelTable table, ImportSettings settings, string name, bool isAsset)
         {
             this.scene = scene;
             this.table = table;
@@ -81,7 +83,7 @@ namespace Garage.Unity
             Report = new ImportReport { Readable = Readable };
             lanes = new LaneGraphBuilder(basis, Report);
             movable = new HashSet<string>(settings.movableLabels);
-            parts = new PartBuilder(scene, settings, basis, movable, Report, Store);
+            parts = new PartBuilder(scene, settings, isAsset, basis, movable, Report, Store);
             Root = new GameObject(name);
             if (QualitySettings.activeColorSpace != ColorSpace.Linear)
             {

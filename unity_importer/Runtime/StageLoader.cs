@@ -78,7 +78,7 @@ namespace Garage.Unity
             SceneModel scene = await Task.Run(read, cancel);
 #endif
             cancel.ThrowIfCancellationRequested();
-            var builder = new SceneBuilder(scene, labels(), settings, name);
+            var builder = new SceneBuilder(scene, labels(), settings, name, false);
             try
             {
                 builder.Root.SetActive(false);

@@ -11,7 +11,7 @@ namespace Garage.Unity
         const int Anisotropy = 8;
 
         readonly UsdStage stage;
-        readonly bool compresses;
+        readonly bool compresses, keepsPixels;
         readonly ImportReport report;
         readonly Action<string, UnityEngine.Object> store;
         readonly Dictionary<string, Texture2D> made = new Dictionary<string, Texture2D>();
@@ -23,11 +23,12 @@ namespace Garage.Unity
             public Color32[] Values;
         }
 
-        public TextureAssets(UsdStage stage, bool compresses, ImportReport report,
+        public TextureAssets(UsdStage stage, bool compresses, bool keepsPixels, ImportReport report,
             Action<string, UnityEngine.Object> store)
         {
             this.stage = stage;
             this.compresses = compresses;
+            this.keepsPixels = keepsPixels;
             this.report = report;
             this.store = store;
         }
@@ -250,7 +251,7 @@ namespace Garage.Unity
             texture.wrapModeV = Wrap(source.WrapT, path);
             texture.anisoLevel = Anisotropy;
             if (compresses && texture.width % 4 == 0 && texture.height % 4 == 0) { texture.Compress(true); }
-            texture.Apply(false, true);
+            if (!keepsPixels) { texture.Apply(false, true); }
             return texture;
         }
 

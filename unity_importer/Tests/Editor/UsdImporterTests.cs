@@ -147,6 +147,31 @@ def Material ""Look""
         }
 
         [Test]
+        public void A_stage_is_copied_with_what_belongs_to_it()
+        {
+            string source = Path.Combine(Path.GetTempPath(), "garage_" + System.Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(source + "/hall_assets/textures");
+            File.WriteAllText(source + "/hall.usda", Room);
+            File.WriteAllText(source + "/hall_labels.json", "{}");
+            File.WriteAllText(source + "/hall_assets/textures/wall.txt", "a wall");
+            Assert.AreEqual(Folder + "/hall.usda", GarageMenu.CopyStage(source + "/hall.usda", Folder));
+            Assert.AreEqual(Room, File.ReadAllText(Folder + "/hall.usda"));
+            Assert.AreEqual("{}", File.ReadAllText(Folder + "/hall_labels.json"));
+            Assert.AreEqual("a wall", File.ReadAllText(Folder + "/hall_assets/textures/wall.txt"));
+            bool isRefused = false;
+            try
+            {
+                GarageMenu.CopyStage(source + "/hall.usda", Folder);
+            }
+            catch (IOException)
+            {
+                isRefused = true;
+            }
+            Assert.IsTrue(isRefused);
+            Directory.Delete(source, true);
+        }
+
+        [Test]
         public void Reference_materials_cover_every_set_of_keywords_once()
         {
             var seen = new System.Collections.Generic.HashSet<string>();

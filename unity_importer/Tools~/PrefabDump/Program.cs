@@ -195,7 +195,7 @@ namespace Garage.Unity.Dump
                 SceneModel scene = StageReader.Read(files, Path.GetFileName(file));
                 LabelTable table = StageReader.Labels(files, Path.GetFileNameWithoutExtension(file));
                 TimeSpan read = Process.GetCurrentProcess().TotalProcessorTime;
-                var builder = new SceneBuilder(scene, table, new ImportSettings(), "garage");
+                var builder = new SceneBuilder(scene, table, new ImportSettings(), "garage", true);
                 builder.Run();
                 TimeSpan made = Process.GetCurrentProcess().TotalProcessorTime;
                 json.Open('{');
@@ -242,6 +242,7 @@ namespace Garage.Unity.Dump
                 if (EditorUtility.looksToCancel == 1) { cancel.Cancel(); }
                 else if (EditorUtility.looksToCancel == 2) { steps.Then = value => cancel.Cancel(); }
                 var parent = new GameObject("Parent");
+                Texture2D.dropped = 0;
                 try
                 {
                     LoadedStage loaded = file.EndsWith(".usdz", StringComparison.Ordinal)
@@ -252,6 +253,7 @@ namespace Garage.Unity.Dump
                     Number(json, "objects", loaded.Root.GetComponentsInChildren<Transform>(true).Length);
                     Number(json, "renderers", parent.GetComponentsInChildren<MeshRenderer>().Length);
                     Number(json, "steps", steps.Seen.Count);
+                    Number(json, "droppedTextures", Texture2D.dropped);
                     Number(json, "last", steps.Seen[steps.Seen.Count - 1]);
                     loaded.Dispose();
                 }

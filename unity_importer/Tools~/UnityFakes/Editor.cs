@@ -132,6 +132,11 @@ namespace UnityEditor
             dependencies[dependency] = hashOfValue;
         }
 
+        public static bool IsAssetImportWorkerProcess()
+        {
+            return false;
+        }
+
         public static void CreateAsset(Object asset, string path)
         {
             assets[path] = asset;

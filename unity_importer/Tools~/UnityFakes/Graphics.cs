@@ -266,6 +266,9 @@ namespace UnityEngine
             pixels = null;
         }
 
+        /// <summary>Textures whose pixels only the graphics card has left, so that a test sees that players drop them.</summary>
+        internal static int dropped;
+
         public Color32[] GetPixels32()
         {
             if (isReadOnce || isCompressed) { throw new InvalidOperationException("the texture cannot be read"); }
@@ -286,6 +289,7 @@ namespace UnityEngine
         public void Apply(bool updateMipmaps, bool makeNoLongerReadable)
         {
             isReadOnce |= makeNoLongerReadable;
+            if (makeNoLongerReadable) { dropped++; }
         }
 
         public void Compress(bool highQuality)
