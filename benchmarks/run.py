@@ -2,8 +2,8 @@
 
 Usage: python benchmarks/run.py [building | planning | scale | stages | compiled ...]
 
-Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are compared,
-they are measured in turns and given as a ratio too.
+Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
+compared, they are measured in turns and given as a ratio too.
 """
 
 import json

@@ -52,8 +52,9 @@ def stages() -> str:
             "the same objects by `UsdGeom` on an open stage, instanced, without lane graph, stall attributes and "
             "variants. Floor: `Layer.Export` of the authored layers. Open: `Usd.Stage.Open` with all assets. Blender: "
             "`usd_import` of the whole stage. Peak memory of the whole process: naive and authored read the finished "
-            "layout from a file; own is what authoring adds to the libraries and the layout. Medians. Neither the naive way, which "
-            "takes more than ten minutes, nor Blender, which makes an object of each instance, is measured at 200 x 300."
+            "layout from a file; own is what authoring adds to the libraries and the layout. "
+            "Medians. Neither the naive way, which takes more than ten minutes, nor Blender, which makes an object of "
+            "each instance, is measured at 200 x 300."
         ),
         "",
         (

@@ -234,3 +234,51 @@ def test_points_of_an_instancer(prefabs, tmp_path):
         vertices = world_vertices(prefab, found.pop(path))
         assert np.allclose(np.unique(np.round(vertices, 4), axis=0), np.unique(np.round(corners, 4), axis=0), atol=2e-4)
     assert len([item for item in found.values() if "mesh" in item]) == 0
+
+
+def test_instances_share_all_that_is_the_same_and_nothing_else(prefabs, tmp_path):
+    """Instances with their own binding at the root, of two materials, one mirrored: as ``pxr`` binds them."""
+    (tmp_path / "asset.usda").write_text("""#usda 1.0
+( defaultPrim = "Asset" )
+def Xform "Asset" ( prepend apiSchemas = ["MaterialBindingAPI"]
+    variants = { string paint = "red" }
+    prepend variantSets = "paint" )
+{
+    rel material:binding = </Asset/Looks/Paint>
+    def Sphere "Ball" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+    def Scope "Looks" { def Material "Paint"
+        {
+            token outputs:surface.connect = </Asset/Looks/Paint/Surface.outputs:surface>
+            def Shader "Surface" { uniform token info:id = "UsdPreviewSurface"
+                token outputs:surface }
+        }
+    }
+    variantSet "paint" = {
+        "red" { over "Looks" { over "Paint" { over "Surface" { color3f inputs:diffuseColor = (1, 0, 0) } } } }
+        "blue" { over "Looks" { over "Paint" { over "Surface" { color3f inputs:diffuseColor = (0, 0, 1) } } } }
+    }
+}
+""")
+    placed = {"First": "red", "Second": "blue", "Third": "red", "Mirrored": "red"}
+    text = "#usda 1.0\n( metersPerUnit = 1 )\n"
+    for name, paint in placed.items():
+        scale = "(-1, 1, 1)" if name == "Mirrored" else "(1, 1, 1)"
+        text += f"""def "{name}" ( instanceable = true
+    prepend references = @asset.usda@
+    variants = {{ string paint = "{paint}" }} )
+{{
+    float3 xformOp:scale = {scale}
+    uniform token[] xformOpOrder = ["xformOp:scale"]
+}}
+"""
+    (tmp_path / "stage.usda").write_text(text)
+    prefab = prefabs(tmp_path / "stage.usda")
+    balls = {item["path"].split("/")[1]: item for item in prefab.objects if item["path"].endswith("/Ball")}
+    colors = {name: prefab.assets[ball["materials"][0]]["colors"]["_Color"][::2] for name, ball in balls.items()}
+    assert {name: color[0] > color[1] for name, color in colors.items()} == {
+        name: paint == "red" for name, paint in placed.items()
+    }
+    assert len({ball["mesh"] for ball in balls.values()}) == 1
+    assert len({ball["materials"][0] for ball in balls.values()}) == 2
+    (warning,) = [line for line in prefab.found["warnings"] if "mirrored" in line]
+    assert "(1)" in warning

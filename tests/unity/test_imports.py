@@ -273,6 +273,17 @@ def test_players_load_the_same_as_the_editor_imports(prefab_dump, prefabs, build
         assert stopped["left"] == 0
 
 
+def test_players_need_a_reference_material_where_the_shader_is_not_built_in(prefab_dump, tmp_path):
+    (tmp_path / "ball.usda").write_text('#usda 1.0\ndef Sphere "Ball" {}')
+    failed = prefab_dump.ask("load", tmp_path / "ball.usda", "stripped=1")
+    assert failed["failure"].startswith("InvalidOperationException: The shader Standard is not in this build")
+    assert failed["left"] == 0
+    assert prefab_dump.ask("load", tmp_path / "ball.usda", "reference=1", "stripped=1")["renderers"] == 1
+    # that of another pipeline is of no use
+    other = prefab_dump.ask("load", tmp_path / "ball.usda", "reference=1", "stripped=1", "pipeline=Universal")
+    assert "Universal Render Pipeline/Lit" in other["failure"]
+
+
 def test_the_navmesh_is_made_of_what_one_can_drive_on_and_bump_into(prefabs, builds):
     build = builds(SAMPLE, "usdc")
     prefab = prefabs(build.stage)

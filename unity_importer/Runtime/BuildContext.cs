@@ -59,18 +59,25 @@ namespace Garage.Unity
         readonly int flags;
 
         /// <summary>Of a node whose content the source decides, as it would be within a context.</summary>
-        public TemplateKey(object source, SceneNode node, BuildContext context, bool isStall)
+        public TemplateKey(object source, SceneNode node, BuildContext context, bool isMirrored, bool isStall)
         {
             MaterialBinding shown = node.Material.Under(context.Material);
             MaterialBinding rubs = node.PhysicsMaterial.Under(context.Physics);
             this.source = source;
-            material = shown.Path;
-            physics = rubs.Path;
+            material = Within(node, shown.Path);
+            physics = Within(node, rubs.Path);
             purpose = node.Purpose ?? context.Purpose;
             bool isHidden = context.IsHidden || node.Visibility == "invisible";
             flags = (shown.IsStrong ? 1 : 0) | (rubs.IsStrong ? 2 : 0) | (isHidden ? 4 : 0)
                 | (context.IsMovable ? 8 : 0) | (isStall ? 16 : 0)
-                | (node.Labels != null ? 32 : 0) | (context.IsMirrored ? 64 : 0);
+                | (node.Labels != null ? 32 : 0) | (context.IsMirrored != isMirrored ? 64 : 0);
+        }
+
+        // what an instance binds of itself is the same for all of its prototype
+        static string Within(SceneNode node, string path)
+        {
+            string own = node.Prim.Path;
+            return path != null && UsdPaths.HasPrefix(path, own) ? path.Substring(own.Length) : path;
         }
 
         public bool Equals(TemplateKey other)

@@ -175,11 +175,12 @@ namespace Garage.Unity
                 return;
             }
             if (LaneGraphBuilder.IsPart(node)) { return; }
+            Placement placement = Placement.Of(basis, local);
             GameObject made = null;
             var key = new TemplateKey();
             if (source != null)
             {
-                key = new TemplateKey(source, node, context, isStall);
+                key = new TemplateKey(source, node, context, placement.Scale.x < 0, isStall);
                 GameObject first;
                 if (templates.TryGetValue(key, out first))
                 {
@@ -194,7 +195,7 @@ namespace Garage.Unity
                 made.transform.SetParent(frame.Parent, false);
                 if (source != null) { templates.Add(key, made); }
             }
-            Placement placement = Place(made, node, local, context);
+            Place(made, node, placement, context);
             if (node.Labels != null) { Dress<SemanticLabels>(made, isClone).Set(node.Labels); }
             if (isStall) { lanes.AddStall(Dress<Stall>(made, isClone), node); }
             if (isClone) { return; }
@@ -240,7 +241,7 @@ namespace Garage.Unity
             return isClone ? made.GetComponent<T>() : made.AddComponent<T>();
         }
 
-        Placement Place(GameObject made, SceneNode node, double[] local, BuildContext context)
+        void Place(GameObject made, SceneNode node, Placement placement, BuildContext context)
         {
             if (node.ResetsTransform)
             {
@@ -251,13 +252,11 @@ namespace Garage.Unity
                 }
                 else { made.transform.SetParent(Root.transform, false); }
             }
-            Placement placement = Placement.Of(basis, local);
             if (placement.Shear > LargestShear)
             {
                 Report.Add("sheared transforms stand as the nearest ones that are not sheared", node.Prim.Path);
             }
             placement.ApplyTo(made.transform);
-            return placement;
         }
 
         void Scatter(GameObject holder, SceneNode node, BuildContext context, float span)

@@ -121,6 +121,8 @@ namespace Garage.Unity.Dump
             GraphicsSettings.inUse = null;
             GraphicsSettings.lightsUseLinearIntensity = true;
             QualitySettings.inUse = ColorSpace.Linear;
+            Shader.areFound = true;
+            Resources.stored.Clear();
             EditorUtility.looks = 0;
             EditorUtility.looksToCancel = int.MaxValue;
             foreach (string pair in pairs)
@@ -132,6 +134,10 @@ namespace Garage.Unity.Dump
                     case "project": GraphicsSettings.inUse = value == "URP" ? new UniversalRenderPipelineAsset()
                         : (RenderPipelineAsset)new HDRenderPipelineAsset(); break;
                     case "curved": GraphicsSettings.lightsUseLinearIntensity = false; break;
+                    case "reference":
+                        Resources.stored["GarageMaterials/Lit"] = ReferenceMaterials.Make(PipelineKind.Automatic)[0];
+                        break;
+                    case "stripped": Shader.areFound = false; break;
                     case "gamma": QualitySettings.inUse = ColorSpace.Gamma; break;
                     case "cancel": EditorUtility.looksToCancel = int.Parse(value); break;
                     default:

@@ -323,6 +323,9 @@ namespace UnityEngine
     {
         static readonly Dictionary<string, Shader> Known = new Dictionary<string, Shader>();
 
+        /// <summary>Whether shaders are found by name; in players those that nothing refers to are not.</summary>
+        internal static bool areFound = true;
+
         internal readonly HashSet<string> properties;
 
         internal Shader(string name, string properties)
@@ -338,7 +341,7 @@ namespace UnityEngine
             {
                 foreach (Shader one in LitShaders.All()) { Known.Add(one.name, one); }
             }
-            return Known.TryGetValue(name, out shader) ? shader : null;
+            return areFound && Known.TryGetValue(name, out shader) ? shader : null;
         }
     }
 
