@@ -158,7 +158,7 @@ namespace Garage.Usd
             int count = 0;
             foreach (LayerSpec spec in Specs)
             {
-                if (spec.Spec.FindChild(name) != null) { count++; }
+                if (spec.Spec.Children.Find(name) != null) { count++; }
             }
             var extended = new ArcNode(Stack, UsdPaths.Child(Path, name), Arc, Depth, From, To, KeepsOtherPaths, Offset, Variant);
             if (count > 0)
@@ -167,7 +167,7 @@ namespace Garage.Usd
                 count = 0;
                 foreach (LayerSpec spec in Specs)
                 {
-                    PrimSpec child = spec.Spec.FindChild(name);
+                    PrimSpec child = spec.Spec.Children.Find(name);
                     if (child != null) { extended.Specs[count++] = new LayerSpec(spec.Layer, child); }
                 }
             }

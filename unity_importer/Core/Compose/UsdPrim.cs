@@ -302,9 +302,10 @@ namespace Garage.Usd
                 if (spec.Children.Count > 0)
                 {
                     seen = seen ?? new HashSet<string>();
-                    foreach (PrimSpec child in spec.Children)
+                    for (int k = 0; k < spec.Children.Count; k++)
                     {
-                        if (seen.Add(child.Name)) { names.Add(child.Name); }
+                        string name = spec.Children[k].Name;
+                        if (seen.Add(name)) { names.Add(name); }
                     }
                 }
                 if (spec.ChildOrder != null) { ListOp<string>.Reorder(names, spec.ChildOrder); }
@@ -360,7 +361,8 @@ namespace Garage.Usd
                     var names = new HashSet<string>();
                     foreach (Opinion opinion in opinions)
                     {
-                        foreach (PropertySpec property in opinion.Spec.Spec.Properties) { names.Add(property.Name); }
+                        NamedList<PropertySpec> properties = opinion.Spec.Spec.Properties;
+                        for (int i = 0; i < properties.Count; i++) { names.Add(properties[i].Name); }
                     }
                     propertyNames = new string[names.Count];
                     names.CopyTo(propertyNames);
@@ -376,7 +378,7 @@ namespace Garage.Usd
             int first = -1, count = 0;
             for (int i = 0; i < opinions.Length; i++)
             {
-                if (opinions[i].Spec.Spec.FindProperty(name) == null) { continue; }
+                if (opinions[i].Spec.Spec.Properties.Find(name) == null) { continue; }
                 if (count++ == 0) { first = i; }
             }
             if (count == 0) { return null; }
@@ -385,7 +387,7 @@ namespace Garage.Usd
             count = 0;
             for (int i = first; i < opinions.Length; i++)
             {
-                PropertySpec spec = opinions[i].Spec.Spec.FindProperty(name);
+                PropertySpec spec = opinions[i].Spec.Spec.Properties.Find(name);
                 if (spec == null) { continue; }
                 specs[count] = spec;
                 places[count++] = opinions[i];
@@ -398,7 +400,7 @@ namespace Garage.Usd
         {
             foreach (Opinion opinion in opinions)
             {
-                PropertySpec spec = opinion.Spec.Spec.FindProperty(name);
+                PropertySpec spec = opinion.Spec.Spec.Properties.Find(name);
                 if (spec == null || spec.Default == null) { continue; }
                 if (ReferenceEquals(spec.Default, UsdValue.Blocked)) { return null; }
                 if (spec.Default.Type != UsdType.TimeCode) { return spec.Default; }

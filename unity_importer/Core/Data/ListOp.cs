@@ -13,6 +13,11 @@ namespace Garage.Usd
             return new ListOp<T> { IsExplicit = true, Explicit = items };
         }
 
+        public ListOp<T> Copy()
+        {
+            return (ListOp<T>)MemberwiseClone();
+        }
+
         /// <summary>Applies the edit to what weaker opinions made of the list.</summary>
         public void ApplyTo(List<T> list)
         {

@@ -10,14 +10,17 @@ namespace Garage.Usd
         const int DeepestValue = 40;
 
         readonly Layer layer;
-        readonly List<string> names = new List<string>();
+        readonly string[] names = new string[DeepestPrim];
+        int depth;
         readonly UsdaValues values;
+        readonly LineMemo lines;
         string primPath;
 
         UsdaReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
             layer = new Layer(identifier);
             values = new UsdaValues();
+            lines = new LineMemo(text, end);
         }
 
         public static bool Knows(byte[] bytes)
@@ -64,25 +67,35 @@ namespace Garage.Usd
 
         static bool TrySpecifier(string word, out Specifier specifier)
         {
-            specifier = word == "def" ? Specifier.Def : word == "class" ? Specifier.Class : Specifier.Over;
-            return word == "def" || word == "over" || word == "class";
+            specifier = Specifier.Over;
+            switch (word == null ? 0 : word.Length)
+            {
+                case 3:
+                    specifier = Specifier.Def;
+                    return word == "def";
+                case 4: return word == "over";
+                case 5:
+                    specifier = Specifier.Class;
+                    return word == "class";
+                default: return false;
+            }
         }
 
         void ReadPrim(PrimSpec parent, Specifier specifier)
         {
-            if (names.Count >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
+            if (depth >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
             string typeName = AtQuote() ? "" : Name();
-            string name = QuotedString();
+            string name = QuotedString(false);
             if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0) { throw Error("'" + name + "' is no name of a prim"); }
             var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
             if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
             layer.SpecCount++;
-            names.Add(name);
+            names[depth++] = name;
             primPath = null;
             if (Take('(')) { ReadPrimMetadata(prim); }
             Expect('{');
             ReadBody(prim);
-            names.RemoveAt(names.Count - 1);
+            depth--;
             primPath = null;
         }
 
@@ -96,6 +109,8 @@ namespace Garage.Usd
                     at++;
                     return;
                 }
+                int start = at;
+                if (MayComeOften(text[at]) && TakeKnownProperty(prim)) { continue; }
                 string word = Name();
                 Specifier specifier;
                 if (TrySpecifier(word, out specifier))
@@ -115,9 +130,35 @@ namespace Garage.Usd
                 }
                 else
                 {
+                    int before = prim.Properties.Count;
                     ReadProperty(prim, word);
+                    if (prim.Properties.Count > before) { lines.Keep(start, at, prim.Properties[before]); }
                 }
             }
+        }
+
+        // "uniform", "token", "rel", "custom", "bool", "asset", "string"; lines of numbers are rarely equal
+        static bool MayComeOften(byte first)
+        {
+            return first == 'u' || first == 't' || first == 'r' || first == 'c' || first == 'b' || first == 'a' || first == 's';
+        }
+
+        // a line that was read before, of a property that the prim does not have yet: both prims share it
+        bool TakeKnownProperty(PrimSpec prim)
+        {
+            int stop;
+            var known = lines.Find(at, out stop) as PropertySpec;
+            if (known == null || prim.Properties.Find(known.Name) != null) { return false; }
+            int start = at;
+            at = stop;
+            // what belongs to it may stand on the next line
+            if (Next() == '(')
+            {
+                at = start;
+                return false;
+            }
+            prim.Properties.Add(known);
+            return true;
         }
 
         bool AtReorder()
@@ -191,11 +232,11 @@ namespace Garage.Usd
                 typeName = values.ArrayName(word);
             }
             string name = Name();
-            PropertySpec property = prim.FindProperty(name);
+            PropertySpec property = prim.OwnProperty(name);
             if (property == null)
             {
                 property = new PropertySpec(name) { IsRelationship = isRelationship, TypeName = isRelationship ? "" : typeName };
-                prim.AddProperty(property);
+                prim.Properties.Add(property);
             }
             else if (property.IsRelationship != isRelationship)
             {
@@ -231,16 +272,27 @@ namespace Garage.Usd
             {
                 throw Error("'" + part + "' is no part of a property");
             }
+            int stop = at;
             if (Next() == '(')
             {
                 at++;
                 ReadPropertyMetadata(property);
             }
+            else
+            {
+                at = stop;
+            }
         }
 
         static bool IsEdit(string word)
         {
-            return word == "prepend" || word == "append" || word == "delete" || word == "add" || word == "reorder";
+            switch (word.Length)
+            {
+                case 3: return word == "add";
+                case 6: return word == "append" || word == "delete";
+                case 7: return word == "prepend" || word == "reorder";
+                default: return false;
+            }
         }
 
         void ReadPropertyMetadata(PropertySpec property)
@@ -307,6 +359,14 @@ namespace Garage.Usd
                     prim.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
                     continue;
                 }
+                int start = at, stop = at;
+                bool isList = text[at] == 'p' || text[at] == 'r' || text[at] == 'a';
+                var known = isList ? lines.Find(start, out stop) as SharedField : null;
+                if (known != null && known.AddTo(prim))
+                {
+                    at = stop;
+                    continue;
+                }
                 string edit = null, key = Name();
                 if (IsEdit(key))
                 {
@@ -314,7 +374,35 @@ namespace Garage.Usd
                     key = Name();
                 }
                 Expect('=');
+                bool isFirst = isList && ((key == "references" && prim.References == null) || (key == "inherits" && prim.Inherits == null)
+                    || (key == "apiSchemas" && prim.ApiSchemas == null));
                 ReadPrimField(prim, edit, key);
+                if (isFirst) { lines.Keep(start, at, new SharedField(prim, key)); }
+            }
+        }
+
+        // what many prims of a layer refer to alike
+        sealed class SharedField
+        {
+            readonly ListOp<ReferenceArc> references;
+            readonly ListOp<string> inherits, apiSchemas;
+
+            public SharedField(PrimSpec prim, string key)
+            {
+                references = key == "references" ? prim.References : null;
+                inherits = key == "inherits" ? prim.Inherits : null;
+                apiSchemas = key == "apiSchemas" ? prim.ApiSchemas : null;
+            }
+
+            public bool AddTo(PrimSpec prim)
+            {
+                if ((references ?? prim.References) != (prim.References ?? references)) { return false; }
+                if ((inherits ?? prim.Inherits) != (prim.Inherits ?? inherits)) { return false; }
+                if ((apiSchemas ?? prim.ApiSchemas) != (prim.ApiSchemas ?? apiSchemas)) { return false; }
+                prim.References = references ?? prim.References;
+                prim.Inherits = inherits ?? prim.Inherits;
+                prim.ApiSchemas = apiSchemas ?? prim.ApiSchemas;
+                return true;
             }
         }
 
@@ -404,14 +492,25 @@ namespace Garage.Usd
             while (!(many && Take(']')))
             {
                 string asset = Next() == '@' ? AssetPath() : "";
-                string path = Next() == '<' ? Absolute(PathText(), true) : "";
+                int stop = at;
+                string path = "";
+                if (Next() == '<')
+                {
+                    path = Absolute(PathText(), true);
+                    stop = at;
+                }
                 if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']' && text[at - 1] != '@' && text[at - 1] != '>')
                 {
                     throw Unexpected("an asset or a path");
                 }
-                LayerOffset offset = Take('(') ? ReadOffset() : LayerOffset.Identity;
-                arcs.Add(new ReferenceArc(asset, path, offset));
-                if (!many) { break; }
+                bool hasOffset = Take('(');
+                arcs.Add(new ReferenceArc(asset, path, hasOffset ? ReadOffset() : LayerOffset.Identity));
+                if (!many)
+                {
+                    // a line ends where its last word does
+                    at = hasOffset ? at : stop;
+                    break;
+                }
                 if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
             }
             return arcs;
@@ -460,8 +559,8 @@ namespace Garage.Usd
 
         static ListOp<T> Edited<T>(ListOp<T> op, string edit, List<T> items)
         {
-            // a whole list and edits of one replace each other
-            if (op == null || edit == null || op.IsExplicit) { op = new ListOp<T>(); }
+            // a whole list and edits of one replace each other; what is there may be shared
+            op = op == null || edit == null || op.IsExplicit ? new ListOp<T>() : op.Copy();
             switch (edit)
             {
                 case "prepend": op.Prepended = items; break;
@@ -485,7 +584,7 @@ namespace Garage.Usd
                 throw Error("a path is empty");
             }
             if (path[0] == '/' && path.IndexOf("..", StringComparison.Ordinal) < 0) { return path; }
-            primPath = primPath ?? "/" + string.Join("/", names.ToArray());
+            primPath = primPath ?? "/" + string.Join("/", names, 0, depth);
             string absolute = UsdPaths.Absolute(primPath, path);
             if (absolute == null) { throw Error("the path <" + path + "> leads out of the layer"); }
             return absolute;
@@ -747,6 +846,8 @@ namespace Garage.Usd
 
             public bool Truth(string word, UsdaReader reader)
             {
+                if (word == "true") { return true; }
+                if (word == "false") { return false; }
                 switch (word.ToLowerInvariant())
                 {
                     case "true": case "yes": case "on": return true;

@@ -16,9 +16,9 @@ namespace Garage.Usd
         protected int at;
 
         readonly string file;
-        string[] internedStrings = new string[1024];
-        int[] internedStarts = new int[1024];
-        int[] internedLengths = new int[1024];
+        readonly char[] ascii = new char[128];
+        string[] internedStrings;
+        int[] internedStarts, internedLengths;
         int internedCount;
 
         static UsdaScanner()
@@ -36,6 +36,11 @@ namespace Garage.Usd
             end = bytes.Length;
             text = new byte[end + 2];
             Buffer.BlockCopy(bytes, 0, text, 0, end);
+            int slots = 1024;
+            while (slots < 65536 && slots < end / 256) { slots *= 2; }
+            internedStrings = new string[slots];
+            internedStarts = new int[slots];
+            internedLengths = new int[slots];
         }
 
         protected UsdFormatException Error(string reason)
@@ -67,6 +72,11 @@ namespace Garage.Usd
             for (;;)
             {
                 byte letter = s[i];
+                if (letter > ' ' && letter != '#' && letter != '/')
+                {
+                    at = i;
+                    return;
+                }
                 if (letter == ' ' || letter == '\n' || letter == '\t' || letter == '\r')
                 {
                     i++;
@@ -158,6 +168,12 @@ namespace Garage.Usd
         /// <summary>A string in one or three single or double quotes.</summary>
         protected string QuotedString()
         {
+            return QuotedString(true);
+        }
+
+        /// <summary>As QuotedString; tells whether the same text may come often.</summary>
+        protected string QuotedString(bool isShared)
+        {
             Skip();
             byte[] s = text;
             byte quote = s[at];
@@ -182,7 +198,7 @@ namespace Garage.Usd
             }
             at = i + 1;
             if (escaped) { return Unescaped(start, i); }
-            return i - start <= 64 ? Interned(start, i - start, hash) : Encoding.UTF8.GetString(s, start, i - start);
+            return isShared && i - start <= 64 ? Interned(start, i - start, hash) : Decoded(start, i - start);
         }
 
         string LongString(byte quote)
@@ -201,7 +217,7 @@ namespace Garage.Usd
                 i++;
             }
             at = i + 3;
-            return escaped ? Unescaped(start, i) : Encoding.UTF8.GetString(s, start, i - start);
+            return escaped ? Unescaped(start, i) : Decoded(start, i - start);
         }
 
         string Unescaped(int start, int stop)
@@ -299,7 +315,7 @@ namespace Garage.Usd
                 at++;
             }
             at++;
-            return Encoding.UTF8.GetString(s, first, at - 1 - first);
+            return Decoded(first, at - 1 - first);
         }
 
         /// <summary>What stands between angle brackets.</summary>
@@ -316,7 +332,7 @@ namespace Garage.Usd
             }
             int length = at - start;
             at++;
-            return length <= 128 ? Interned(start, length, hash) : Encoding.UTF8.GetString(s, start, length);
+            return length <= 128 ? Interned(start, length, hash) : Decoded(start, length);
         }
 
         /// <summary>A number of any form; an integer is exact up to 2^64.</summary>
@@ -440,6 +456,20 @@ namespace Garage.Usd
             return exact;
         }
 
+        // plain ASCII needs no decoder, whose calls cost more than short texts
+        string Decoded(int start, int length)
+        {
+            if (length > ascii.Length) { return Encoding.UTF8.GetString(text, start, length); }
+            byte[] s = text;
+            for (int i = 0; i < length; i++)
+            {
+                byte letter = s[start + i];
+                if (letter >= 128) { return Encoding.UTF8.GetString(s, start, length); }
+                ascii[i] = (char)letter;
+            }
+            return new string(ascii, 0, length);
+        }
+
         /// <summary>One string for equal bytes.</summary>
         string Interned(int start, int length, int hash)
         {
@@ -450,7 +480,7 @@ namespace Garage.Usd
             // few probes, as a file can be made to have colliding names
             for (int probes = 0; internedStrings[slot] != null; probes++)
             {
-                if (probes == 16) { return Encoding.UTF8.GetString(s, start, length); }
+                if (probes == 16) { return Decoded(start, length); }
                 if (internedLengths[slot] == length)
                 {
                     int other = internedStarts[slot], i = 0;
@@ -459,7 +489,7 @@ namespace Garage.Usd
                 }
                 slot = (slot + 1) & mask;
             }
-            string made = Encoding.UTF8.GetString(s, start, length);
+            string made = Decoded(start, length);
             internedStrings[slot] = made;
             internedStarts[slot] = start;
             internedLengths[slot] = length;

@@ -270,6 +270,8 @@ namespace Garage.Usd
                 if ((uint)paths[i] >= (uint)specs.Length || specs[paths[i]] != 0) { throw Error("SPECS", "a path is missing or has two specs"); }
                 specs[paths[i]] = i + 1;
             }
+            CountChildren(specs, types);
+            propertyOfSet = new PropertySpec[fieldSets.Length];
             var prims = new PrimSpec[pathParents.Length];
             foreach (int path in pathOrder)
             {
@@ -282,11 +284,13 @@ namespace Garage.Usd
                     case 7:
                         if (pathParents[path] != -1) { throw Error("SPECS", "a root that is no root"); }
                         prims[path] = layer.Root;
+                        Reserve(layer.Root, path);
                         ReadPrimFields(layer.Root, sets[spec]);
                         break;
                     case 6: case 10:
                         if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
                         prims[path] = MakePrim(parent, path, types[spec] == 10);
+                        Reserve(prims[path], path);
                         ReadPrimFields(prims[path], sets[spec]);
                         break;
                     case 1: case 8:
@@ -302,11 +306,32 @@ namespace Garage.Usd
                     layer.SubLayers[i] = new SubLayer(layer.SubLayers[i].Asset, layerOffsets[i]);
                 }
             }
-            foreach (KeyValuePair<PrimSpec, List<string>> order in childOrders) { order.Key.OrderChildren(order.Value); }
+            foreach (KeyValuePair<PrimSpec, string[]> order in childOrders) { order.Key.Children.Order(order.Value); }
+        }
+
+        // by the number of a path: how many prims and properties are below it
+        int[] childCounts, propertyCounts;
+
+        void CountChildren(int[] specs, int[] types)
+        {
+            childCounts = new int[specs.Length];
+            propertyCounts = new int[specs.Length];
+            for (int path = 0; path < specs.Length; path++)
+            {
+                if (specs[path] == 0 || pathParents[path] < 0) { continue; }
+                if (pathIsProperty[path]) { propertyCounts[pathParents[path]]++; }
+                else if (types[specs[path] - 1] == 6) { childCounts[pathParents[path]]++; }
+            }
+        }
+
+        void Reserve(PrimSpec prim, int path)
+        {
+            prim.Children.Reserve(childCounts[path]);
+            prim.Properties.Reserve(propertyCounts[path]);
         }
 
         LayerOffset[] layerOffsets;
-        readonly List<KeyValuePair<PrimSpec, List<string>>> childOrders = new List<KeyValuePair<PrimSpec, List<string>>>();
+        readonly List<KeyValuePair<PrimSpec, string[]>> childOrders = new List<KeyValuePair<PrimSpec, string[]>>();
 
         PrimSpec MakePrim(PrimSpec parent, int path, bool isVariant)
         {
@@ -336,11 +361,14 @@ namespace Garage.Usd
             return variant;
         }
 
+        // the last property that was made of a set of fields: others of the same name share it
+        PropertySpec[] propertyOfSet;
+
         object FieldValue(int field)
         {
             if (!fieldIsRead[field])
             {
-                fieldValues[field] = values.Read(fieldReps[field], Section("FIELDS"), 0);
+                fieldValues[field] = values.Read(fieldReps[field], 0, 0);
                 fieldIsRead[field] = true;
             }
             return fieldValues[field];
@@ -410,8 +438,8 @@ namespace Garage.Usd
                     case Field.VariantSelection: prim.VariantSelections = ValueOf<Dictionary<string, string>>(field); break;
                     case Field.ApiSchemas: prim.ApiSchemas = NamesOf(field); break;
                     case Field.PrimChildren:
-                        List<string> names = TextsOf(field);
-                        if (names != null) { childOrders.Add(new KeyValuePair<PrimSpec, List<string>>(prim, names)); }
+                        var names = ValueOf<UsdValue>(field);
+                        if (names != null) { childOrders.Add(new KeyValuePair<PrimSpec, string[]>(prim, names.Texts)); }
                         break;
                     case Field.PrimOrder: prim.ChildOrder = TextsOf(field); break;
                     case Field.PropertyOrder: prim.PropertyOrder = TextsOf(field); break;
@@ -430,9 +458,16 @@ namespace Garage.Usd
 
         void ReadProperty(PrimSpec prim, string name, bool isRelationship, int set)
         {
-            var property = new PropertySpec(name) { IsRelationship = isRelationship };
-            if (prim.FindProperty(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
-            prim.AddProperty(property);
+            if (prim.Properties.Find(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
+            PropertySpec property = propertyOfSet[FirstField(set)];
+            if (property != null && property.Name == name && property.IsRelationship == isRelationship)
+            {
+                prim.Properties.Add(property);
+                return;
+            }
+            property = new PropertySpec(name) { IsRelationship = isRelationship };
+            propertyOfSet[set] = property;
+            prim.Properties.Add(property);
             int field;
             for (int place = FirstField(set); (field = FieldAt(place)) >= 0; place++)
             {
