@@ -1,13 +1,13 @@
 """How plans of large irregular sites compare with the counting bound and with a comb of aisles."""
 
 import json
-import resource
 import statistics
 import subprocess
 import sys
 import time
 
 import numpy as np
+from memory import peak_mb
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
 from garage2usd.grid import Cell, Structure
@@ -130,4 +130,4 @@ if __name__ == "__main__":
     rows, cols, seed, rectangles, per_obstacle = json.loads(sys.argv[1])
     site = large_site(rows, cols, seed, rectangles=rectangles, squares_per_obstacle=per_obstacle)
     plan_lanes(site, plan=PlanConfig(), bay=BAY, seed=0)
-    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    print(peak_mb())

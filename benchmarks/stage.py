@@ -5,7 +5,6 @@ Usage: python benchmarks/stage.py STEP ROWS COLS FORM FOLDER   (one measurement,
 
 import json
 import pickle
-import resource
 import statistics
 import subprocess
 import sys
@@ -14,6 +13,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from memory import peak_mb, resident_mb
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 
 from garage2usd.config import GarageConfig
@@ -26,7 +26,7 @@ from garage2usd.stage.arrangement import SCATTERED, arrange
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
-from garage2usd.stage.prototypes import name_prototypes
+from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.tile_prototypes import TILES_FILE
 
 __all__ = ["stages"]
@@ -51,14 +51,14 @@ def stages() -> str:
             "the same objects by `UsdGeom` on an open stage, instanced, without lane graph, stall attributes and "
             "variants. Floor: `Layer.Export` of the authored layers. Open: `Usd.Stage.Open` with all assets. Blender: "
             "`usd_import` of the whole stage. Peak memory of the whole process: naive and authored read the finished "
-            "layout from a file; medians."
+            "layout from a file; own is what authoring adds to the libraries and the layout. Medians."
         ),
         "",
         (
             "| squares | form | objects | laid out | peak | files | naive | authored | naive / authored | floor "
-            "| authored / floor | peak: naive / authored | open | peak | traverse | Blender |"
+            "| authored / floor | peak: naive / authored | own | open | peak | traverse | Blender |"
         ),
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     rows += [_row(*form) for form in FORMS]
     return "\n".join(rows)
@@ -87,6 +87,7 @@ def _row(rows: int, cols: int, form: str) -> str:
         f"| {seconds['naive']:.2f} s | {seconds['author']:.2f} s | {seconds['naive'] / seconds['author']:.1f} "
         f"| {seconds['export']:.2f} s | {seconds['author'] / seconds['export']:.2f} "
         f"| {middle['naive']['peak_mb']:.0f} / {middle['author']['peak_mb']:.0f} MB "
+        f"| {middle['author']['own_mb']:.0f} MB "
         f"| {seconds['open']:.2f} s | {middle['open']['peak_mb']:.0f} MB | {seconds['traverse']:.2f} s | {blender} |"
     )
 
@@ -107,7 +108,7 @@ def _naive(path: Path) -> dict[str, float]:
     prototypes = name_prototypes(layout)
     start = time.perf_counter()
     _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, path.with_stem("naive"))
-    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb()}
+    return {"seconds": time.perf_counter() - start, "peak_mb": peak_mb()}
 
 
 def _export(path: Path) -> dict[str, float]:
@@ -121,7 +122,7 @@ def _export(path: Path) -> dict[str, float]:
 def _open(path: Path) -> dict[str, float]:
     start = time.perf_counter()
     stage = Usd.Stage.Open(str(path))
-    return {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "layers": len(stage.GetUsedLayers())}
+    return {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "layers": len(stage.GetUsedLayers())}
 
 
 def _traverse(path: Path) -> dict[str, float]:
@@ -144,7 +145,7 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     """Lay a garage out, keep the layout for the other steps, and write its stage with all assets."""
     start = time.perf_counter()
     layout, graph, config = _garage(rows, cols, form)
-    figures = {"seconds": time.perf_counter() - start, "peak_mb": _peak_mb(), "objects": len(layout.placements)}
+    figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
     write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
     return figures
@@ -164,12 +165,16 @@ def _own_layers(path: Path) -> list[Path]:
 
 def _author(path: Path) -> dict[str, float]:
     layout, graph, config = _read(path.parent)
+    prototypes = name_prototypes(layout)
+    for spec in prototypes:
+        asset_of(spec)
+    before_mb = resident_mb()
     start = time.perf_counter()
     write_garage_layer(
         layout,
         graph,
         arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
-        prototypes=name_prototypes(layout),
+        prototypes=prototypes,
         asset_folder=ASSETS,
         metadata={},
         setback_m=config.bay.carriageway_setback_m,
@@ -178,7 +183,7 @@ def _author(path: Path) -> dict[str, float]:
     )
     seconds = time.perf_counter() - start
     size = sum(file.stat().st_size for file in _own_layers(path)) / 1e6
-    return {"seconds": seconds, "peak_mb": _peak_mb(), "megabytes": size}
+    return {"seconds": seconds, "peak_mb": peak_mb(), "own_mb": peak_mb() - before_mb, "megabytes": size}
 
 
 def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> None:
@@ -199,10 +204,6 @@ def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> Non
         if placement.yaw_rad:
             xform.AddRotateYOp().Set(float(np.degrees(placement.yaw_rad)))
     stage.GetRootLayer().Save()
-
-
-def _peak_mb() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
 _MEASURES = {

@@ -3,6 +3,7 @@
 import json
 import signal
 import sys
+from collections import Counter
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Self, TextIO
@@ -28,8 +29,7 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""
-        # SIGTERM unwinds like an exception, so that temporary files go
-        signal.signal(signal.SIGTERM, _terminate)
+        signal.signal(signal.SIGTERM, _termination)
         try:
             return super().invoke(ctx)
         except Garage2UsdError as error:
@@ -38,8 +38,24 @@ class _Commands(click.Group):
             ctx.exit(2 if usage else 1)
 
 
-def _terminate(_signal: int, _frame: FrameType | None) -> None:
-    sys.exit(_TERMINATED)
+class _Termination:
+    """SIGTERM unwinds like an exception, so that temporary files go."""
+
+    def __init__(self) -> None:
+        self._asked = False
+
+    def __call__(self, _signal: int, _frame: FrameType | None) -> None:
+        """Handle the signal."""
+        self._asked = True
+        sys.exit(_TERMINATED)
+
+    def insist(self) -> None:
+        """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do."""
+        if self._asked:
+            sys.exit(_TERMINATED)
+
+
+_termination = _Termination()
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -94,23 +110,30 @@ def _describe(made: "Build") -> None:
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
+    uses = ", ".join(f"{count} {use}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
     figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
-        ("stalls", f"{len(layout.stalls)}, {counts['car']} with a car"),
+        ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
         ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
-        ("reachable", f"{len(layout.stalls)} of {len(layout.stalls)} stalls, from an entrance and to an exit"),
+        ("reachable", "every stall, from an entrance and to an exit"),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
         *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("labels", str(made.labels)),
+        ("Unity", f"add the package unity_importer, then drop {_dropped(made)} into Assets"),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def _dropped(made: "Build") -> str:
+    """What a Unity project needs of a build."""
+    return made.stage.name if made.asset_folder is None else f"{made.stage.name} and {made.asset_folder.name}/"
 
 
 @main.command()
@@ -155,6 +178,7 @@ class _Bars:
 
     def __call__(self, step: str, done: int, total: int) -> None:
         """Show that `done` of `total` units of `step` are finished."""
+        _termination.insist()
         if not self._stream.isatty():
             return
         if step != self._step or self._bar is None:

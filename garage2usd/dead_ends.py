@@ -20,17 +20,22 @@ class DeadEnd:
 
     Attributes
     ----------
-    tip
-        (row, col) of its last lane.
+    squares
+        (row, col) of its lanes from the last one on, walking back to the next junction or portal.
     length_m
         From its end to the next junction or portal.
     needs_turning_stall
         Whether it is longer than the standard's 26 m.
     """
 
-    tip: Square
+    squares: tuple[Square, ...]
     length_m: float
     needs_turning_stall: bool
+
+    @property
+    def tip(self) -> Square:
+        """(row, col) of its last lane."""
+        return self.squares[0]
 
 
 def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
@@ -44,7 +49,9 @@ def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
         if len(neighbours) > 1:
             continue
         length_mm, previous, square = 0, tip, tip
+        squares = []
         while square in beside and (square == tip or len(beside[square]) == 2):  # noqa: PLR2004 - neither tip nor junction
+            squares.append(square)
             onward = [other for other in beside[square] if other != previous]
             ahead = onward[0] if onward else previous
             side = (
@@ -54,7 +61,7 @@ def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
             if not onward:
                 break
             previous, square = square, ahead
-        found.append(DeadEnd(tip, length_mm / _MM_PER_M, length_mm > DEAD_END_LIMIT_MM))
+        found.append(DeadEnd(tuple(squares), length_mm / _MM_PER_M, length_mm > DEAD_END_LIMIT_MM))
     return tuple(found)
 
 

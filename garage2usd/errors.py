@@ -7,7 +7,6 @@ __all__ = [
     "Garage2UsdError",
     "GenerationError",
     "OutputError",
-    "StageError",
     "UnreachableStallError",
 ]
 
@@ -75,23 +74,6 @@ class UnreachableStallError(Garage2UsdError):
         self.drawing = drawing
         named = ", ".join(f"({row}, {col})" for row, col in self.cells)
         super().__init__(f"stalls on squares {named} have no route from an entrance and to an exit:\n{drawing}")
-
-
-class StageError(Garage2UsdError):
-    """A USD stage that could not be authored.
-
-    Parameters
-    ----------
-    prim_path
-        Path of the prim, or of the layer, at which authoring failed.
-    reason
-        What failed.
-    """
-
-    def __init__(self, prim_path: str, reason: str) -> None:
-        self.prim_path = prim_path
-        self.reason = reason
-        super().__init__(f"{prim_path}: {reason}")
 
 
 class OutputError(Garage2UsdError, OSError):

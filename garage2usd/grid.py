@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import ndimage
 
 from garage2usd.errors import ConfigError
 
@@ -22,6 +23,7 @@ __all__ = [
     "cells_from_text",
     "cells_to_text",
     "edge_neighbour_count",
+    "outside_squares",
     "sides_mm",
 ]
 
@@ -94,6 +96,14 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
     padded = np.pad(mask, 1).astype(np.int8)
     count: NDArray[np.int8] = padded[:-2, 1:-1] + padded[2:, 1:-1] + padded[1:-1, :-2] + padded[1:-1, 2:]
     return count
+
+
+def outside_squares(cells: CellArray) -> Mask:
+    """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
+    blocked = np.pad(cells == Cell.OBSTACLE, 1, constant_values=True)
+    labels, _ = ndimage.label(blocked)
+    outside: Mask = (labels == labels[0, 0])[1:-1, 1:-1]
+    return outside
 
 
 def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: int) -> NDArray[np.int64]:

@@ -1,5 +1,6 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
 
+import re
 import time
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -23,6 +24,9 @@ from garage2usd.view.learning_picture import draw_learning_curve, draw_structure
 from garage2usd.view.plan_picture import draw_plan
 
 __all__ = ["Build", "Garage", "build", "generate"]
+
+_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f]")
+"""What USD cannot say of a file that a layer refers to."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +149,11 @@ def build(
     path = Path(output)
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
+    if _UNSPEAKABLE.search(path.name):
+        raise ConfigError("output", str(output), "a file name without '@', '\\' and control characters")
     check_writable(path.parent)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
+    _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
     with staging_folder() as staging:
         start = time.perf_counter()
         folder = staging / "stage"
@@ -216,22 +223,20 @@ def _generate(
 
 def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
     """The plan with R and C chosen, each where the user gave none; its archive keeps the sizes it was learnt with."""
-    given = config.bay.model_fields_set
-    structure = dimension(
-        plan.structure,
-        bay=config.bay,
-        rows="row_depths_m" not in given,
-        columns="column_widths_m" not in given,
-    )
+    bay = config.bay
+    structure = dimension(plan.structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
     return replace(plan, structure=structure, score=evaluate(structure, bay=config.bay, plan=config.plan))
+
+
+def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
+    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
+        if asked and not plan.archive:
+            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
 
 
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
     """The pictures of a build by their name."""
     plan = garage.plan
-    for field, asked in (("learning_curve", learning_curve), ("best_plans", best_plans)):
-        if asked and not plan.archive:
-            raise ConfigError(field, asked, "only where lanes are learnt, not with a tape or lanes that are given")
     pictures = {"plan": draw_plan(garage.layout)}
     if learning_curve:
         pictures["learning"] = draw_learning_curve(plan.learning_curve)

@@ -1,6 +1,7 @@
 """The report of a build: what was made and what reproduces it, as JSON."""
 
 import json
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -58,7 +59,7 @@ def write_report(
         "polish_gain": plan.archive[0].score.value - plan.learnt_value if plan.archive else 0.0,
         "principles": asdict(principles(structure, bay=config.bay)),
         "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
-        "reachable_stalls": len(layout.stalls),
+        "stall_uses": {use.value: count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
         "illuminance": asdict(layout.illuminance),
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),

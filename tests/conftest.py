@@ -31,8 +31,8 @@ def builds(tmp_path_factory):
             folder = tmp_path_factory.mktemp("_".join(filter(None, key)))
             config = garage2usd.load_config(sample)
             if form is not None:
-                stage = {**config.stage.model_dump(), "form": form}
-                config = garage2usd.GarageConfig(**{**config.model_dump(), "stage": stage})
+                stage = {**config.stage.model_dump(exclude_unset=True), "form": form}
+                config = garage2usd.GarageConfig(**{**config.model_dump(exclude_unset=True), "stage": stage})
             made[key] = garage2usd.build(config, folder / f"{sample.stem}.{extension}")
         return made[key]
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from garage2usd.config import BayConfig, SiteConfig
+from garage2usd.config.site import DEFAULT_SIDE_M
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Structure, cells_from_text
 from garage2usd.planning.board import new_board
@@ -20,7 +21,7 @@ def drawn(text, side_m=8.1):
 def gates(entrance, exit_, shape=(7, 9), bay=BAY):
     cells = np.zeros(shape, dtype=np.int8)
     cells[entrance], cells[exit_] = 2, 3
-    return Structure.from_arrays(cells, bay.column_widths_m, bay.row_depths_m)
+    return Structure.from_arrays(cells, bay.column_widths_m or DEFAULT_SIDE_M, bay.row_depths_m or DEFAULT_SIDE_M)
 
 
 G1, G2, G3 = gates((6, 2), (6, 6)), gates((6, 4), (0, 4)), gates((3, 0), (3, 8))

@@ -15,7 +15,7 @@ from garage2usd.assets.cars import car
 from garage2usd.assets.fittings import charger, cone, duct, no_parking_sign, speed_bump, tube_light, wheel_stop
 from garage2usd.assets.floor import Marking, floor_panel
 from garage2usd.assets.lettering import floor_number, zone_plate
-from garage2usd.assets.materials import MATERIALS, VARYING, Material
+from garage2usd.assets.materials import MATERIALS, VARYING, Material, Touch
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight
 from garage2usd.assets.overhead import cable_tray, exit_sign, mirror, sprinkler
 from garage2usd.assets.stains import floor_stain, tyre_marks
@@ -30,6 +30,7 @@ __all__ = [
     "Material",
     "Part",
     "RectLight",
+    "Touch",
     "bake_textures",
     "barrier",
     "beam",

@@ -444,7 +444,10 @@ def _wheels(body: CarBody) -> list[Part]:
     metal = np.concatenate([lip, hub, *spokes])
     front = -body.length_m / 2 + body.front_overhang_m
     hubs = [(body.width_m / 2 - half - 0.012, radius, z) for z in (front, front + body.wheelbase_m)]
-    return [
-        make_part(name, both_sides(np.concatenate([faces + at for at in hubs])), material, crease_deg=38)
-        for name, faces, material in (("Tyres", np.array(tyre), "tyre"), ("Rims", metal, "rim"))
+    rims = make_part("Rims", both_sides(np.concatenate([metal + at for at in hubs])), "rim", crease_deg=38)
+    tyres = [
+        make_part(f"{end}{side}Tyre", faces, "tyre", collider=Collider.CONVEX_HULL, crease_deg=38)
+        for end, at in zip(("Front", "Rear"), hubs, strict=True)
+        for side, faces in zip(("Right", "Left"), np.split(both_sides(np.array(tyre) + at), 2), strict=True)
     ]
+    return [rims, *tyres]

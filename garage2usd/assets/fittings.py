@@ -35,7 +35,7 @@ def tube_light(length_m: float, width_m: float, *, drop_m: float, luminance_nit:
     return Asset(
         "light",
         (
-            make_part("Housing", housing, "housing_white"),
+            make_part("Housing", housing, "housing_white", collider=Collider.BOX),
             make_part("Ends", ends, "housing_white"),
             make_part("Tubes", tubes, "tube_glow"),
         ),

@@ -1,12 +1,23 @@
 """The materials of all parts, as values that any renderer's standard surface takes."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from garage2usd.config.vehicles import PAINTS
 
-__all__ = ["MATERIALS", "VARYING", "Material"]
+__all__ = ["MATERIALS", "VARYING", "Material", "Touch"]
 
 Rgb = tuple[float, float, float]
+
+
+class Touch(StrEnum):
+    """What a surface is to the touch of a tyre."""
+
+    CONCRETE = "concrete"
+    COATING = "coating"
+    RUBBER = "rubber"
+    STEEL = "steel"
+    PLASTIC = "plastic"
 
 
 @dataclass(frozen=True)
@@ -31,6 +42,8 @@ class Material:
         Metres that one repeat of the textures covers.
     repeat_up_m
         The same along V, where it is another.
+    touch
+        What has friction like it.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
@@ -46,6 +59,7 @@ class Material:
     emissive_rgb: Rgb = (0.0, 0.0, 0.0)
     repeat_m: float = 1.0
     repeat_up_m: float | None = None
+    touch: Touch = Touch.CONCRETE
 
     def textures(self) -> tuple[str, ...]:
         """The file names that it uses."""
@@ -81,25 +95,28 @@ MATERIALS: dict[str, Material] = {
         packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
         repeat_m=5.4,
+        touch=Touch.COATING,
     ),
     "stall_green": Material(
         colour_rgb=(0.025, 0.15, 0.06),
         packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
         repeat_m=5.4,
+        touch=Touch.COATING,
     ),
     "stall_blue": Material(
         colour_rgb=(0.02, 0.07, 0.24),
         packed_texture="floor_packed.png",
         normal_texture="floor_normal.png",
         repeat_m=5.4,
+        touch=Touch.COATING,
     ),
     "stain_oil": Material(colour_texture="stains.png", has_alpha=True, roughness=0.22),
     "stain_damp": Material(colour_texture="stains.png", has_alpha=True, roughness=0.12),
     "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
     "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
-    "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7),
-    "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7),
+    "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "wall_concrete": Material(
         colour_texture="wall_colour.jpg",
         packed_texture="wall_packed.png",
@@ -108,55 +125,77 @@ MATERIALS: dict[str, Material] = {
         repeat_up_m=4.05,
     ),
     "wall_band": Material(
-        colour_texture="band_colour.jpg", packed_texture="band_packed.png", repeat_m=8.1, repeat_up_m=1.1
+        colour_texture="band_colour.jpg",
+        packed_texture="band_packed.png",
+        repeat_m=8.1,
+        repeat_up_m=1.1,
+        touch=Touch.COATING,
     ),
-    "band_stripe": Material(colour_rgb=(0.62, 0.36, 0.02), roughness=0.5),
+    "band_stripe": Material(colour_rgb=(0.62, 0.36, 0.02), roughness=0.5, touch=Touch.COATING),
     "ceiling_concrete": Material(
         colour_texture="ceiling_colour.jpg", roughness=0.9, normal_texture="ceiling_normal.png", repeat_m=8.1
     ),
-    "hazard": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6),
-    "steel_galvanised": Material(colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5),
-    "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6),
-    "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3),
-    "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4),
-    "tube_glow": Material(colour_rgb=(0.9, 0.9, 0.9), roughness=0.3, emissive_rgb=(14.0, 13.6, 12.9)),
-    "sign_green": Material(colour_rgb=(0.01, 0.28, 0.10), roughness=0.4, emissive_rgb=(0.02, 0.9, 0.3)),
-    "sign_red": Material(colour_rgb=(0.5, 0.02, 0.02), roughness=0.4, emissive_rgb=(0.9, 0.05, 0.03)),
-    "sign_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4),
-    "sign_black": Material(colour_rgb=(0.02, 0.02, 0.02), roughness=0.45),
-    "zone_blue": Material(colour_rgb=(0.02, 0.10, 0.36), roughness=0.45),
-    "zone_orange": Material(colour_rgb=(0.68, 0.20, 0.01), roughness=0.45),
-    "zone_green": Material(colour_rgb=(0.02, 0.22, 0.07), roughness=0.45),
-    "zone_red": Material(colour_rgb=(0.40, 0.02, 0.02), roughness=0.45),
-    "zone_violet": Material(colour_rgb=(0.16, 0.03, 0.28), roughness=0.45),
-    "zone_teal": Material(colour_rgb=(0.01, 0.24, 0.26), roughness=0.45),
-    "sign_blue": Material(colour_rgb=(0.01, 0.06, 0.32), roughness=0.4),
-    "sign_ring": Material(colour_rgb=(0.5, 0.015, 0.015), roughness=0.4),
+    "hazard": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING),
+    "steel_galvanised": Material(
+        colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL
+    ),
+    "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL),
+    "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3, touch=Touch.STEEL),
+    "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4, touch=Touch.STEEL),
+    "tube_glow": Material(
+        colour_rgb=(0.9, 0.9, 0.9), roughness=0.3, emissive_rgb=(14.0, 13.6, 12.9), touch=Touch.PLASTIC
+    ),
+    "sign_green": Material(
+        colour_rgb=(0.01, 0.28, 0.10), roughness=0.4, emissive_rgb=(0.02, 0.9, 0.3), touch=Touch.STEEL
+    ),
+    "sign_red": Material(
+        colour_rgb=(0.5, 0.02, 0.02), roughness=0.4, emissive_rgb=(0.9, 0.05, 0.03), touch=Touch.STEEL
+    ),
+    "sign_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, touch=Touch.STEEL),
+    "sign_black": Material(colour_rgb=(0.02, 0.02, 0.02), roughness=0.45, touch=Touch.STEEL),
+    "zone_blue": Material(colour_rgb=(0.02, 0.10, 0.36), roughness=0.45, touch=Touch.STEEL),
+    "zone_orange": Material(colour_rgb=(0.68, 0.20, 0.01), roughness=0.45, touch=Touch.STEEL),
+    "zone_green": Material(colour_rgb=(0.02, 0.22, 0.07), roughness=0.45, touch=Touch.STEEL),
+    "zone_red": Material(colour_rgb=(0.40, 0.02, 0.02), roughness=0.45, touch=Touch.STEEL),
+    "zone_violet": Material(colour_rgb=(0.16, 0.03, 0.28), roughness=0.45, touch=Touch.STEEL),
+    "zone_teal": Material(colour_rgb=(0.01, 0.24, 0.26), roughness=0.45, touch=Touch.STEEL),
+    "sign_blue": Material(colour_rgb=(0.01, 0.06, 0.32), roughness=0.4, touch=Touch.STEEL),
+    "sign_ring": Material(colour_rgb=(0.5, 0.015, 0.015), roughness=0.4, touch=Touch.STEEL),
     "daylight": Material(colour_rgb=(0.8, 0.85, 0.9), roughness=1.0, emissive_rgb=(3.2, 3.6, 4.2)),
     "kerb_concrete": Material(colour_rgb=(0.32, 0.31, 0.29), roughness=0.85),
-    "machine_yellow": Material(colour_rgb=(0.70, 0.36, 0.02), roughness=0.4),
-    "screen_glow": Material(colour_rgb=(0.02, 0.05, 0.08), roughness=0.2, emissive_rgb=(0.15, 0.5, 0.8)),
-    "pipe_red": Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4),
-    "brass": Material(colour_rgb=(0.55, 0.38, 0.12), roughness=0.35, metallic=0.9),
-    "sign_orange": Material(colour_rgb=(0.75, 0.18, 0.01), roughness=0.45),
-    "mirror": Material(colour_rgb=(0.85, 0.87, 0.88), roughness=0.03, metallic=1.0),
-    "exit_green": Material(colour_rgb=(0.005, 0.16, 0.06), roughness=0.4, emissive_rgb=(0.004, 0.16, 0.06)),
-    "exit_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, emissive_rgb=(1.6, 1.7, 1.6)),
-    "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8),
-    "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65),
-    "glass": Material(colour_rgb=(0.022, 0.028, 0.031), roughness=0.04, clearcoat=1.0, ior=1.52),
-    "tyre": Material(colour_rgb=(0.018, 0.018, 0.019), roughness=0.85),
-    "rim": Material(colour_rgb=(0.5, 0.51, 0.53), roughness=0.28, metallic=0.9),
-    "trim_black": Material(colour_rgb=(0.012, 0.012, 0.013), roughness=0.6),
-    "lamp_front": Material(colour_rgb=(0.86, 0.88, 0.90), roughness=0.14, metallic=0.35, clearcoat=1.0),
-    "lamp_rear": Material(colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, clearcoat=1.0),
-    "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0),
-    "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0),
-    "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5),
-    "car_paint": Material(roughness=0.32, clearcoat=1.0),
+    "machine_yellow": Material(colour_rgb=(0.70, 0.36, 0.02), roughness=0.4, touch=Touch.STEEL),
+    "screen_glow": Material(
+        colour_rgb=(0.02, 0.05, 0.08), roughness=0.2, emissive_rgb=(0.15, 0.5, 0.8), touch=Touch.PLASTIC
+    ),
+    "pipe_red": Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL),
+    "brass": Material(colour_rgb=(0.55, 0.38, 0.12), roughness=0.35, metallic=0.9, touch=Touch.STEEL),
+    "sign_orange": Material(colour_rgb=(0.75, 0.18, 0.01), roughness=0.45, touch=Touch.PLASTIC),
+    "mirror": Material(colour_rgb=(0.85, 0.87, 0.88), roughness=0.03, metallic=1.0, touch=Touch.PLASTIC),
+    "exit_green": Material(
+        colour_rgb=(0.005, 0.16, 0.06), roughness=0.4, emissive_rgb=(0.004, 0.16, 0.06), touch=Touch.STEEL
+    ),
+    "exit_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, emissive_rgb=(1.6, 1.7, 1.6), touch=Touch.STEEL),
+    "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8, touch=Touch.RUBBER),
+    "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65, touch=Touch.RUBBER),
+    "glass": Material(colour_rgb=(0.022, 0.028, 0.031), roughness=0.04, clearcoat=1.0, ior=1.52, touch=Touch.PLASTIC),
+    "tyre": Material(colour_rgb=(0.018, 0.018, 0.019), roughness=0.85, touch=Touch.RUBBER),
+    "rim": Material(colour_rgb=(0.5, 0.51, 0.53), roughness=0.28, metallic=0.9, touch=Touch.STEEL),
+    "trim_black": Material(colour_rgb=(0.012, 0.012, 0.013), roughness=0.6, touch=Touch.PLASTIC),
+    "lamp_front": Material(
+        colour_rgb=(0.86, 0.88, 0.90), roughness=0.14, metallic=0.35, clearcoat=1.0, touch=Touch.PLASTIC
+    ),
+    "lamp_rear": Material(colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
+    "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
+    "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0, touch=Touch.STEEL),
+    "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5, touch=Touch.PLASTIC),
+    "car_paint": Material(roughness=0.32, clearcoat=1.0, touch=Touch.STEEL),
     **{
         f"car_paint_{paint}": Material(
-            colour_rgb=_PAINT_RGB[paint], roughness=0.32, metallic=_METALLIC_PAINTS.get(paint, 0.0), clearcoat=1.0
+            colour_rgb=_PAINT_RGB[paint],
+            roughness=0.32,
+            metallic=_METALLIC_PAINTS.get(paint, 0.0),
+            clearcoat=1.0,
+            touch=Touch.STEEL,
         )
         for paint in PAINTS
     },

@@ -1,10 +1,14 @@
 """Settings of what stands, hangs and parks in the garage."""
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from garage2usd.config.base import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
+
+CEILING_ROOM_M = 0.15
+"""What lights and the heads of doors need between the clear height and the ceiling."""
+_ROUNDING_M = 1e-9
 
 
 class FittingsConfig(Settings):
@@ -13,7 +17,7 @@ class FittingsConfig(Settings):
     clear_height_m: float = Field(2.2, ge=2.0, le=6)
     """Height that nothing hangs below."""
     ceiling_height_m: float = Field(3.2, ge=2.4, le=8)
-    """Height of the ceiling's underside above the floor."""
+    """Height of the ceiling's underside above the floor; it leaves room for lights over the clear height."""
     wall_thickness_m: float = Field(0.3, ge=0.1, le=1)
     """Thickness of the outer walls, outside the contour."""
     ramps: bool = True
@@ -52,6 +56,14 @@ class FittingsConfig(Settings):
     """How much oil, damp, cracks, patches and tyre marks there are; 0 for a new floor."""
     no_parking_sign_rate: float = Field(0.5, ge=0, le=1)
     """Share of the free squares without stalls that carry no-parking signs."""
+
+    @field_validator("ceiling_height_m")
+    @classmethod
+    def _over_the_clear_height(cls, ceiling_m: float, settings: ValidationInfo) -> float:
+        clear_m = settings.data.get("clear_height_m")
+        if clear_m is not None and ceiling_m < clear_m + CEILING_ROOM_M - _ROUNDING_M:
+            raise ValueError(f"at least {CEILING_ROOM_M} m over fittings.clear_height_m, which is {clear_m}")
+        return ceiling_m
 
 
 class ParkingConfig(Settings):

@@ -8,11 +8,14 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from garage2usd.config.base import Settings
 
-__all__ = ["BayConfig", "SiteConfig"]
+__all__ = ["DEFAULT_SIDE_M", "BayConfig", "SidesM", "SiteConfig"]
 
 SquareIndex = tuple[Annotated[int, Field(ge=0)], Annotated[int, Field(ge=0)]]
 
 MAX_SQUARES = 250_000
+DEFAULT_SIDE_M = 8.1
+"""Side of squares whose size is not given."""
+_DEFAULT_SHAPE = 7, 9
 CARRIAGEWAY_MARGIN_M = 0.05
 
 
@@ -36,10 +39,10 @@ SidesM = Annotated[SideM | tuple[SideM, ...] | tuple[tuple[SideM, ...], ...], Be
 class SiteConfig(Settings):
     """Where the garage is: random by the paper's rules, or any part of it given."""
 
-    width_cells: int = Field(9, ge=3, le=1000)
-    """Columns of the structure matrix, the paper's w."""
-    height_cells: int = Field(7, ge=3, le=1000)
-    """Rows of the structure matrix, the paper's h."""
+    width_cells: int | None = Field(None, ge=3, le=1000)
+    """Columns of the structure matrix, the paper's w; 9 unless it is given or drawn."""
+    height_cells: int | None = Field(None, ge=3, le=1000)
+    """Rows of the structure matrix, the paper's h; 7 unless it is given or drawn."""
     rectangles: int = Field(0, ge=0, le=64)
     """How many random rectangles make the contour, the paper's n; 0 fills the whole width and height."""
     min_fill: float = Field(0.5, ge=0, le=0.9)
@@ -78,18 +81,26 @@ class SiteConfig(Settings):
         given = [name for name in parts if getattr(self, name) is not None]
         if whole and given:
             raise ValueError(f"no {given[0]} beside a complete structure")
-        if self.width_cells * self.height_cells > MAX_SQUARES:
+        height, width = self.shape
+        if width * height > MAX_SQUARES:
             raise ValueError(f"at most {MAX_SQUARES} squares in width_cells x height_cells")
         return self
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of a site that is not drawn."""
+        return self.height_cells or _DEFAULT_SHAPE[0], self.width_cells or _DEFAULT_SHAPE[1]
 
 
 class BayConfig(Settings):
     """Size of the squares and of the stalls on them."""
 
-    column_widths_m: SidesM = 8.1
-    """The paper's R: width along X of every column, of each, or of each square, constant along a column."""
-    row_depths_m: SidesM = 8.1
-    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row."""
+    column_widths_m: SidesM | None = None
+    """The paper's R: width along X of every column, of each, or of each square, constant along a column; 8.1 or what
+    `dimensioned` chooses unless it is given."""
+    row_depths_m: SidesM | None = None
+    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row; 8.1 or what
+    `dimensioned` chooses unless it is given."""
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)

@@ -13,6 +13,7 @@ from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
 from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
 from garage2usd.layout.ceiling import beams, ceiling_levels
+from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.fittings import TUBE, cones, no_parking_signs, speed_bumps, tube_lights
@@ -80,22 +81,28 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     -------
     Layout
         Tiles and what belongs to them in reading order, then the building's objects.
+
+    Raises
+    ------
+    ConfigError
+        If a lane or a door is too narrow for cars, or a stall that is named is not there or takes no car.
     """
     bay, fittings, seed = config.bay, config.fittings, config.seed
     grid = TileGrid(structure, graph, bay)
+    check_carriageways(grid)
+    shell = outer_walls(structure, grid, fittings)
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
     stalls = stalls_of(grid, graph, bay)
     if config.plan.dead_ends is DeadEnds.STANDARD:
-        tips = [end.tip for end in dead_ends(structure) if end.needs_turning_stall]
-        stalls = with_turning_stalls(stalls, grid, tips)
+        long_ends = [end for end in dead_ends(structure) if end.needs_turning_stall]
+        stalls = with_turning_stalls(stalls, grid, long_ends)
     stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
-    tubes, illuminance = light_up(tube_lights(grid, fittings), grid, stalls, fittings)
-
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+    tubes, illuminance = light_up(tube_lights(grid, fittings, levels), grid, stalls, fittings)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
@@ -128,7 +135,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         yield exit_signs(grid, graph, fittings, levels)
         yield mirrors(grid, pillars, bay.column_size_m, fittings, levels)
 
-        walls = with_ramps(outer_walls(structure, grid, fittings), ground_inside(structure), fittings)
+        walls = with_ramps(shell, ground_inside(structure), fittings)
         yield walls
         yield barriers(walls, fittings)
         yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)

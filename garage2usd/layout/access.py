@@ -7,6 +7,8 @@ import numpy as np
 import shapely
 
 from garage2usd.config import FittingsConfig
+from garage2usd.layout.building import DOOR_FRAME_M
+from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import ObjectKind, Placement, to_world
 from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, TubeLightSpec
 
@@ -20,7 +22,6 @@ _FOOT_M = 0.5
 _LANDING_M = 2.5
 _PARAPET_M = 1.3
 _SKY_M = 3.0
-_DOOR_FRAME_M = 0.08
 _KERB_ROOM_M = 0.1
 _BARRIER_GAP_M = 0.32
 _BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
@@ -28,7 +29,7 @@ _ELBOW_MAX_M = 2.75
 _ELBOW_BELOW_CEILING_M = 0.35
 _LIGHTS_AT = (0.25, 0.6)
 """Places of the lights, as shares of the covered part's length."""
-_ARM_HALF_M = 0.04
+_ARM_HALF_M, _ARM_GAP_M = 0.04, 0.01
 
 
 def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig) -> list[Placement]:
@@ -83,7 +84,7 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
     return RampSpec(
         width_m=round(portal.door_width_m + 2 * _KERB_ROOM_M, 6),
         wall_m=portal.thickness_m,
-        threshold_width_m=round(portal.door_width_m - 2 * _DOOR_FRAME_M, 6),
+        threshold_width_m=round(portal.door_width_m - 2 * DOOR_FRAME_M, 6),
         profile=tuple((round(run, 6), round(height, 6)) for run, height in zip(runs.tolist(), heights, strict=True)),
         cover_end_m=round(cover_end, 6),
         cover_height_m=portal.height_m,
@@ -132,7 +133,10 @@ def ramp_lights(walls: Iterable[Placement], tube: TubeLightSpec, fittings: Fitti
 
 
 def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:
-    """A barrier gate inside each open door, beside the opening on the driver's left; every other one is raised."""
+    """A barrier gate inside each open door, beside the opening on the driver's left; every other one is raised.
+
+    None is where an arm finds no room between the clear height and the lights.
+    """
     if not fittings.barriers:
         return []
     gates: list[Placement] = []
@@ -140,11 +144,14 @@ def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement
         portal = wall.spec
         if not isinstance(portal, PortalSpec) or not portal.is_open:
             continue
-        half = portal.door_width_m / 2 - _DOOR_FRAME_M
+        half = portal.door_width_m / 2 - DOOR_FRAME_M
         elbow = max(
-            fittings.clear_height_m + _ARM_HALF_M + 0.02, min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M)
+            fittings.clear_height_m + _ARM_HALF_M + _ARM_GAP_M,
+            min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M),
         )
-        spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=len(gates) % 2 == 0, elbow_m=round(elbow, 3))
+        has_room = elbow + _ARM_HALF_M <= portal.height_m - TUBE_DEPTH_M
+        is_raised = has_room and len(gates) % 2 == 0
+        spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=is_raised, elbow_m=round(elbow, 3))
         left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
         x, _, z = wall.position_m
         x, z = to_world((left * (half + _BARRIER_GAP_M), along), (x, z), wall.yaw_rad)

@@ -5,21 +5,22 @@ from itertools import product
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.lanes import Square
+from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.stalls import Edge
 
-__all__ = ["columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
+__all__ = ["DOOR_FRAME_M", "columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_JAMB_M = 0.6
 _DOOR_HEAD_M = 0.3
+DOOR_FRAME_M = 0.08
 
 
 def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> list[Placement]:
@@ -47,7 +48,7 @@ def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]
     """A concrete core on every obstacle inside the contour."""
     x, z = structure.column_edges_m, structure.row_edges_m
     placements = []
-    for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~_outside(structure)).tolist():
+    for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist():
         width, depth = float(x[col + 1] - x[col]), float(z[row + 1] - z[row])
         spec = ObstacleSpec(round(width, 6), round(depth, 6), fittings.ceiling_height_m)
         position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
@@ -57,7 +58,7 @@ def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]
 
 def core_doors(structure: Structure) -> list[Square]:
     """The lane squares that the doors of stair cores, on their +Z sides, open onto."""
-    cores = np.argwhere((structure.cells == Cell.OBSTACLE) & ~_outside(structure)).tolist()
+    cores = np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist()
     last = structure.shape[0] - 1
     return [(row + 1, col) for row, col in cores if row < last and structure.cells[row + 1, col] == Cell.LANE]
 
@@ -65,7 +66,7 @@ def core_doors(structure: Structure) -> list[Square]:
 def ground_inside(structure: Structure) -> shapely.Geometry:
     """The (x, z) ground of every square inside the contour, obstacles too."""
     x, z = structure.column_edges_m, structure.row_edges_m
-    squares = np.argwhere(~_outside(structure)).tolist()
+    squares = np.argwhere(~outside_squares(structure.cells)).tolist()
     return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
@@ -73,9 +74,14 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
 
     In a reflex corner the wall along X gives way to the one along Z by its thickness.
+
+    Raises
+    ------
+    ConfigError
+        If a portal's square is too narrow for a door that cars get through.
     """
     thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
-    outside = np.pad(_outside(structure), 1, constant_values=True)
+    outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
     walls: list[Placement] = []
     for tile in grid:
         walls += [
@@ -109,11 +115,13 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
     kind = ObjectKind.WALL
     if _holds_door(tile, edge, outside):
         kind = ObjectKind.PORTAL
+        door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M)
+        check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)
         spec = PortalSpec(
             spec.length_m,
             spec.height_m,
             spec.thickness_m,
-            door_width_m=round(min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M), 6),
+            door_width_m=round(door_width_m, 6),
             door_height_m=round(max(fittings.clear_height_m, spec.height_m - 2 * _DOOR_HEAD_M), 6),
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
@@ -132,11 +140,3 @@ def _holds_door(tile: Tile, edge: Edge, outside: NDArray[np.bool_]) -> bool:
     inwards = NEIGHBOUR_STEPS[lane_edges(tile)[0]]
     opposite = [e for e in outer if NEIGHBOUR_STEPS[e] == (-inwards[0], -inwards[1])]
     return edge == (opposite or outer)[0]
-
-
-def _outside(structure: Structure) -> NDArray[np.bool_]:
-    """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
-    blocked = np.pad(structure.cells == Cell.OBSTACLE, 1, constant_values=True)
-    labels, _ = ndimage.label(blocked)
-    outside: NDArray[np.bool_] = (labels == labels[0, 0])[1:-1, 1:-1]
-    return outside

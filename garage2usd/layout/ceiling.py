@@ -68,6 +68,12 @@ class CeilingLevels:
     duct_top_m: float | None
     sign_top_m: float
 
+    @property
+    def lines_beside_tubes(self) -> bool:
+        """Whether pipes or ducts hang as high as tube lights do, under a ceiling without beams and trays."""
+        tops = (self.pipe_drop_m, self.duct_top_m)
+        return any(top_m is not None and top_m < _BELOW_TUBES_M for top_m in tops)
+
 
 def ceiling_levels(fittings: FittingsConfig) -> CeilingLevels:
     """Share out the room between ceiling and clear height: beams on top, below them cable trays, pipes, ducts.

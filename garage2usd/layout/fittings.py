@@ -8,17 +8,21 @@ import numpy as np
 from garage2usd.config import FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["TUBE", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
 """The tube light, before it is known how bright it must be."""
+TUBE_DEPTH_M = 0.105
+"""How far it hangs below the ceiling."""
 _CONES_ACROSS_M = (-0.75, 0.0, 0.75)
 _CONES_FROM_MOUTH_M = 0.9
 _CONES_FROM_EDGE_M = 0.95
@@ -26,17 +30,19 @@ _TUBE_GAP_M = 0.1
 _JUNCTION_TUBE_OFFSET_M = 1.2
 
 
-def tube_lights(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
+def tube_lights(grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
     """Tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
 
-    There are no more of them in a line than find room between the beams.
+    There are no more of them in a line than find room between the beams, and over junctions and bends between the
+    pipes and ducts that hang as high.
     """
     lights: list[Placement] = []
     for tile in grid:
         count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         along_x = _tube_along_x(tile, grid)
         length = tile.width_m if along_x else tile.depth_m
-        room = length - 2 * grid.setback_m - TUBE.length_m
+        is_crossed = tile.axis_is_x is None and levels.lines_beside_tubes
+        room = length - 2 * (grid.setback_m + (LINES_REACH_M if is_crossed else 0.0)) - TUBE.length_m
         least_pitch = TUBE.length_m + _TUBE_GAP_M
         count = min(count, 1 + max(int(room / least_pitch), 0))
         pitch = min(length / max(count, 1), room / max(count - 1, 1))

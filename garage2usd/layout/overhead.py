@@ -9,6 +9,7 @@ from garage2usd.config import FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.lanes import LaneGraph, LaneKind
 from garage2usd.layout.ceiling import CeilingLevels
+from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, Turn
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
@@ -23,7 +24,6 @@ _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
 _ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
 """Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
-_TUBE_DEPTH_M = 0.105
 _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
@@ -78,11 +78,12 @@ def mirrors(
     -----
     Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
     that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
+    There are none where the ceiling leaves no room over the clear height.
     """
-    if not fittings.mirrors:
+    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
+    if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, _TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
     placed: list[Placement] = []
     for tile in grid:
@@ -126,7 +127,10 @@ def _mount_m(
     side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
     point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
     if point in feet:
-        return round(column_size_m / 2 + _MIRROR_FROM_COLUMN_M, 6), _ARM_TO_COLUMN_M
+        # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
+        nearest = column_size_m / 2 + _MIRROR_FROM_COLUMN_M
+        inset = max(nearest, _MIRROR_RADIUS_M)
+        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2), 6)
     if any(grid.neighbour(tile, edge) is None for edge in corner):
         return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
     if grid.neighbour(tile, *corner) is None:

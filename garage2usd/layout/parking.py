@@ -10,7 +10,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
+from garage2usd.dead_ends import DeadEnd
 from garage2usd.errors import ConfigError
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
@@ -25,7 +26,7 @@ __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turn
 
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
-_WHEEL_STOP_LENGTH_M = 1.65
+_WHEEL_STOP_LENGTH_M, _WHEEL_STOP_WIDTH_M, _WHEEL_STOP_HEIGHT_M = 1.65, 0.15, 0.10
 _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
@@ -64,14 +65,27 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
     return tuple(stalls)
 
 
-def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, tips: Iterable[Square]) -> tuple[Stall, ...]:
-    """The same with the stall nearest to each tip, the last lane of a dead-end aisle, kept free for turning."""
+def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterable[DeadEnd]) -> tuple[Stall, ...]:
+    """The same with a stall of each dead-end aisle kept free for turning.
+
+    It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
+    aisle, the nearest of all.
+    """
     turned = list(stalls)
+    opening_on: dict[Square, list[int]] = {}
+    for index, stall in enumerate(stalls):
+        opening_on.setdefault(stall.access_square, []).append(index)
     places = KDTree(np.array([stall.centre_m for stall in stalls]))
-    for tip in tips:
-        tile = grid.tiles[tip]
+    for end in ends:
+        tile = grid.tiles[end.tip]
         _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))
-        for index in np.atleast_1d(nearest).tolist():
+        own = (index for square in end.squares for index in opening_on.get(square, ()))
+        back = {square: squares_back for squares_back, square in enumerate(end.squares)}
+        # a stable sort: the nearest first among those that open onto the same lane
+        for index in sorted(
+            dict.fromkeys((*np.atleast_1d(nearest).tolist(), *own)),
+            key=lambda index: back.get(stalls[index].access_square, len(back)),
+        ):
             if turned[index].use is StallUse.STANDARD:
                 turned[index] = replace(turned[index], use=StallUse.TURNING)
                 break
@@ -136,11 +150,12 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
         occupied, reverse, yaw_share, side_share, along_share, body_index, paint_index = drawn
         if not holds_car.get(stall.name, occupied < parking.occupancy) or not stall.use.takes_cars:
             continue
-        room_m = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M
+        is_reversed = reverse < parking.reversed_share
         bodies = [
             body
             for body in CAR_BODIES
-            if body.length_m <= room_m and body.overall_width_m <= stall.width_m - 2 * _LINE_CLEARANCE_M
+            if body.length_m <= _room_m(stall, body, is_reversed=is_reversed)
+            and body.overall_width_m <= stall.width_m - 2 * _LINE_CLEARANCE_M
         ]
         if not bodies:
             if holds_car.get(stall.name):
@@ -149,14 +164,15 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
             continue
         body = bodies[int(body_index * len(bodies))]
         limit = math.radians(parking.max_yaw_deg)
-        yaw = _fitting_yaw((2 * yaw_share - 1) * limit, body.length_m, body.overall_width_m, stall)
+        room_m = _room_m(stall, body, is_reversed=is_reversed)
+        yaw = _fitting_yaw((2 * yaw_share - 1) * limit, body, stall.width_m - 2 * _LINE_CLEARANCE_M, room_m)
         half_x = (body.overall_width_m * math.cos(yaw) + body.length_m * abs(math.sin(yaw))) / 2
         half_z = (body.length_m * math.cos(yaw) + body.overall_width_m * abs(math.sin(yaw))) / 2
         side_slack = max(stall.width_m / 2 - _LINE_CLEARANCE_M - half_x, 0.0)
-        rear_most = -stall.length_m / 2 + _REAR_CLEARANCE_M + half_z
-        along = rear_most + along_share * max(stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M - 2 * half_z, 0.0)
+        rear_most = stall.length_m / 2 - _LINE_CLEARANCE_M - room_m + half_z
+        along = rear_most + along_share * max(room_m - 2 * half_z, 0.0)
         x, z = to_world(((2 * side_share - 1) * side_slack, along), stall.centre_m, stall.yaw_rad)
-        turned = stall.yaw_rad + yaw + (math.pi if reverse < parking.reversed_share else 0.0)
+        turned = stall.yaw_rad + yaw + (math.pi if is_reversed else 0.0)
         placements.append(
             Placement(
                 stall.named("Car"),
@@ -188,12 +204,20 @@ def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, b
     return named
 
 
-def _fitting_yaw(yaw_rad: float, length_m: float, width_m: float, stall: Stall) -> float:
-    """The drawn yaw, made smaller where the turned footprint would leave the stall."""
-    side_room = stall.width_m - 2 * _LINE_CLEARANCE_M - width_m
-    end_room = stall.length_m - _LINE_CLEARANCE_M - _REAR_CLEARANCE_M - length_m
+def _room_m(stall: Stall, body: CarBody, *, is_reversed: bool) -> float:
+    """Length of a stall that a car may take: short of its mouth, and with the tyres before the wheel stop."""
+    overhang_m = body.length_m - body.wheelbase_m - body.front_overhang_m if is_reversed else body.front_overhang_m
+    # half the chord of a tyre at the stop's height
+    tyre_m = math.sqrt((2 * body.wheel_radius_m - _WHEEL_STOP_HEIGHT_M) * _WHEEL_STOP_HEIGHT_M)
+    axle_m = WHEEL_STOP_FROM_REAR_M + _WHEEL_STOP_WIDTH_M / 2 + tyre_m
+    return stall.length_m - _LINE_CLEARANCE_M - max(_REAR_CLEARANCE_M, axle_m - overhang_m)
+
+
+def _fitting_yaw(yaw_rad: float, body: CarBody, width_m: float, length_m: float) -> float:
+    """The drawn yaw, made smaller where the turned footprint would leave the stall's room."""
+    side_room, end_room = width_m - body.overall_width_m, length_m - body.length_m
     # width' <= width + length |sin yaw| and length' <= length + width |sin yaw|
-    limit = max(min(side_room / length_m, end_room / width_m), 0.0)
+    limit = max(min(side_room / body.length_m, end_room / body.overall_width_m), 0.0)
     return math.copysign(min(abs(yaw_rad), math.asin(min(limit, 1.0))), yaw_rad)
 
 

@@ -20,7 +20,7 @@ from garage2usd.layout.specs import CableTraySpec, DuctSpec, Point, Spec, Sprink
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.stalls import Edge
 
-__all__ = ["cable_trays", "ducts", "sprinklers"]
+__all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 
 _QUARTER_TURN = np.pi / 2
 _LEAST_SQUARE_M = 4.8
@@ -59,6 +59,8 @@ class _Line:
 _DUCT = _Line("Duct", -1, 0.75, DUCT_WIDTH_M / 2)
 _PIPE = _Line("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
 _TRAY = _Line("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
+LINES_REACH_M = _DUCT.from_edge_m + _DUCT.half_width_m + 0.05
+"""How far from the carriageway's edge ducts with their flanges, and pipes, reach."""
 
 
 @dataclass(frozen=True)

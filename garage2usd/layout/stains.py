@@ -164,6 +164,8 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64]) -> None:
     """The whole square darkened along the ways that cars take over it."""
     tile = floor.tile
     ways = [edge for edge in Edge if tile.drivable[edge]]
+    if not ways:  # a lane by itself, which no car reaches
+        return
     mark, towards = _way(ways)
     yaw = edge_yaw_rad(towards)
     sides = tile.width_m, tile.depth_m

@@ -3,6 +3,7 @@
 import numpy as np
 
 from garage2usd.config import BayConfig, SiteConfig
+from garage2usd.config.site import DEFAULT_SIDE_M, SidesM
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
 from garage2usd.site.contour import draw_contour
@@ -47,9 +48,13 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
     _check_size(site, cells)
     return Structure(
         cells,
-        sides_mm(bay.column_widths_m, field="bay.column_widths_m", shape=cells.shape, axis=1),
-        sides_mm(bay.row_depths_m, field="bay.row_depths_m", shape=cells.shape, axis=0),
+        sides_mm(_given(bay.column_widths_m), field="bay.column_widths_m", shape=cells.shape, axis=1),
+        sides_mm(_given(bay.row_depths_m), field="bay.row_depths_m", shape=cells.shape, axis=0),
     )
+
+
+def _given(sides_m: SidesM | None) -> SidesM:
+    return DEFAULT_SIDE_M if sides_m is None else sides_m
 
 
 def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
@@ -76,7 +81,7 @@ def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
 
 def _check_size(site: SiteConfig, cells: CellArray) -> None:
     for axis, field in ((0, "height_cells"), (1, "width_cells")):
-        if field in site.model_fields_set and getattr(site, field) != cells.shape[axis]:
+        if getattr(site, field) not in {None, cells.shape[axis]}:
             raise ConfigError(
                 f"site.{field}", getattr(site, field), f"{cells.shape[axis]}, as the drawing has, or no key"
             )

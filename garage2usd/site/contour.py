@@ -41,7 +41,7 @@ def draw_contour(site: SiteConfig, *, seed: int, attempt: int = 0) -> Mask:
     2 x 2 squares, so that the union is connected and nowhere narrower than two squares. Deviation: sides are at least
     three squares, so that a portal has a lane and a stall behind it.
     """
-    height, width = site.height_cells, site.width_cells
+    height, width = site.shape
     if site.rectangles == 0:
         return np.ones((height, width), dtype=np.bool_)
     rng = generator(seed, Step.CONTOUR, attempt)

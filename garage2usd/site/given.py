@@ -1,9 +1,20 @@
 """Static objects that the user gives instead of having them drawn."""
 
+import numpy as np
+from scipy import ndimage
+
 from garage2usd.config import SiteConfig
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell, CellArray, Mask, cells_from_text, cells_to_text, edge_neighbour_count
-from garage2usd.site.portals import free_squares_connected
+from garage2usd.grid import (
+    NEIGHBOUR_STEPS,
+    Cell,
+    CellArray,
+    Mask,
+    cells_from_text,
+    cells_to_text,
+    edge_neighbour_count,
+)
+from garage2usd.site.portals import free_squares_connected, outer_squares
 
 __all__ = ["check_structure", "given_contour", "place_obstacles", "place_portals"]
 
@@ -34,7 +45,7 @@ def place_portals(cells: CellArray, site: SiteConfig) -> CellArray:
         If a square is off the matrix, outside, not on the contour's edge, or taken.
     """
     result = cells.copy()
-    on_edge = edge_neighbour_count(cells != Cell.OBSTACLE) < 4  # noqa: PLR2004
+    on_edge = outer_squares(cells)
     for field, squares, kind in (
         ("site.entrance_cells", site.entrance_cells, Cell.ENTRANCE),
         ("site.exit_cells", site.exit_cells, Cell.EXIT),
@@ -76,7 +87,8 @@ def check_structure(cells: CellArray) -> None:
     Raises
     ------
     ConfigError
-        If it has no entrance, no exit, or a portal that touches nothing.
+        If it has no entrance, no exit, a portal that is not on the contour's edge or touches nothing, an entrance
+        from which no car gets to an exit, or an exit to which none gets from an entrance.
     """
     drawing = cells_to_text(cells)
     for kind, name in ((Cell.ENTRANCE, "entrance 'E' (2)"), (Cell.EXIT, "exit 'X' (3)")):
@@ -85,12 +97,34 @@ def check_structure(cells: CellArray) -> None:
     has_lanes = (cells == Cell.LANE).any()
     open_to = (cells == Cell.LANE) if has_lanes else (cells == Cell.FREE)
     portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
+    if (portal & ~outer_squares(cells)).any():
+        raise ConfigError("site.structure", drawing, "every portal on the contour's edge, where its door opens")
     if (portal & (edge_neighbour_count(open_to) == 0)).any():
         raise ConfigError(
             "site.structure", drawing, "every portal beside a lane" if has_lanes else "portals beside free squares"
         )
     if not has_lanes and not free_squares_connected(cells):
         raise ConfigError("site.structure", drawing, "free squares in one connected piece, or lanes")
+    if has_lanes:
+        _check_ways(cells)
+
+
+def _check_ways(cells: CellArray) -> None:
+    """Refuse lanes on which a car that comes in cannot get out, or an exit that no car gets to."""
+    pieces, _ = ndimage.label(cells == Cell.LANE)
+    around = np.pad(pieces, 1)
+    touched = {
+        (row, col): {int(around[row + 1 + dr, col + 1 + dc]) for dr, dc in NEIGHBOUR_STEPS} - {0}
+        for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist()
+    }
+    for kind, other, way in (
+        (Cell.ENTRANCE, Cell.EXIT, "lanes from each entrance to an exit"),
+        (Cell.EXIT, Cell.ENTRANCE, "lanes to each exit from an entrance"),
+    ):
+        joined = set().union(*(there for square, there in touched.items() if cells[square] == other))
+        for square, there in touched.items():
+            if cells[square] == kind and not there & joined:
+                raise ConfigError("site.structure", cells_to_text(cells), f"{way}; {list(square)} has none")
 
 
 def _is_free(cells: CellArray, square: tuple[int, int]) -> bool:

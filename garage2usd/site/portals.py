@@ -6,10 +6,10 @@ from scipy import ndimage
 
 from garage2usd.config import SiteConfig
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell, CellArray, Mask
+from garage2usd.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
 from garage2usd.randomness import Step, generator
 
-__all__ = ["draw_portals", "free_squares_connected", "straight_frontier"]
+__all__ = ["draw_portals", "free_squares_connected", "outer_squares", "straight_frontier"]
 
 _RESTARTS = 400
 
@@ -53,6 +53,15 @@ def straight_frontier(inside: Mask) -> Mask:
         straight |= np.logical_and.reduce([rho[step] for step in side])
     frontier: Mask = inside & three_outside & straight
     return frontier
+
+
+def outer_squares(cells: CellArray) -> Mask:
+    """Squares inside the contour with a side on the outside, where a door can open; a court or a core has none."""
+    outside = outside_squares(cells)
+    beside = edge_neighbour_count(outside) > 0
+    beside[[0, -1]] = beside[:, [0, -1]] = True
+    outer: Mask = beside & ~outside
+    return outer
 
 
 def free_squares_connected(cells: CellArray) -> bool:
@@ -100,7 +109,8 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
         return cells
     rng = generator(seed, Step.PORTALS, attempt)
     given = np.argwhere((cells == Cell.ENTRANCE) | (cells == Cell.EXIT))
-    eligible = np.argwhere(straight_frontier(cells != Cell.OBSTACLE) & (cells == Cell.FREE))
+    frontier = straight_frontier(cells != Cell.OBSTACLE) & outer_squares(cells)
+    eligible = np.argwhere(frontier & (cells == Cell.FREE))
     best = 0
     for _ in range(_RESTARTS):
         chosen = _spread(rng.permutation(eligible), given, count=len(kinds), distance=site.min_portal_distance_cells)

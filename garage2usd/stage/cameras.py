@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
 from garage2usd.grid import Cell
-from garage2usd.lanes import LaneGraph
+from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
@@ -36,8 +36,8 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
 
     Notes
     -----
-    It takes the shortest way from the first entrance to the exit nearest to it at 2.7 m/s, with rounded corners,
-    looking 4 m ahead; its first frame is 0.
+    It takes the shortest way from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
+    rounded corners, looking 4 m ahead; its first frame is 0.
     """
     layer = Sdf.Layer.CreateNew(str(path))
     with Sdf.ChangeBlock():
@@ -78,16 +78,21 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
 
 
 def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:
-    """Middles of the squares from the first entrance to the nearest exit; float64, shape (n, 2)."""
-    entrance = layout.structure.where(Cell.ENTRANCE)[0]
+    """Middles of the squares from the first entrance that leads to an exit to the nearest one; float64, shape (n, 2).
+
+    There is one, as stalls are reached.
+    """
     lanes = [square for square in graph.graph if layout.structure.cells[square] == Cell.LANE]
-    ways = []
-    for exit_ in layout.structure.where(Cell.EXIT):
-        # a car does not drive through other portals
-        roads = graph.graph.subgraph([*lanes, entrance, exit_])
-        if nx.has_path(roads, entrance, exit_):
-            ways.append(nx.shortest_path(roads, entrance, exit_, weight="length_m"))
-    squares = min(ways, key=len)
+    ways: list[list[Square]] = []
+    for entrance in layout.structure.where(Cell.ENTRANCE):
+        for exit_ in layout.structure.where(Cell.EXIT):
+            # a car does not drive through other portals
+            roads = graph.graph.subgraph([*lanes, entrance, exit_])
+            if nx.has_path(roads, entrance, exit_):
+                ways.append(nx.shortest_path(roads, entrance, exit_, weight="length_m"))
+        if ways:
+            break
+    squares = min(ways, key=lambda way: nx.path_weight(graph.graph, way, "length_m"))
     return np.array([(graph.graph.nodes[square]["x_m"], graph.graph.nodes[square]["z_m"]) for square in squares])
 
 

@@ -88,7 +88,7 @@ def write_garage_layer(
         shared_followers = shared.followers
     else:
         tiles, shared_followers = _tiles(arrangement, labels, writer), {}
-    variants = variant_texts(class_names, shared_followers, within=_CLASSES)
+    variants = variant_texts(class_names, shared_followers, within=_CLASSES, selected=not arrangement.nested)
     groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
     names = (*(switch.class_name for switch in class_names), *shared_followers)
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
@@ -112,7 +112,7 @@ def write_garage_layer(
 
 
 def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
-    """Semantic class of each tile: the kind of its lane square, or the type of its stalls."""
+    """What a label says of each tile: the kind of its lane square, or the type of its stalls."""
     stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
     kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
     return [kinds.get(square) or stalls[square] for square in squares]

@@ -32,7 +32,7 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
     Notes
     -----
     All are of the purpose guide, and each attribute holds one value a curve. ``Nodes`` has a ring for each lane square
-    and portal, with ``garage:lane:kind``, ``:row``, ``:column`` and the metres of carriageway across X and Z in
+    and portal, with ``garage:lane:kind``, ``:row``, ``:column`` and the metres between the columns across X and Z in
     ``:widths``. ``Edges`` has a line from middle to middle for each pair that joins, with ``garage:lane:from`` and
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "SQUARE_TAXONOMY",
     "group_pieces",
     "group_text",
     "header_text",
@@ -17,6 +18,9 @@ __all__ = [
     "rounded_deg",
     "rounded_m",
 ]
+
+SQUARE_TAXONOMY = "square"
+"""Instance name of what labels say of squares: no class of objects, which `LABEL_TAXONOMY` has."""
 
 _ORDERS = {
     False: 'uniform token[] xformOpOrder = ["xformOp:translate"]\n',
@@ -46,7 +50,7 @@ def instance_text(name: str, header: str, place: str, attributes: str = "") -> s
 def group_text(
     name: str, children: Iterable[str], *, label: str | None = None, metadata: str = "", place: str = ""
 ) -> str:
-    """A group with its children, and its semantic class."""
+    """A group with its children, and its label in the taxonomy of squares."""
     return "".join(group_pieces(name, children, label=label, metadata=metadata, place=place))
 
 
@@ -56,8 +60,8 @@ def group_pieces(
     """The text of a group piece by piece, so that a large one is put together once."""
     schemas, labels = "", ""
     if label is not None:
-        schemas = 'prepend apiSchemas = ["SemanticsLabelsAPI:class"]\n'
-        labels = f'token[] semantics:labels:class = ["{label}"]\n'
+        schemas = f'prepend apiSchemas = ["SemanticsLabelsAPI:{SQUARE_TAXONOMY}"]\n'
+        labels = f'token[] semantics:labels:{SQUARE_TAXONOMY} = ["{label}"]\n'
     yield f'def Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}'
     yield from children
     yield "}\n"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
-from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight
+from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch
 from garage2usd.stage.authoring import LABEL_TAXONOMY
 from garage2usd.stage.looks import define_material, set_varying
 from garage2usd.stage.prototypes import PAINT_SET
@@ -30,23 +30,12 @@ class _Friction(NamedTuple):
 
 
 _FRICTION = {
-    "Concrete": _Friction(0.8, 0.7, 0.05),
-    "Coating": _Friction(0.7, 0.6, 0.05),
-    "Rubber": _Friction(1.0, 0.9, 0.2),
-    "Steel": _Friction(0.45, 0.35, 0.1),
+    Touch.CONCRETE: _Friction(0.8, 0.7, 0.05),
+    Touch.COATING: _Friction(0.7, 0.6, 0.05),
+    Touch.RUBBER: _Friction(1.0, 0.9, 0.2),
+    Touch.STEEL: _Friction(0.45, 0.35, 0.1),
+    Touch.PLASTIC: _Friction(0.5, 0.4, 0.2),
 }
-_FRICTION_OF = {
-    "stall_epoxy": "Coating",
-    "paint_white": "Coating",
-    "paint_yellow": "Coating",
-    "rubber_black": "Rubber",
-    "rubber_yellow": "Rubber",
-    "steel_galvanised": "Steel",
-    "steel_dark": "Steel",
-    "door_steel": "Steel",
-    "car_paint": "Steel",
-}
-"""Surface of a material to the touch; all others are concrete."""
 
 
 def write_prototype(asset: Asset, path: Path) -> None:
@@ -77,11 +66,11 @@ def write_prototype(asset: Asset, path: Path) -> None:
         key: define_material(stage, looks.AppendChild(_pascal(key)), MATERIALS[key], varying=key in VARYING)
         for key in sorted({part.material for part in asset.parts})
     }
-    surfaces = {name: _define_friction(stage, looks, name) for name in sorted(_touched(asset))}
+    frictions = {touch: _define_friction(stage, looks, touch) for touch in sorted(_touched(asset))}
     for part in asset.parts:
         mesh = _define_mesh(stage, geometry.AppendChild(part.name), part, materials[part.material])
         if part.collider is not None:
-            _define_collider(mesh, part.collider, surfaces[_FRICTION_OF.get(part.material, "Concrete")])
+            _define_collider(mesh, part.collider, frictions[MATERIALS[part.material].touch])
     if asset.paints:
         _define_paints(stage, root, looks, asset.paints)
     if asset.light is not None:
@@ -90,18 +79,18 @@ def write_prototype(asset: Asset, path: Path) -> None:
     stage.GetRootLayer().Save()
 
 
-def _touched(asset: Asset) -> set[str]:
-    return {_FRICTION_OF.get(part.material, "Concrete") for part in asset.parts if part.collider is not None}
+def _touched(asset: Asset) -> set[Touch]:
+    return {MATERIALS[part.material].touch for part in asset.parts if part.collider is not None}
 
 
 def _glowing(asset: Asset) -> set[str]:
     return {part.material for part in asset.parts if any(MATERIALS[part.material].emissive_rgb)}
 
 
-def _define_friction(stage: Usd.Stage, looks: Sdf.Path, name: str) -> UsdShade.Material:
+def _define_friction(stage: Usd.Stage, looks: Sdf.Path, touch: Touch) -> UsdShade.Material:
     """A physics material with the friction of dry surfaces."""
-    friction = _FRICTION[name]
-    material = UsdShade.Material.Define(stage, looks.AppendChild(f"Friction{name}"))
+    friction = _FRICTION[touch]
+    material = UsdShade.Material.Define(stage, looks.AppendChild(f"Friction{touch.capitalize()}"))
     physics = UsdPhysics.MaterialAPI.Apply(material.GetPrim())
     physics.CreateStaticFrictionAttr(friction.static)
     physics.CreateDynamicFrictionAttr(friction.dynamic)
@@ -160,10 +149,10 @@ def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShad
     return mesh.GetPrim()
 
 
-def _define_collider(prim: Usd.Prim, collider: Collider, surface: UsdShade.Material) -> None:
+def _define_collider(prim: Usd.Prim, collider: Collider, friction: UsdShade.Material) -> None:
     UsdPhysics.CollisionAPI.Apply(prim)
     UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(collider.value)
-    UsdShade.MaterialBindingAPI(prim).Bind(surface, materialPurpose="physics")
+    UsdShade.MaterialBindingAPI(prim).Bind(friction, materialPurpose="physics")
 
 
 def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> UsdLux.RectLight:

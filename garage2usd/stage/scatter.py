@@ -12,7 +12,7 @@ from garage2usd.layout import ObjectTable
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.table import KINDS
 from garage2usd.stage.authoring import attribute, define, set_units
-from garage2usd.stage.bounds import points_of
+from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import Prototype
 
@@ -40,7 +40,7 @@ def write_instancer(
         layer.defaultPrim = path.stem
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=OBJECT_LABELS[kind])
         _author_prototypes(prim, [prototypes[spec].name for spec in specs])
-        _author_points(prim, objects, rows, specs, indices)
+        _author_points(prim, objects, rows, indices)
     layer.Export(str(path))
 
 
@@ -56,40 +56,12 @@ def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:
     relationship.targetPathList.explicitItems = targets
 
 
-def _author_points(
-    prim: Sdf.PrimSpec,
-    objects: ObjectTable,
-    rows: NDArray[np.intp],
-    specs: Sequence[Spec],
-    indices: NDArray[np.intp],
-) -> None:
+def _author_points(prim: Sdf.PrimSpec, objects: ObjectTable, rows: NDArray[np.intp], indices: NDArray[np.intp]) -> None:
     positions, yaws_rad = objects.position_m[rows], objects.yaw_rad[rows]
     attribute(prim, "protoIndices", _TYPES.IntArray, Vt.IntArray.FromNumpy(indices.astype(np.int32)))
     attribute(prim, "positions", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(positions.astype(np.float32)))
     turns = {yaw: Gf.Quath(math.cos(yaw / 2), 0.0, math.sin(yaw / 2), 0.0) for yaw in set(yaws_rad.tolist())}
     attribute(prim, "orientations", _TYPES.QuathArray, Vt.QuathArray([turns[yaw] for yaw in yaws_rad.tolist()]))
-    extent = _extent(specs, indices, positions, yaws_rad)
-    attribute(prim, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent.astype(np.float32)))
-
-
-def _extent(
-    specs: Sequence[Spec], indices: NDArray[np.intp], positions_m: NDArray[np.float64], yaws_rad: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Least and most corner over all points, each by the turned box of its shape; float64, shape (2, 3)."""
-    bounds = np.array([(points_of(spec).min(axis=0), points_of(spec).max(axis=0)) for spec in specs])
-    middles, halves = bounds.mean(axis=1)[indices], (bounds[:, 1] - bounds[:, 0])[indices] / 2
-    cos, sin = np.cos(yaws_rad), np.sin(yaws_rad)
-    centre = positions_m.copy()
-    centre[:, 0] += middles[:, 0] * cos + middles[:, 2] * sin
-    centre[:, 1] += middles[:, 1]
-    centre[:, 2] += middles[:, 2] * cos - middles[:, 0] * sin
-    reach = np.stack(
-        [
-            halves[:, 0] * abs(cos) + halves[:, 2] * abs(sin),
-            halves[:, 1],
-            halves[:, 2] * abs(cos) + halves[:, 0] * abs(sin),
-        ],
-        axis=1,
-    )
-    extent: NDArray[np.float64] = np.stack([(centre - reach).min(axis=0), (centre + reach).max(axis=0)])
-    return extent
+    least, greatest = world_bounds_m(objects, rows)
+    extent = np.stack([least.min(axis=0), greatest.max(axis=0)]).astype(np.float32)
+    attribute(prim, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))

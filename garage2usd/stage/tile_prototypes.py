@@ -48,14 +48,14 @@ class TilePrototypes:
 def share_tiles(
     layout: Layout, arrangement: Arrangement, labels: Sequence[str], writer: InstanceWriter
 ) -> TilePrototypes:
-    """Find the tiles of the same class that hold the same objects at the same places.
+    """Find the tiles of the same label that hold the same objects at the same places.
 
     Parameters
     ----------
     layout, arrangement
         The objects, and which prim each object is.
     labels
-        Semantic class of each tile.
+        What a label says of each tile.
     writer
         Of instances whose assets stand in the folder of the prototypes, without classes.
     """

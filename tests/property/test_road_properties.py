@@ -1,11 +1,12 @@
-"""200 random seeds over sizes 7x9 to 20x30: every garage builds, every stall is reached, nothing overhead meets."""
+"""200 random seeds over sizes 7x9 to 20x30: every garage builds, every stall is reached, nothing solid meets."""
 
 import networkx as nx
 import numpy as np
 import pytest
-from overlaps import assert_nothing_overhead_meets
+from overlaps import assert_solid_objects_keep_apart
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.fittings import CEILING_ROOM_M
 from garage2usd.grid import Cell
 from garage2usd.pipeline import generate
 
@@ -17,6 +18,8 @@ def settings(seed):
         return int(rng.integers(low, high + 1))
 
     portals = draw(1, 2)
+    clear_m = float(np.random.default_rng([seed, 1]).uniform(2.0, 2.8))
+    room_m, column_m = np.random.default_rng([seed, 2]).uniform((CEILING_ROOM_M, 0.2), (2.0, 1.2)).tolist()
     return {
         "seed": seed,
         "site": {
@@ -27,7 +30,12 @@ def settings(seed):
             "exits": draw(1, 2),
             "obstacles": draw(0, 2),
         },
-        "bay": {"column_widths_m": float(rng.uniform(5.5, 8.5)), "row_depths_m": float(rng.uniform(5.5, 8.5))},
+        "bay": {
+            "column_widths_m": float(rng.uniform(5.5, 8.5)),
+            "row_depths_m": float(rng.uniform(5.5, 8.5)),
+            "column_size_m": column_m,
+        },
+        "fittings": {"clear_height_m": clear_m, "ceiling_height_m": max(2.4, clear_m + room_m)},
         "plan": {"preset": "paper" if seed % 4 == 0 else "tuned", "episodes": 300},
         "parking": {"occupancy": float(rng.uniform(0, 1)), "max_yaw_deg": 5.0},
     }
@@ -46,11 +54,11 @@ def reached(cells, kind):
 
 
 @pytest.mark.parametrize("block", range(20))
-def test_every_seed_builds_every_stall_is_reached_and_nothing_overhead_meets(block):
+def test_every_seed_builds_every_stall_is_reached_and_nothing_solid_meets(block):
     for seed in range(10 * block, 10 * block + 10):
         config = GarageConfig(**settings(seed))
         garage = generate(config)
-        assert_nothing_overhead_meets(garage.layout, config)
+        assert_solid_objects_keep_apart(garage.layout, config)
         cells = garage.plan.structure.cells
         both = reached(cells, Cell.ENTRANCE) & reached(cells, Cell.EXIT)
         assert garage.layout.stalls

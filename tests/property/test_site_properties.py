@@ -26,7 +26,7 @@ def test_every_site_keeps_the_paper_s_rules(kwargs, seed):
     again = make_site(config, bay=BayConfig(), seed=seed).cells
     assert (cells == again).all()
 
-    assert cells.shape == (config.height_cells, config.width_cells)
+    assert cells.shape == config.shape
     assert (cells == Cell.ENTRANCE).sum() == config.entrances
     assert (cells == Cell.EXIT).sum() == config.exits
     assert not (cells == Cell.LANE).any()

@@ -7,7 +7,8 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.stage.prototype_layer import write_prototype
 
 each_body = pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
-NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "Plates", "Tyres", "Rims", "Mirrors", "Arches"}
+NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "Plates", "Rims", "Mirrors", "Arches"}
+TYRES = {f"{end}{side}Tyre" for end in ("Front", "Rear") for side in ("Left", "Right")}
 
 
 def parts_of(body):
@@ -46,7 +47,7 @@ def test_a_body_parks_in_the_standard_stall(body):
 @each_body
 def test_a_car_has_all_its_parts_in_few_points(body):
     parts = parts_of(body)
-    assert parts.keys() >= NEEDED
+    assert parts.keys() >= NEEDED | TYRES
     assert sum(len(part.points) for part in parts.values()) <= 12000
     painted = {name for name, part in parts.items() if part.material.startswith("car_paint")}
     assert painted >= {"Body", "Cabin", "Mirrors"}
@@ -160,11 +161,13 @@ def test_a_car_keeps_within_its_measures(body):
 
 @each_body
 def test_each_wheel_stands_on_the_floor(body):
-    tyres = parts_of(body)["Tyres"].points
-    for side in (-1, 1):
-        for axle in (body.front_overhang_m, body.front_overhang_m + body.wheelbase_m):
-            near = np.abs(tyres[:, 2] - (axle - body.length_m / 2)) < body.wheel_radius_m + 0.01
-            wheel = tyres[near & (tyres[:, 0] * side > 0)]
+    parts = parts_of(body)
+    axles = {"Front": body.front_overhang_m, "Rear": body.front_overhang_m + body.wheelbase_m}
+    for side, sign in (("Left", -1), ("Right", 1)):
+        for end, axle in axles.items():
+            wheel = parts[f"{end}{side}Tyre"].points
+            assert (wheel[:, 0] * sign > 0).all()
+            assert np.abs(wheel[:, 2] - (axle - body.length_m / 2)).max() < body.wheel_radius_m + 0.01
             assert wheel[:, 1].min() == pytest.approx(0.0, abs=1e-6)
             assert np.ptp(wheel[:, 1]) == pytest.approx(2 * body.wheel_radius_m, abs=1e-5)
 
@@ -187,8 +190,8 @@ def test_lamps_and_plates_are_at_both_ends(body):
 
 
 @each_body
-def test_two_convex_hulls_stand_for_the_body_and_the_cabin(body):
+def test_convex_hulls_stand_for_the_body_the_cabin_and_each_tyre(body):
     parts = parts_of(body)
     hulls = {name for name, part in parts.items() if part.collider is Collider.CONVEX_HULL}
-    assert hulls == {"Body", "Cabin"}
+    assert hulls == {"Body", "Cabin", *TYRES}
     assert parts["Cabin"].points[:, 1].max() > parts["Body"].points[:, 1].max() + 0.2

@@ -1,3 +1,4 @@
+import io
 import json
 import signal
 import subprocess
@@ -10,6 +11,7 @@ from click.testing import CliRunner
 from PIL import Image
 from sample_files import REPOSITORY
 
+from garage2usd import cli
 from garage2usd.cli import main
 from garage2usd.config import config_schema
 
@@ -42,11 +44,16 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     stalls = report["score"]["stalls"]
     assert report["seed"] == 4
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
-    assert f"{stalls} of {stalls} stalls, from an entrance and to an exit" in result.output
+    assert sum(report["stall_uses"].values()) == stalls
+    assert report["stall_uses"]["standard"] > stalls / 2
+    assert f"stalls  {stalls} ({report['stall_uses']['standard']} standard, " in result.output
+    assert "every stall, from an entrance and to an exit" in result.output
     assert f"{report['score']['value']:.2f} (N_S {stalls}, " in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output
+    assets = "" if extension == "usdz" else " and g_assets/"
+    assert f"drop {out.name}{assets} into Assets" in result.output
     names = {"g_plan.png", "g_report.json", "g_labels.json", out.name} | (
         set() if extension == "usdz" else {"g_assets"}
     )
@@ -135,14 +142,17 @@ def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     assert "?===" in result.output
 
 
-@pytest.mark.parametrize("arguments", [["--output", "g.obj"], ["--output", "g"], ["--seed", "-1"], ["--sed", "1"]])
+@pytest.mark.parametrize(
+    "arguments", [["--output", "g.obj"], ["--output", "g"], ["--output", "a@b.usda"], ["--seed", "-1"], ["--sed", "1"]]
+)
 def test_bad_usage_ends_in_two(tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     result = run("build", *arguments)
     assert result.exit_code == 2
     assert list(tmp_path.iterdir()) == []
     if arguments[0] == "--output":
-        assert "ends in .usda, .usdc, .usdz" in result.output
+        allowed = "a file name without" if "@" in arguments[1] else "a path that ends in .usda, .usdc, .usdz"
+        assert f"allowed: {allowed}" in result.output
 
 
 @pytest.mark.parametrize("output", ["/proc/garage/g.usda", "/dev/null/g.usda"])
@@ -175,6 +185,17 @@ def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
     assert list(out.iterdir()) == []
     if deadly != signal.SIGKILL:
         assert list(temporary.iterdir()) == []
+
+
+def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
+    monkeypatch.setattr(cli, "_termination", cli._Termination())
+    with cli._Bars(io.StringIO()) as progress:
+        progress("plan", 1, 3)
+        with pytest.raises(SystemExit) as first:
+            cli._termination(signal.SIGTERM, None)
+        with pytest.raises(SystemExit) as second:
+            progress("plan", 2, 3)
+    assert first.value.code == second.value.code == 128 + signal.SIGTERM
 
 
 def test_the_schema_command_prints_the_schema():

@@ -7,6 +7,7 @@ from sample_files import each_sample
 
 from garage2usd.config import GarageConfig, config_from_mapping, config_schema, load_config
 from garage2usd.errors import ConfigError
+from garage2usd.pipeline import generate
 
 
 @pytest.mark.parametrize(
@@ -19,6 +20,9 @@ from garage2usd.errors import ConfigError
         ({"bay": {"column_widths_m": -3}}, "bay.column_widths_m", "greater than or equal to 1"),
         ({"bay": {"column_widths_m": [8.1, "a"]}}, "bay.column_widths_m", "number"),
         ({"plan": {"preset": "best"}}, "plan.preset", "'paper' or 'tuned'"),
+        ({"fittings": {"clear_height_m": 6, "ceiling_height_m": 2.4}}, "fittings.ceiling_height_m", "which is 6.0"),
+        ({"fittings": {"clear_height_m": 3.1}}, "fittings.ceiling_height_m", "at least 0.15 m over"),
+        ({"fittings": {"clear_height_m": 2.3, "ceiling_height_m": 2.4}}, "fittings.ceiling_height_m", "which is 2.3"),
         ({"seed": -1}, "seed", "greater than or equal to 0"),
         ({"parking": {"occupancy": 1.5}}, "parking.occupancy", "less than or equal to 1"),
         ({"site": {"structure": "E=X", "contour": "..."}}, "site", "no contour beside a complete structure"),
@@ -31,6 +35,11 @@ def test_bad_settings_name_field_value_and_what_is_allowed(settings, field, allo
     assert caught.value.field.startswith(field)
     assert allowed in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_ceiling_may_hang_just_over_the_clear_height():
+    fittings = GarageConfig(fittings={"clear_height_m": 2.7, "ceiling_height_m": 2.85}).fittings
+    assert (fittings.clear_height_m, fittings.ceiling_height_m) == (2.7, 2.85)
 
 
 def test_configurations_are_frozen():
@@ -52,6 +61,17 @@ def test_samples_satisfy_the_schema(sample):
     jsonschema.Draft202012Validator.check_schema(schema)
     jsonschema.validate(tomllib.loads(sample.read_text()), schema)
     assert load_config(sample).digest()
+
+
+@each_sample
+def test_a_saved_configuration_is_the_same_configuration(sample):
+    config = load_config(sample)
+    saved = GarageConfig(**json.loads(json.dumps(config.model_dump(mode="json"))))
+    assert saved == config
+    assert saved.digest() == config.digest()
+    learn_little = {"plan": {**config.plan.model_dump(), "episodes": 20, "starts": 1}}
+    one, other = (generate(GarageConfig(**{**kept.model_dump(), **learn_little})) for kept in (config, saved))
+    assert one.plan.structure == other.plan.structure
 
 
 def test_the_schema_refuses_what_the_models_refuse():

@@ -1,18 +1,23 @@
 import itertools
+import math
 
 import numpy as np
 import pytest
 import shapely
 from footprints import footprint
+from overlaps import Solids
 from sample_files import each_sample
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.dead_ends import dead_ends
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
+from garage2usd.stage.prototypes import asset_of
 from garage2usd.stalls import square_capacity
 
 
@@ -264,6 +269,57 @@ def test_a_long_dead_end_keeps_a_turning_stall():
     hatched = {place.spec for place in free.of_kind(ObjectKind.STALL) if is_turning(place)}
     plain = {place.spec for place in free.of_kind(ObjectKind.STALL) if not is_turning(place)}
     assert hatched.isdisjoint(plain)
+
+
+def test_a_turning_stall_opens_onto_its_own_dead_end():
+    # the stall nearest to the tip (1, 7), behind a wall, opens onto the aisle below it
+    layout = laid_out("..#######\n.=======#\n.=#######\n.=......#\n.=======X\nE=.......")
+    (end,) = [end for end in dead_ends(layout.structure) if end.needs_turning_stall]
+    assert (end.tip, end.squares[-1]) == ((1, 7), (3, 1))
+    (turning,) = [stall for stall in layout.stalls if stall.use is StallUse.TURNING]
+    assert turning.access_square in end.squares
+    tip = layout.structure.column_edges_m[7] + 4.05, layout.structure.row_edges_m[1] + 4.05
+    assert turning.name != min(layout.stalls, key=lambda stall: math.dist(stall.centre_m, tip)).name
+
+
+@pytest.mark.parametrize(
+    ("rows", "bay", "field"),
+    [
+        ("......\nE====X\n......", {"row_depths_m": [5.4, 1, 5.4]}, "bay.row_depths_m"),
+        ("......\nE====X\n......", {"row_depths_m": [5.4, 3.1, 5.4]}, "bay.row_depths_m"),  # 2.4 m between columns
+        ("......\nE====X\n......", {"row_depths_m": [5.4, 3.8, 5.4]}, "bay.row_depths_m"),  # the doors are narrower
+        (".E.\n.=.\n.=.\n.X.", {"column_widths_m": [5.4, 3.8, 5.4]}, "bay.column_widths_m"),
+        ("...\n.=X\n.=.\n.E.", {"column_widths_m": [5.4, 4, 5.4], "row_depths_m": [6, 3.1, 6, 6]}, "bay.row_depths_m"),
+    ],
+)
+def test_lanes_and_doors_too_narrow_for_cars_are_refused(rows, bay, field):
+    with pytest.raises(ConfigError, match=r"2\.5 m are clear") as caught:
+        generate(GarageConfig(site={"structure": rows}, bay=bay))
+    assert caught.value.field == field
+    assert caught.value.value in {1, 3.1, 3.8}
+
+
+def test_the_narrowest_garage_that_is_not_refused_leaves_cars_their_width():
+    config = GarageConfig(site={"structure": "......\nE====X\n......"}, bay={"row_depths_m": [5.4, 3.86, 5.4]})
+    layout = generate(config).layout
+    for door in layout.of_kind(ObjectKind.PORTAL):
+        frame = next(part for part in asset_of(door.spec).parts if part.name == "Frame")
+        inner = np.abs(frame.points[frame.points[:, 1] < 0.1, 0]).min()
+        assert 2 * inner == pytest.approx(2.5, abs=1e-4)
+
+
+def test_a_lane_that_no_car_reaches_is_not_worn():
+    layout = generate(GarageConfig(site={"structure": "#=#.....\n##......\nE=======\n......=X"})).layout
+    assert (0, 1) not in {place.square for place in layout.of_kind(ObjectKind.FLOOR_STAIN) if place.name == "Wear"}
+
+
+def test_tyres_stand_before_the_wheel_stops():
+    """Also those of short cars that are parked nose out."""
+    parking = {"occupancy": 1.0, "accessible_share": 0, "max_yaw_deg": 5.0}
+    for reversed_share in (0.0, 1.0):
+        layout = laid_out(IRREGULAR, GarageConfig(parking={**parking, "reversed_share": reversed_share}))
+        assert {car.spec.body for car in layout.of_kind(ObjectKind.CAR)} == {body.name for body in CAR_BODIES}
+        assert not list(Solids(layout, (ObjectKind.CAR, ObjectKind.WHEEL_STOP)).clashes())
 
 
 def stall_under(layout, car):

@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 import shapely
 from footprints import footprint
-from overlaps import HANGING, assert_nothing_overhead_meets
+from overlaps import HANGING, assert_solid_objects_keep_apart
 from sample_files import each_sample
+from scipy.spatial.distance import pdist
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.grid import Cell, Structure, cells_from_text
@@ -17,12 +18,12 @@ from garage2usd.stalls import Edge
 @each_sample
 def test_nothing_overhead_meets_anything_or_hangs_into_the_way(sample):
     config = load_config(sample)
-    assert_nothing_overhead_meets(generate(config).layout, config)
+    assert_solid_objects_keep_apart(generate(config).layout, config)
 
 
-def laid_out(text, **fittings):
-    config = GarageConfig(fittings=fittings)
-    structure = Structure.from_arrays(cells_from_text(text, field="S"), 8.1, 8.1)
+def laid_out(text, sides_m=8.1, *, bay=None, **fittings):
+    config = GarageConfig(bay=bay or {}, fittings=fittings)
+    structure = Structure.from_arrays(cells_from_text(text, field="S"), sides_m, sides_m)
     return lay_out(structure, build_lane_graph(structure, config.bay), config), config
 
 
@@ -34,10 +35,11 @@ E======X
 """
 
 
-@pytest.mark.parametrize("ceiling_m", [2.4, 3.2, 4.0])
+@pytest.mark.parametrize("ceiling_m", [2.4, 2.6, 2.8, 2.9, 2.95, 3.2, 4.0])
 def test_any_ceiling_leaves_the_clear_height(ceiling_m):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
+    assert bool(layout.of_kind(ObjectKind.MIRROR)) == (ceiling_m >= 2.95)
     assert bool(layout.of_kind(ObjectKind.EXIT_SIGN)) == (ceiling_m > 3)
 
 
@@ -57,7 +59,7 @@ def ways_seen(place):
 
 def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
     layout, config = laid_out(CROSS)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
     seen = {}
     for place in layout.of_kind(ObjectKind.MIRROR):
         seen.setdefault(place.square, set()).update(ways_seen(place))
@@ -90,6 +92,29 @@ E====X
         x, _, z = place.position_m
         tip = shapely.Point(x - place.spec.arm_m * np.sin(place.yaw_rad), z - place.spec.arm_m * np.cos(place.yaw_rad))
         assert tip.distance(holding) < 0.025
+
+
+@pytest.mark.parametrize("column_m", [0.2, 0.3, 0.4, 1.2])
+def test_mirrors_around_one_column_hang_beside_each_other(column_m):
+    text = "E=====X\n=.=.=.=\n=======\n.=.=.=.\n======="
+    layout, config = laid_out(text, bay={"column_size_m": column_m})
+    assert_solid_objects_keep_apart(layout, config)
+    placed = layout.of_kind(ObjectKind.MIRROR)
+    nearest = pdist(np.array([place.position_m for place in placed])).min()
+    assert nearest >= 2 * placed[0].spec.radius_m - 1e-6
+    assert nearest < 2  # there are some around one column
+    columns = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.COLUMN)])
+    for place in placed:
+        x, _, z = place.position_m
+        tip = shapely.Point(x - place.spec.arm_m * np.sin(place.yaw_rad), z - place.spec.arm_m * np.cos(place.yaw_rad))
+        assert tip.distance(columns) < 0.025 or place.spec.arm_m == 0.29
+
+
+@pytest.mark.parametrize(("sides_m", "column_m", "ceiling_m"), [(5.6, 0.9, 2.73), (6.3, 0.25, 2.76), (6.4, 1.1, 2.9)])
+def test_tubes_over_small_junctions_keep_off_lines_that_hang_as_high(sides_m, column_m, ceiling_m):
+    layout, config = laid_out(CROSS, sides_m, bay={"column_size_m": column_m}, ceiling_height_m=ceiling_m)
+    assert layout.of_kind(ObjectKind.DUCT)
+    assert_solid_objects_keep_apart(layout, config)
 
 
 def test_ramps_are_lit_under_their_cover():
@@ -139,15 +164,15 @@ E======X
     ("ceiling_m", "switches", "depth_m", "absent"),
     [
         (3.2, {}, 0.4, set()),
-        (3.2, {"cable_trays": False}, 0.5, {ObjectKind.CABLE_TRAY}),
-        (3.2, {"ducts": False}, 0.6, {ObjectKind.DUCT}),
+        (3.2, {"cable_trays": False}, 0.5, {ObjectKind.CABLE_TRAY, ObjectKind.MIRROR}),
+        (3.2, {"ducts": False}, 0.6, {ObjectKind.DUCT, ObjectKind.MIRROR}),
         (3.2, {"beams": False}, 0.0, {ObjectKind.BEAM}),
-        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
-        (2.4, {}, 0.0, {ObjectKind.BEAM, ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN}),
+        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN, ObjectKind.MIRROR}),
+        (2.4, {}, 0.0, {kind for kind in HANGING if kind not in {ObjectKind.LIGHT, ObjectKind.SPRINKLER}}),
     ],
 )
 def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, **switches)
-    assert_nothing_overhead_meets(layout, config)
+    assert_solid_objects_keep_apart(layout, config)
     assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent
     assert {place.spec.depth_m for place in layout.of_kind(ObjectKind.BEAM)} == ({depth_m} if depth_m else set())

@@ -56,6 +56,11 @@ def test_one_kind_given_the_other_is_drawn():
         ({"structure": "E=.\n..."}, "site.structure"),
         ({"structure": "X=.\n..."}, "site.structure"),
         ({"structure": "E=.\n..X"}, "site.structure"),
+        ({"structure": "......\n.==E==\n.=..=.\nX====."}, "site.structure"),  # no door: no side on the outside
+        ({"structure": "........\n.#E==...\n...=...X\n...=====\n"}, "site.structure"),  # a core is no outside
+        ({"structure": "E=#....\n##.....\nE======\n......X"}, "site.structure"),  # no way out
+        ({"structure": "X=#....\n##.....\nE======\n......X"}, "site.structure"),  # no way in
+        ({"contour": ".....\n.....\n..#..\n.....\n.....", "entrance_cells": ((1, 2),)}, "site.entrance_cells"),
         ({"contour": "..#..\n..#..\n..#.."}, "site.contour"),
         ({"contour": "..E"}, "site.contour"),
         ({"entrance_cells": ((3, 3),)}, "site.entrance_cells"),
@@ -71,6 +76,19 @@ def test_given_parts_that_do_not_fit_are_refused(settings, field):
         make_site(SiteConfig(**settings), bay=BAY, seed=0)
     assert caught.value.field == field
     assert "\n" not in str(caught.value)
+
+
+def test_drawn_portals_open_outwards_not_into_a_court():
+    contour = "\n".join(["." * 9] * 3 + ["...###..."] * 3 + ["." * 9] * 3)
+    for seed in range(40):
+        cells = make_site(SiteConfig(contour=contour), bay=BAY, seed=seed).cells
+        rows, cols = np.nonzero(cells >= Cell.ENTRANCE)
+        assert ((rows % 8 == 0) | (cols % 8 == 0)).all()
+
+
+def test_a_portal_between_two_pieces_of_lanes_needs_a_way_on_one_of_them():
+    drawing = "=E====X\n#......"
+    assert str(make_site(SiteConfig(structure=drawing), bay=BAY, seed=0)) == drawing
 
 
 def test_unsatisfiable_distances_say_what_was_found():

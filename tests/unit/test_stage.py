@@ -12,9 +12,11 @@ from sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
-from garage2usd.grid import Cell
-from garage2usd.layout import ObjectKind
+from garage2usd.grid import Cell, Structure, cells_from_text
+from garage2usd.lanes import build_lane_graph
+from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.pipeline import build
+from garage2usd.stage.cameras import write_drive
 from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
 
 CONFIG = GarageConfig(
@@ -218,16 +220,16 @@ def test_occupancy_lights_and_ceiling_are_variants(form, request):
     )
     assert state() == (cars, lights, ceilings)
     sets = stage.GetPrimAtPath("/Garage").GetVariantSets()
-    for name, choice, expected in (
-        ("occupancy", "empty", (0, lights, ceilings)),
-        ("lights", "off", (cars, 0, ceilings)),
-        ("ceiling", "hidden", (cars, lights, 0)),
+    for name, usual, other, expected in (
+        ("occupancy", "parked", "empty", (0, lights, ceilings)),
+        ("lights", "on", "off", (cars, 0, ceilings)),
+        ("ceiling", "shown", "hidden", (cars, lights, 0)),
     ):
-        usual = sets.GetVariantSelection(name)
-        sets.SetSelection(name, choice)
+        assert sets.GetVariantSelection(name) == (usual if form == "made" else "")
+        sets.SetSelection(name, other)
         assert state() == expected
         sets.SetSelection(name, usual)
-    assert state() == (cars, lights, ceilings)
+        assert state() == (cars, lights, ceilings)
 
 
 def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
@@ -317,3 +319,26 @@ def test_the_papers_garage_without_its_cars_is_small(tmp_path):
         sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
     assert sum(size for name, size in sizes.items() if "/Car_" not in name) < 1_700_000
     assert sum(size for name, size in sizes.items() if "/textures/" in name) < 600_000
+
+
+@pytest.mark.parametrize(
+    ("text", "widths", "depths", "start", "end"),
+    [
+        ("E=#....\n##.....\nE======\n......X", 8.1, 8.1, (2, 0), (3, 6)),  # the first entrance leads nowhere
+        ("X......\n=......\n=......\nE====X.", 4.0, 18.0, (3, 0), (3, 5)),  # the other exit is fewer squares away
+    ],
+)
+def test_the_drive_leads_from_the_first_entrance_with_a_way_out_to_the_nearest_exit(
+    tmp_path, text, widths, depths, start, end
+):
+    config = GarageConfig()
+    structure = Structure.from_arrays(cells_from_text(text, field="S"), widths, depths)
+    graph = build_lane_graph(structure, config.bay)
+    path = tmp_path / "drive.usda"
+    last = write_drive(path, lay_out(structure, graph, config), graph)
+    stage = Usd.Stage.Open(str(path))
+    camera = UsdGeom.Camera(stage.GetDefaultPrim())
+    for frame, square in ((0, start), (last, end)):
+        x, _, z = camera.ComputeLocalToWorldTransform(frame).ExtractTranslation()
+        node = graph.graph.nodes[square]
+        assert np.hypot(x - node["x_m"], z - node["z_m"]) < 0.2

@@ -576,6 +576,31 @@ def "Q" { def "k" ( references = </R> ) { float q = 1
     float x = 4 } }
 """,
     },
+    "variants that the referring layer chooses decide what classes below them say": {
+        "root.usd": """
+def "G" ( references = @g.usd@</G>
+    variants = { string fill = "empty" } ) {}
+def "H" ( references = @g.usd@</G> ) {}
+def "I" ( references = @middle.usd@</M>
+    variants = { string fill = "empty" } ) {}
+""",
+        "middle.usd": """
+def "M" ( references = @g.usd@</G>
+    variants = { string fill = "full" } ) {}
+""",
+        "g.usd": """
+def "G" ( variants = { string fill = "full" }
+    prepend variantSets = ["fill"] )
+{
+    class "Classes" { class "Car" { float base = 1 } }
+    def "Tile" { def "Car_1" ( inherits = </G/Classes/Car> ) { float own = 1 } }
+    variantSet "fill" = {
+        "empty" { over "Classes" { over "Car" ( active = false ) { token said = "empty" } } }
+        "full" { over "Classes" { over "Car" { token said = "full" } } }
+    }
+}
+""",
+    },
     "folders": {
         "root.usd": """
 def "A" ( references = @./sub/a.usd@</A> ) {}

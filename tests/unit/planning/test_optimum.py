@@ -5,6 +5,7 @@ import pytest
 from planning_reference import BAY, G1, OPTIMUM, drawn, feasible
 
 from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.config.site import DEFAULT_SIDE_M
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Structure
 from garage2usd.planning import evaluate, plan_lanes
@@ -23,7 +24,7 @@ def small_site(seed):
     for place, kind in zip(rim, [2, 3, *rng.choice([2, 3, 0, -1], size=2)], strict=False):
         cells[place] = kind
     bay = BAYS[seed % len(BAYS)]
-    return Structure.from_arrays(cells, bay.column_widths_m, bay.row_depths_m), bay
+    return Structure.from_arrays(cells, bay.column_widths_m or DEFAULT_SIDE_M, bay.row_depths_m or DEFAULT_SIDE_M), bay
 
 
 def spread(start, lanes, beside):

@@ -23,6 +23,8 @@ def test_comb():
         ((0, 4), 40.5, True),
         ((0, 7), 48.6, True),
     ]
+    middle = figures.dead_ends[1]
+    assert middle.squares == tuple((row, 4) for row in range(5))
     # 15 lanes along the aisles, 4 along the connector between its junctions and bends
     assert figures.parallel_share == pytest.approx(15 / 19)
     assert figures.rectangular_share == pytest.approx(35 / 37)  # two squares beside the gates stand alone

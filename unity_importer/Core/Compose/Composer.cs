@@ -50,7 +50,7 @@ namespace Garage.Usd
         public ArcNode Child(ArcNode parent, string name)
         {
             ArcNode root = parent.Extended(name);
-            Expand(root, true);
+            Expand(root, true, null);
             Charge(root, root.Size);
             return root;
         }
@@ -67,9 +67,9 @@ namespace Garage.Usd
         }
 
         // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
-        ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors)
+        ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, Choices choices)
         {
-            string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path;
+            string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path + (choices == null ? "" : choices.Key);
             ArcNode made;
             if (templates.TryGetValue(key, out made)) { return made; }
             if (!inProgress.Add(key)) { return null; }
@@ -83,7 +83,7 @@ namespace Garage.Usd
             }
             else
             {
-                ArcNode parent = Template(stack, parentPath, true, true);
+                ArcNode parent = Template(stack, parentPath, true, true, choices);
                 if (parent == null)
                 {
                     inProgress.Remove(key);
@@ -91,13 +91,13 @@ namespace Garage.Usd
                 }
                 root = parent.Extended(UsdPaths.Name(path));
             }
-            Expand(root, withVariants);
+            Expand(root, withVariants, choices);
             inProgress.Remove(key);
             templates.Add(key, root);
             return root;
         }
 
-        void Expand(ArcNode root, bool withVariants)
+        void Expand(ArcNode root, bool withVariants, Choices choices)
         {
             var pending = new List<ArcNode>();
             root.Size = Count(root);
@@ -107,7 +107,7 @@ namespace Garage.Usd
                 for (int i = 0; i < pending.Count; i++) { ExpandNode(pending[i]); }
                 pending.Clear();
                 if (!withVariants) { return; }
-                ArcNode variant = NextVariant(root);
+                ArcNode variant = NextVariant(root, choices);
                 if (variant == null) { return; }
                 pending.Add(variant);
             }
@@ -240,13 +240,14 @@ namespace Garage.Usd
                 library.Warn("<" + node.Path + "> leads back to <" + path + ">");
                 return null;
             }
-            ArcNode template = Template(stack, path, false, withAncestors);
+            bool isClass = arc == Arc.Inherit || arc == Arc.Specialize;
+            ArcNode template = Template(stack, path, false, withAncestors, isClass && withAncestors ? Choices.Of(node, path) : null);
             if (template == null)
             {
                 library.Warn("<" + node.Path + "> leads in a circle by <" + path + ">");
                 return null;
             }
-            if (template.Specs.Length == 0 && template.Children == null && arc != Arc.Inherit && arc != Arc.Specialize)
+            if (template.Specs.Length == 0 && template.Children == null && !isClass)
             {
                 library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of " + stack.Root.Identifier + ", which does not exist");
             }
@@ -258,7 +259,7 @@ namespace Garage.Usd
             node.Add(root);
             CountIn(node, 1);
             CopyChildren(node, template, root);
-            if (arc != Arc.Inherit && arc != Arc.Specialize && root.Children != null)
+            if (!isClass && root.Children != null)
             {
                 foreach (ArcNode child in root.Children.ToArray())
                 {
@@ -388,7 +389,7 @@ namespace Garage.Usd
 
         // ---- variants
 
-        ArcNode NextVariant(ArcNode root)
+        ArcNode NextVariant(ArcNode root, Choices choices)
         {
             var order = new List<ArcNode>();
             root.AddByStrength(order);
@@ -398,7 +399,7 @@ namespace Garage.Usd
                 foreach (string set in node.VariantSets)
                 {
                     if (node.ChosenSets != null && node.ChosenSets.Contains(set)) { continue; }
-                    string selection = SelectionOf(order, set);
+                    string selection = (choices == null ? null : choices.Find(root.Path, set)) ?? SelectionOf(order, set);
                     if (selection == null) { continue; }
                     node.ChosenSets = node.ChosenSets ?? new List<string>(1);
                     node.ChosenSets.Add(set);
@@ -407,6 +408,46 @@ namespace Garage.Usd
                 }
             }
             return null;
+        }
+
+        /// <summary>Variants of the prims above a class, where those who refer to the layer of the class choose others than the layer does.</summary>
+        sealed class Choices
+        {
+            readonly Dictionary<string, string> selections = new Dictionary<string, string>();
+
+            public string Key { get; private set; }
+
+            /// <summary>What places around a node choose above a path of its layers; null where they choose nothing.</summary>
+            public static Choices Of(ArcNode node, string path)
+            {
+                Choices choices = null;
+                for (string above = UsdPaths.Parent(path); above != null && above != "/"; above = UsdPaths.Parent(above))
+                {
+                    string seen = above;
+                    for (ArcNode place = node; place.Parent != null && seen != null; place = place.Parent)
+                    {
+                        seen = place.PathInParent(seen);
+                        if (seen == null || ReferenceEquals(place.Parent.Stack, node.Stack)) { continue; }
+                        // the outermost place comes last and wins
+                        LayerSpec[] specs = SpecsAt(place.Parent.Stack, seen);
+                        for (int i = specs.Length - 1; i >= 0; i--)
+                        {
+                            if (specs[i].Spec.VariantSelections == null) { continue; }
+                            choices = choices ?? new Choices();
+                            foreach (KeyValuePair<string, string> one in specs[i].Spec.VariantSelections) { choices.selections[above + "{" + one.Key] = one.Value; }
+                        }
+                    }
+                }
+                if (choices == null) { return null; }
+                foreach (KeyValuePair<string, string> one in choices.selections) { choices.Key += "{" + one.Key + "=" + one.Value; }
+                return choices;
+            }
+
+            public string Find(string path, string set)
+            {
+                string selection;
+                return selections.TryGetValue(path + "{" + set, out selection) ? selection : null;
+            }
         }
 
         static string SelectionOf(List<ArcNode> order, string set)

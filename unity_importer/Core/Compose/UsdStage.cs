@@ -40,6 +40,15 @@ namespace Garage.Usd
             return Open(resolver.Read(identifier), identifier, resolver);
         }
 
+        /// <summary>Opens a .usdz that is in memory. Throws UsdFormatException.</summary>
+        public static UsdStage OpenPackage(byte[] bytes, string name)
+        {
+            var package = new UsdzPackage(bytes, name);
+            var resolver = new FolderResolver("");
+            resolver.Add(name, package);
+            return Open(package.Read(package.First), name + "[" + package.First + "]", resolver);
+        }
+
         /// <summary>Opens the layer in these bytes, which the resolver knows by the identifier. Throws UsdFormatException.</summary>
         public static UsdStage Open(byte[] root, string identifier, IAssetResolver resolver)
         {

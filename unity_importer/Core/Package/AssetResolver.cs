@@ -74,6 +74,12 @@ namespace Garage.Usd
             this.root = root;
         }
 
+        /// <summary>Knows a package that is in memory, as if it were a file of the folder.</summary>
+        internal void Add(string name, UsdzPackage package)
+        {
+            packages.Add(name, package);
+        }
+
         public string Resolve(string anchor, string asset, out string reason)
         {
             reason = null;

@@ -34,6 +34,9 @@ namespace Garage.Usd
         /// <summary>The constant; null where none is given.</summary>
         public float[] Value;
 
+        /// <summary>The constant of an input that is a word, such as "opacityMode".</summary>
+        public string Text;
+
         public TextureData Texture;
 
         /// <summary>Name of the primvar that gives the value.</summary>
@@ -132,6 +135,7 @@ namespace Garage.Usd
             UsdProperty place = Source(stage, prim, name, out shader, out output);
             UsdValue value = place == null ? null : place.Value;
             if (value != null && !(value.Data is string[])) { input.Value = value.Floats(); }
+            if (value != null) { input.Text = value.Text; }
             if (shader == null) { return input; }
             string id = shader.Text("info:id", "");
             if (id == "UsdUVTexture") { input.Texture = TextureOf(stage, shader, output.Substring(8)); }

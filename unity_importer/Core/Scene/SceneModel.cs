@@ -150,6 +150,13 @@ namespace Garage.Usd
             return shared;
         }
 
+        /// <summary>A node for the prim at a path, such as a prototype of a PointInstancer; null where there is none.</summary>
+        public SceneNode NodeAt(string path)
+        {
+            UsdPrim prim = Stage.PrimAt(path);
+            return prim == null || prim.Specifier != Specifier.Def ? null : Nodes(new[] { prim })[0];
+        }
+
         /// <summary>The preview surface at a path, or null.</summary>
         public MaterialData Material(string path)
         {
