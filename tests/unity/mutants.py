@@ -233,14 +233,15 @@ MUTANTS = (
     Mutant(
         "variant-of-the-strongest",
         COMPOSE + "Composer.cs",
-        "string selection = SelectionOf(order, set);",
-        "order.Reverse(); string selection = SelectionOf(order, set); order.Reverse();",
+        "static string SelectionOf(List<ArcNode> order, string set)\n        {",
+        "static string SelectionOf(List<ArcNode> order, string set)\n        {\n"
+        "order = new List<ArcNode>(order); order.Reverse();",
     ),
     Mutant(
         "variants-of-a-target",
         COMPOSE + "Composer.cs",
-        "ArcNode template = Template(stack, path, false, withAncestors);",
-        "ArcNode template = Template(stack, path, true, withAncestors);",
+        "ArcNode template = Template(stack, path, false, withAncestors,",
+        "ArcNode template = Template(stack, path, true, withAncestors,",
     ),
     Mutant(
         "ancestral-references",
@@ -281,7 +282,7 @@ MUTANTS = (
     Mutant(
         "instance-sharing-of-offsets",
         COMPOSE + "UsdPrim.cs",
-        ".Append(' ').Append(offset.Offset).Append(' ').Append(offset.Scale)",
+        "key.Append(offset.Offset).Append(' ').Append(offset.Scale);",
         "",
     ),
     Mutant(
@@ -409,8 +410,8 @@ MUTANTS = (
     Mutant(
         "face-varying-values",
         SCENE + "TriangleMesh.cs",
-        'channel.Interpolation == "faceVarying" ? corner :',
-        'channel.Interpolation == "faceVarying" ? point :',
+        'int element = channel.Interpolation == "faceVarying" ? corner',
+        'int element = channel.Interpolation == "faceVarying" ? point',
     ),
     Mutant(
         "uniform-values",

@@ -34,7 +34,10 @@ namespace Garage.Usd
         /// <summary>A path of the layer as the stage means it; null where it means nothing there.</summary>
         public string PathInRoot(string path)
         {
-            for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent) { path = node.PathInParent(path); }
+            for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent)
+            {
+                path = node.PathInParent(path);
+            }
             return path;
         }
     }
@@ -160,7 +163,9 @@ namespace Garage.Usd
             get { return Prototype != null; }
         }
 
-        /// <summary>Names of applied schemas, with their instances: "MaterialBindingAPI", "SemanticsLabelsAPI:class".</summary>
+        /// <summary>
+        /// Names of applied schemas, with their instances: "MaterialBindingAPI", "SemanticsLabelsAPI:class".
+        /// </summary>
         public IList<string> ApiSchemas
         {
             get
@@ -202,7 +207,9 @@ namespace Garage.Usd
             }
         }
 
-        /// <summary>A field of the prim such as "kind": a UsdValue, a UsdDictionary (of all layers together), or null.</summary>
+        /// <summary>
+        /// A field of the prim such as "kind": a UsdValue, a UsdDictionary (of all layers together), or null.
+        /// </summary>
         public object Metadata(string name)
         {
             UsdDictionary merged = null;
@@ -265,7 +272,8 @@ namespace Garage.Usd
                 has |= node.Specs.Length > 0;
                 key.Append((int)node.Arc).Append(' ').Append(node.Stack.Number).Append(' ');
                 // a variant of the instance itself is another thing wherever the instance is
-                key.Append(node.Path).Append(' ').Append(node.Variant).Append(' ').Append(offset.Offset).Append(' ').Append(offset.Scale);
+                key.Append(node.Path).Append(' ').Append(node.Variant).Append(' ');
+                key.Append(offset.Offset).Append(' ').Append(offset.Scale);
             }
             key.Append('(');
             if (node.Children != null)
@@ -314,7 +322,11 @@ namespace Garage.Usd
             {
                 int depth = 0;
                 for (UsdPrim above = this; above != null; above = above.Parent) { depth++; }
-                if (depth > Deepest) { throw new UsdFormatException(opinions[0].Layer.Identifier, "<" + Path + ">", "prims are nested more than " + Deepest + " deep"); }
+                if (depth > Deepest)
+                {
+                    throw new UsdFormatException(opinions[0].Layer.Identifier, "<" + Path + ">",
+                        "prims are nested more than " + Deepest + " deep");
+                }
                 var made = new List<UsdPrim>(names.Count);
                 foreach (string name in names)
                 {

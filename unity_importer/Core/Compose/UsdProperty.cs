@@ -80,7 +80,9 @@ namespace Garage.Usd
             return new UsdValue(UsdType.TimeCode, value.IsArray, times);
         }
 
-        /// <summary>The samples of the strongest layer that has any, in the time of the stage; null where none has.</summary>
+        /// <summary>
+        /// The samples of the strongest layer that has any, in the time of the stage; null where none has.
+        /// </summary>
         public TimeSamples Samples
         {
             get
@@ -93,7 +95,10 @@ namespace Garage.Usd
                         LayerOffset offset = places[i].Offset;
                         if (offset.Offset == 0 && offset.Scale == 1) { return samples; }
                         var times = new double[samples.Times.Length];
-                        for (int k = 0; k < times.Length; k++) { times[k] = offset.Scale * samples.Times[k] + offset.Offset; }
+                        for (int k = 0; k < times.Length; k++)
+                        {
+                            times[k] = offset.Scale * samples.Times[k] + offset.Offset;
+                        }
                         return new TimeSamples(times, samples.Values);
                     }
                     if (specs[i].Default != null) { return null; }
@@ -155,7 +160,10 @@ namespace Garage.Usd
             return null;
         }
 
-        /// <summary>The identifier of the asset that the value names, for UsdStage.Read; null with the reason where there is none.</summary>
+        /// <summary>
+        /// The identifier of the asset that the value names, for UsdStage.Read; null with the reason where there is
+        /// none.
+        /// </summary>
         public string ResolvedAsset(out string reason)
         {
             int place;

@@ -29,7 +29,9 @@ namespace Garage.Usd
         }
     }
 
-    /// <summary>A reference or payload: Asset is empty for one into the same layer stack, Path for the default prim.</summary>
+    /// <summary>
+    /// A reference or payload: Asset is empty for one into the same layer stack, Path for the default prim.
+    /// </summary>
     public sealed class ReferenceArc : IEquatable<ReferenceArc>
     {
         public readonly string Asset;

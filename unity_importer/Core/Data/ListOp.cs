@@ -53,7 +53,9 @@ namespace Garage.Usd
             if (Ordered != null && Ordered.Count > 0) { Reorder(list, Ordered); }
         }
 
-        /// <summary>Puts the named items in the named order; each takes along the unnamed ones that follow it.</summary>
+        /// <summary>
+        /// Puts the named items in the named order; each takes along the unnamed ones that follow it.
+        /// </summary>
         public static void Reorder(List<T> list, List<T> order)
         {
             var named = new Dictionary<T, int>();

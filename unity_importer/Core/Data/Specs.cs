@@ -2,7 +2,9 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>Fields with names that this reader does not need to know: a few of them, in the order of the file.</summary>
+    /// <summary>
+    /// Fields with names that this reader does not need to know: a few of them, in the order of the file.
+    /// </summary>
     public sealed class FieldList
     {
         public readonly List<KeyValuePair<string, object>> Fields = new List<KeyValuePair<string, object>>(2);
@@ -156,7 +158,10 @@ namespace Garage.Usd
             return true;
         }
 
-        /// <summary>The property with this name as one that no other prim shares, so that it can be changed; null where there is none.</summary>
+        /// <summary>
+        /// The property with this name as one that no other prim shares, so that it can be changed; null where there is
+        /// none.
+        /// </summary>
         public PropertySpec OwnProperty(string name)
         {
             PropertySpec property = Properties.Find(name);

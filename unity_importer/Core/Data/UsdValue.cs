@@ -15,7 +15,9 @@ namespace Garage.Usd
         public readonly UsdType Type;
         public readonly bool IsArray;
 
-        /// <summary>byte[], int[], uint[], long[], ulong[], float[], double[] or string[], as UsdTypes.StorageOf says.</summary>
+        /// <summary>
+        /// byte[], int[], uint[], long[], ulong[], float[], double[] or string[], as UsdTypes.StorageOf says.
+        /// </summary>
         public readonly Array Data;
 
         public UsdValue(UsdType type, bool isArray, Array data)
@@ -84,7 +86,9 @@ namespace Garage.Usd
             return converted;
         }
 
-        /// <summary>All numbers as int, the stored array itself where it is one; empty for strings and what no int holds.</summary>
+        /// <summary>
+        /// All numbers as int, the stored array itself where it is one; empty for strings and what no int holds.
+        /// </summary>
         public int[] Ints()
         {
             var ints = Data as int[];

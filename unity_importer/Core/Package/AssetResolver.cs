@@ -8,8 +8,8 @@ namespace Garage.Usd
     public interface IAssetResolver
     {
         /// <summary>
-        /// The identifier of an asset as the layer with the identifier anchor names it; null, with the reason, where there is no
-        /// such file or it may not be read.
+        /// The identifier of an asset as the layer with the identifier anchor names it; null, with the reason, where
+        /// there is no such file or it may not be read.
         /// </summary>
         string Resolve(string anchor, string asset, out string reason);
 
@@ -17,13 +17,21 @@ namespace Garage.Usd
         byte[] Read(string identifier);
     }
 
-    /// <summary>Asset paths and the identifiers that come of them: "folder/a.usda", "folder/b.usdz[textures/c.png]".</summary>
+    /// <summary>
+    /// Asset paths and the identifiers that come of them: "folder/a.usda", "folder/b.usdz[textures/c.png]".
+    /// </summary>
     public static class AssetPaths
     {
-        /// <summary>A path relative to a folder, in the plain form without "." and ".."; null where it leads out of it.</summary>
+        /// <summary>
+        /// A path relative to a folder, in the plain form without "." and ".."; null where it leads out of it.
+        /// </summary>
         public static string Normal(string folder, string path)
         {
-            if (path.Length == 0 || path[0] == '/' || path.IndexOf('\\') >= 0 || path.IndexOf(':') >= 0 || path.IndexOf('\0') >= 0) { return null; }
+            if (path.Length == 0 || path[0] == '/' || path.IndexOf('\\') >= 0 || path.IndexOf(':') >= 0
+                || path.IndexOf('\0') >= 0)
+            {
+                return null;
+            }
             var parts = new List<string>();
             foreach (string part in (folder + "/" + path).Split('/'))
             {
@@ -61,8 +69,8 @@ namespace Garage.Usd
     }
 
     /// <summary>
-    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused. Identifiers
-    /// are relative to the folder.
+    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused.
+    /// Identifiers are relative to the folder.
     /// </summary>
     public sealed class FolderResolver : IAssetResolver
     {
@@ -89,7 +97,8 @@ namespace Garage.Usd
             string normal = AssetPaths.Normal(AssetPaths.Folder(anchorEntry ?? anchorFile), file);
             if (normal == null)
             {
-                reason = "is not a relative path within " + (anchorEntry != null ? "the package" : "the folder of the stage");
+                reason = "is not a relative path within " + (anchorEntry != null ? "the package"
+                    : "the folder of the stage");
                 return null;
             }
             if (anchorEntry != null)
@@ -133,7 +142,10 @@ namespace Garage.Usd
             }
             catch (Exception failure)
             {
-                if (failure is IOException || failure is UnauthorizedAccessException) { throw new UsdFormatException(file, "file", failure.Message); }
+                if (failure is IOException || failure is UnauthorizedAccessException)
+                {
+                    throw new UsdFormatException(file, "file", failure.Message);
+                }
                 throw;
             }
         }

@@ -56,10 +56,14 @@ namespace Garage.Usd
         // UsdPreviewSurface's own values for what is not given
         static readonly Dictionary<string, float[]> Fallbacks = new Dictionary<string, float[]>
         {
-            { "diffuseColor", new[] { 0.18f, 0.18f, 0.18f } }, { "emissiveColor", new float[3] }, { "useSpecularWorkflow", new float[1] },
-            { "specularColor", new float[3] }, { "metallic", new float[1] }, { "roughness", new[] { 0.5f } }, { "clearcoat", new float[1] },
-            { "clearcoatRoughness", new[] { 0.01f } }, { "opacity", new[] { 1f } }, { "opacityThreshold", new float[1] },
-            { "ior", new[] { 1.5f } }, { "normal", new[] { 0f, 0f, 1f } }, { "displacement", new float[1] }, { "occlusion", new[] { 1f } },
+            { "diffuseColor", new[] { 0.18f, 0.18f, 0.18f } }, { "emissiveColor", new float[3] },
+            { "useSpecularWorkflow", new float[1] },
+            { "specularColor", new float[3] }, { "metallic", new float[1] }, { "roughness", new[] { 0.5f } },
+            { "clearcoat", new float[1] },
+            { "clearcoatRoughness", new[] { 0.01f } }, { "opacity", new[] { 1f } },
+            { "opacityThreshold", new float[1] },
+            { "ior", new[] { 1.5f } }, { "normal", new[] { 0f, 0f, 1f } }, { "displacement", new float[1] },
+            { "occlusion", new[] { 1f } },
         };
 
         /// <summary>The constant of an input, or UsdPreviewSurface's fallback.</summary>
@@ -94,7 +98,10 @@ namespace Garage.Usd
             var data = new MaterialData { Path = material.Path, Inputs = new Dictionary<string, MaterialInput>() };
             foreach (string name in shader.PropertyNames)
             {
-                if (name.StartsWith("inputs:", StringComparison.Ordinal)) { data.Inputs[name.Substring(7)] = Input(stage, shader, name); }
+                if (name.StartsWith("inputs:", StringComparison.Ordinal))
+                {
+                    data.Inputs[name.Substring(7)] = Input(stage, shader, name);
+                }
             }
             return data;
         }
@@ -139,7 +146,10 @@ namespace Garage.Usd
             if (shader == null) { return input; }
             string id = shader.Text("info:id", "");
             if (id == "UsdUVTexture") { input.Texture = TextureOf(stage, shader, output.Substring(8)); }
-            else if (id.StartsWith("UsdPrimvarReader", StringComparison.Ordinal)) { input.Primvar = TextOf(stage, shader, "inputs:varname", null); }
+            else if (id.StartsWith("UsdPrimvarReader", StringComparison.Ordinal))
+            {
+                input.Primvar = TextOf(stage, shader, "inputs:varname", null);
+            }
             return input;
         }
 
@@ -165,9 +175,11 @@ namespace Garage.Usd
         {
             var data = new TextureData
             {
-                Channel = channel, WrapS = TextOf(stage, texture, "inputs:wrapS", "useMetadata"), WrapT = TextOf(stage, texture, "inputs:wrapT", "useMetadata"),
+                Channel = channel, WrapS = TextOf(stage, texture, "inputs:wrapS", "useMetadata"),
+                WrapT = TextOf(stage, texture, "inputs:wrapT", "useMetadata"),
                 SourceColorSpace = TextOf(stage, texture, "inputs:sourceColorSpace", "auto"),
-                Scale = FloatsOf(stage, texture, "inputs:scale", new[] { 1f, 1, 1, 1 }), Bias = FloatsOf(stage, texture, "inputs:bias", new float[4]),
+                Scale = FloatsOf(stage, texture, "inputs:scale", new[] { 1f, 1, 1, 1 }),
+                Bias = FloatsOf(stage, texture, "inputs:bias", new float[4]),
                 Fallback = FloatsOf(stage, texture, "inputs:fallback", new[] { 0f, 0, 0, 1 }),
             };
             UsdPrim shader;
@@ -178,7 +190,10 @@ namespace Garage.Usd
                 string reason;
                 data.AssetPath = file.Value.Text;
                 data.Identifier = file.ResolvedAsset(out reason);
-                if (data.Identifier == null) { stage.Composer.Library.Warn("<" + texture.Path + ">: @" + data.AssetPath + "@ " + reason); }
+                if (data.Identifier == null)
+                {
+                    stage.Composer.Library.Warn("<" + texture.Path + ">: @" + data.AssetPath + "@ " + reason);
+                }
             }
             UsdPrim reader;
             Source(stage, texture, "inputs:st", out reader, out output);

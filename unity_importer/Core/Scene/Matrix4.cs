@@ -2,7 +2,9 @@ using System;
 
 namespace Garage.Usd
 {
-    /// <summary>4x4 matrices as USD has them: 16 numbers, row by row, translation in the last row, a point times the matrix.</summary>
+    /// <summary>
+    /// 4x4 matrices as USD has them: 16 numbers, row by row, translation in the last row, a point times the matrix.
+    /// </summary>
     public static class Matrix4
     {
         public static double[] Identity()
@@ -33,7 +35,10 @@ namespace Garage.Usd
             return matrix;
         }
 
-        /// <summary>The rotation of a quaternion: about (x, y, z), whatever its length, by the angle of whose half w is the cosine.</summary>
+        /// <summary>
+        /// The rotation of a quaternion: about (x, y, z), whatever its length, by the angle of whose half w is the
+        /// cosine.
+        /// </summary>
         public static double[] Quaternion(double w, double x, double y, double z)
         {
             double length = Math.Sqrt(x * x + y * y + z * z);
@@ -168,7 +173,8 @@ namespace Garage.Usd
         /// <summary>B M B^-1, translation in metres.</summary>
         public double[] Matrix(double[] matrix)
         {
-            var basis = isZUp ? new double[] { 1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1 } : Matrix4.Scaling(1, 1, -1);
+            var basis = isZUp ? new double[] { 1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1 }
+                : Matrix4.Scaling(1, 1, -1);
             // both bases are their own inverses
             double[] turned = Matrix4.Multiply(Matrix4.Multiply(basis, matrix), basis);
             for (int i = 12; i < 15; i++) { turned[i] *= MetersPerUnit; }

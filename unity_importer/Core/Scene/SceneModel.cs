@@ -3,7 +3,9 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>A prim as a scene shows it. Nodes of a prototype are there once, however many instances share them.</summary>
+    /// <summary>
+    /// A prim as a scene shows it. Nodes of a prototype are there once, however many instances share them.
+    /// </summary>
     public sealed class SceneNode
     {
         static readonly List<SceneNode> None = new List<SceneNode>();
@@ -94,7 +96,9 @@ namespace Garage.Usd
         /// <summary>Prims that the scene shows, at all places of all instances.</summary>
         public long ShownCount { get; private set; }
 
-        /// <summary>Throws UsdFormatException where instances within instances stand for more prims than anything can show.</summary>
+        /// <summary>
+        /// Throws UsdFormatException where instances within instances stand for more prims than anything can show.
+        /// </summary>
         public SceneModel(UsdStage stage)
         {
             Stage = stage;
@@ -118,7 +122,8 @@ namespace Garage.Usd
                 count += below;
                 if (count > MostShown)
                 {
-                    throw new UsdFormatException(Stage.Identifier, "<" + node.Prim.Path + ">", "instances stand for more than " + MostShown + " prims");
+                    throw new UsdFormatException(Stage.Identifier, "<" + node.Prim.Path + ">",
+                        "instances stand for more than " + MostShown + " prims");
                 }
             }
             return count;
@@ -150,7 +155,9 @@ namespace Garage.Usd
             return shared;
         }
 
-        /// <summary>A node for the prim at a path, such as a prototype of a PointInstancer; null where there is none.</summary>
+        /// <summary>
+        /// A node for the prim at a path, such as a prototype of a PointInstancer; null where there is none.
+        /// </summary>
         public SceneNode NodeAt(string path)
         {
             UsdPrim prim = Stage.PrimAt(path);

@@ -52,11 +52,16 @@ namespace Garage.Usd
             return new LightData
             {
                 Kind = kind, Color = color == null || color.Data.Length < 3 ? new[] { 1f, 1, 1 } : color.Floats(),
-                Intensity = prim.Number("inputs:intensity", kind == LightKind.Distant ? 50000 : 1), Exposure = prim.Number("inputs:exposure", 0),
-                IsNormalized = prim.Truth("inputs:normalize", false), Width = prim.Number("inputs:width", 1), Height = prim.Number("inputs:height", 1),
-                Radius = prim.Number("inputs:radius", 0.5), Length = prim.Number("inputs:length", 1), AngleDegrees = prim.Number("inputs:angle", 0.53),
-                ConeAngleDegrees = prim.Number("inputs:shaping:cone:angle", 90), ConeSoftness = prim.Number("inputs:shaping:cone:softness", 0),
-                ColorTemperature = prim.Truth("inputs:enableColorTemperature", false) ? prim.Number("inputs:colorTemperature", 6500) : 0,
+                Intensity = prim.Number("inputs:intensity", kind == LightKind.Distant ? 50000 : 1),
+                Exposure = prim.Number("inputs:exposure", 0),
+                IsNormalized = prim.Truth("inputs:normalize", false), Width = prim.Number("inputs:width", 1),
+                Height = prim.Number("inputs:height", 1),
+                Radius = prim.Number("inputs:radius", 0.5), Length = prim.Number("inputs:length", 1),
+                AngleDegrees = prim.Number("inputs:angle", 0.53),
+                ConeAngleDegrees = prim.Number("inputs:shaping:cone:angle", 90),
+                ConeSoftness = prim.Number("inputs:shaping:cone:softness", 0),
+                ColorTemperature = prim.Truth("inputs:enableColorTemperature", false)
+                    ? prim.Number("inputs:colorTemperature", 6500) : 0,
             };
         }
 
@@ -103,7 +108,8 @@ namespace Garage.Usd
         /// <summary>All lumens of a light with an area.</summary>
         public double Lumen(double metersPerUnit)
         {
-            return Kind == LightKind.Distant || Kind == LightKind.Dome ? 0 : Math.PI * Luminance(metersPerUnit) * Area(metersPerUnit);
+            return Kind == LightKind.Distant || Kind == LightKind.Dome ? 0
+                : Math.PI * Luminance(metersPerUnit) * Area(metersPerUnit);
         }
 
         /// <summary>Lux on a surface that faces a distant light.</summary>
@@ -117,7 +123,9 @@ namespace Garage.Usd
         }
     }
 
-    /// <summary>A camera that looks along -Z. Lengths of lens and film are tenths of a unit of the stage, as in USD.</summary>
+    /// <summary>
+    /// A camera that looks along -Z. Lengths of lens and film are tenths of a unit of the stage, as in USD.
+    /// </summary>
     public sealed class CameraData
     {
         public bool IsOrthographic { get; private set; }
@@ -139,8 +147,10 @@ namespace Garage.Usd
             double[] clip = range == null || range.Data.Length < 2 ? new double[] { 1, 1000000 } : range.Doubles();
             return new CameraData
             {
-                IsOrthographic = prim.Text("projection", "perspective") == "orthographic", FocalLength = prim.Number("focalLength", 50),
-                HorizontalAperture = prim.Number("horizontalAperture", 20.955), VerticalAperture = prim.Number("verticalAperture", 15.2908),
+                IsOrthographic = prim.Text("projection", "perspective") == "orthographic",
+                FocalLength = prim.Number("focalLength", 50),
+                HorizontalAperture = prim.Number("horizontalAperture", 20.955),
+                VerticalAperture = prim.Number("verticalAperture", 15.2908),
                 Near = clip[0], Far = clip[1],
             };
         }
@@ -172,8 +182,10 @@ namespace Garage.Usd
             string axis = prim.Text("axis", "Z");
             return new ShapeData
             {
-                Kind = prim.TypeName, Size = prim.Number("size", 2), Radius = prim.Number("radius", prim.TypeName == "Capsule" ? 0.5 : 1),
-                Height = prim.Number("height", prim.TypeName == "Capsule" ? 1 : 2), Width = prim.Number("width", 2), Length = prim.Number("length", 2),
+                Kind = prim.TypeName, Size = prim.Number("size", 2),
+                Radius = prim.Number("radius", prim.TypeName == "Capsule" ? 0.5 : 1),
+                Height = prim.Number("height", prim.TypeName == "Capsule" ? 1 : 2), Width = prim.Number("width", 2),
+                Length = prim.Number("length", 2),
                 Axis = axis == "X" ? 'X' : axis == "Y" ? 'Y' : 'Z',
             };
         }
@@ -184,13 +196,19 @@ namespace Garage.Usd
     {
         public bool IsEnabled { get; private set; }
 
-        /// <summary>"none", "convexHull", "convexDecomposition", "boundingCube", "boundingSphere", "meshSimplification".</summary>
+        /// <summary>
+        /// "none", "convexHull", "convexDecomposition", "boundingCube", "boundingSphere", "meshSimplification".
+        /// </summary>
         public string Approximation { get; private set; }
 
         public static ColliderData Of(UsdPrim prim)
         {
             if (!prim.HasApi("PhysicsCollisionAPI")) { return null; }
-            return new ColliderData { IsEnabled = prim.Truth("physics:collisionEnabled", true), Approximation = prim.Text("physics:approximation", "none") };
+            return new ColliderData
+            {
+                IsEnabled = prim.Truth("physics:collisionEnabled", true),
+                Approximation = prim.Text("physics:approximation", "none"),
+            };
         }
     }
 
@@ -207,7 +225,8 @@ namespace Garage.Usd
             if (prim == null || !prim.HasApi("PhysicsMaterialAPI")) { return null; }
             return new PhysicsMaterialData
             {
-                StaticFriction = prim.Number("physics:staticFriction", 0), DynamicFriction = prim.Number("physics:dynamicFriction", 0),
+                StaticFriction = prim.Number("physics:staticFriction", 0),
+                DynamicFriction = prim.Number("physics:dynamicFriction", 0),
                 Restitution = prim.Number("physics:restitution", 0), Density = prim.Number("physics:density", 0),
             };
         }
@@ -229,7 +248,8 @@ namespace Garage.Usd
         public static CurvesData Of(UsdPrim prim)
         {
             if (prim.TypeName != "BasisCurves") { return null; }
-            UsdValue counts = prim.Value("curveVertexCounts"), points = prim.Value("points"), widths = prim.Value("widths");
+            UsdValue counts = prim.Value("curveVertexCounts"), points = prim.Value("points"),
+                widths = prim.Value("widths");
             if (counts == null || points == null) { return null; }
             long total = 0;
             foreach (int count in counts.Ints())
@@ -240,8 +260,10 @@ namespace Garage.Usd
             if (total * 3 != points.Data.Length) { return null; }
             return new CurvesData
             {
-                IsLinear = prim.Text("type", "cubic") == "linear", Basis = prim.Text("basis", "bezier"), Wrap = prim.Text("wrap", "nonperiodic"),
-                VertexCounts = counts.Ints(), Points = points.Floats(), Widths = widths == null ? new float[0] : widths.Floats(),
+                IsLinear = prim.Text("type", "cubic") == "linear", Basis = prim.Text("basis", "bezier"),
+                Wrap = prim.Text("wrap", "nonperiodic"),
+                VertexCounts = counts.Ints(), Points = points.Floats(),
+                Widths = widths == null ? new float[0] : widths.Floats(),
             };
         }
     }
@@ -252,7 +274,9 @@ namespace Garage.Usd
         /// <summary>Paths of the prototypes.</summary>
         public IList<string> Prototypes { get; private set; }
 
-        /// <summary>Of each visible instance: the number in the arrays, that of its prototype, and its matrix.</summary>
+        /// <summary>
+        /// Of each visible instance: the number in the arrays, that of its prototype, and its matrix.
+        /// </summary>
         public int[] Numbers { get; private set; }
 
         public int[] PrototypeOf { get; private set; }
@@ -260,13 +284,15 @@ namespace Garage.Usd
 
         public static PointInstancerData Of(UsdPrim prim)
         {
-            UsdValue which = prim.TypeName != "PointInstancer" ? null : prim.Value("protoIndices"), where = which == null ? null : prim.Value("positions");
+            UsdValue which = prim.TypeName != "PointInstancer" ? null : prim.Value("protoIndices"),
+                where = which == null ? null : prim.Value("positions");
             if (where == null) { return null; }
             int[] kinds = which.Ints();
             float[] positions = where.Floats();
             IList<string> prototypes = prim.Targets("prototypes");
             if (positions.Length < 3 * kinds.Length) { return null; }
-            UsdValue turns = prim.Value("orientationsf") ?? prim.Value("orientations"), sizes = prim.Value("scales"), names = prim.Value("ids");
+            UsdValue turns = prim.Value("orientationsf") ?? prim.Value("orientations"), sizes = prim.Value("scales"),
+                names = prim.Value("ids");
             float[] orientations = turns == null || turns.Data.Length < 4 * kinds.Length ? null : turns.Floats();
             float[] scales = sizes == null || sizes.Data.Length < 3 * kinds.Length ? null : sizes.Floats();
             HashSet<long> hidden = Hidden(prim);
@@ -276,18 +302,27 @@ namespace Garage.Usd
             var matrices = new List<double[]>();
             for (int i = 0; i < kinds.Length; i++)
             {
-                if ((uint)kinds[i] >= (uint)prototypes.Count || hidden.Contains(ids == null ? i : (long)ids[i])) { continue; }
-                double[] matrix = scales == null ? Matrix4.Identity() : Matrix4.Scaling(scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]);
+                if ((uint)kinds[i] >= (uint)prototypes.Count || hidden.Contains(ids == null ? i : (long)ids[i]))
+                {
+                    continue;
+                }
+                double[] matrix = scales == null ? Matrix4.Identity()
+                    : Matrix4.Scaling(scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]);
                 if (orientations != null)
                 {
-                    matrix = Matrix4.Multiply(matrix, Matrix4.Quaternion(orientations[4 * i], orientations[4 * i + 1], orientations[4 * i + 2], orientations[4 * i + 3]));
+                    matrix = Matrix4.Multiply(matrix, Matrix4.Quaternion(orientations[4 * i], orientations[4 * i + 1],
+                        orientations[4 * i + 2], orientations[4 * i + 3]));
                 }
                 for (int k = 0; k < 3; k++) { matrix[12 + k] = positions[3 * i + k]; }
                 numbers.Add(i);
                 prototypeOf.Add(kinds[i]);
                 matrices.Add(matrix);
             }
-            return new PointInstancerData { Prototypes = prototypes, Numbers = numbers.ToArray(), PrototypeOf = prototypeOf.ToArray(), Matrices = matrices.ToArray() };
+            return new PointInstancerData
+            {
+                Prototypes = prototypes, Numbers = numbers.ToArray(), PrototypeOf = prototypeOf.ToArray(),
+                Matrices = matrices.ToArray(),
+            };
         }
 
         static HashSet<long> Hidden(UsdPrim prim)

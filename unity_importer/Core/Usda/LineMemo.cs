@@ -2,7 +2,9 @@ using System;
 
 namespace Garage.Usd
 {
-    /// <summary>What whole lines of a text were read as, so that equal lines are read once and share what they say.</summary>
+    /// <summary>
+    /// What whole lines of a text were read as, so that equal lines are read once and share what they say.
+    /// </summary>
     sealed class LineMemo
     {
         const int Longest = 256;
@@ -46,8 +48,8 @@ namespace Garage.Usd
         }
 
         /// <summary>
-        /// Keeps what the line was read as that Find looked for last, if it began and ended at these places and does not depend on
-        /// where it stands.
+        /// Keeps what the line was read as that Find looked for last, if it began and ended at these places and does
+        /// not depend on where it stands.
         /// </summary>
         public void Keep(int start, int stop, object value)
         {

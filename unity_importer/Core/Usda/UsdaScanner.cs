@@ -25,7 +25,8 @@ namespace Garage.Usd
         {
             for (int i = 0; i < 256; i++)
             {
-                InName[i] = (i >= 'a' && i <= 'z') || (i >= 'A' && i <= 'Z') || (i >= '0' && i <= '9') || i == '_' || i >= 128;
+                InName[i] = (i >= 'a' && i <= 'z') || (i >= 'A' && i <= 'Z') || (i >= '0' && i <= '9') || i == '_'
+                    || i >= 128;
                 InNamespacedName[i] = InName[i] || i == ':';
             }
         }
@@ -60,7 +61,8 @@ namespace Garage.Usd
 
         protected UsdFormatException Unexpected(string wanted)
         {
-            string found = at >= end ? "the end of the file" : "'" + Encoding.UTF8.GetString(text, at, Math.Min(20, end - at)) + "'";
+            string found = at >= end ? "the end of the file"
+                : "'" + Encoding.UTF8.GetString(text, at, Math.Min(20, end - at)) + "'";
             return Error("expected " + wanted + ", found " + found);
         }
 
@@ -257,7 +259,8 @@ namespace Garage.Usd
                             break;
                         }
                         int octal = letter - '0';
-                        for (int digits = 1; digits < 3 && i + 1 < stop && text[i + 1] >= '0' && text[i + 1] <= '7'; digits++)
+                        for (int digits = 1; digits < 3 && i + 1 < stop && text[i + 1] >= '0'
+                            && text[i + 1] <= '7'; digits++)
                         {
                             octal = octal * 8 + (text[++i] - '0');
                         }
@@ -375,7 +378,10 @@ namespace Garage.Usd
                 if ((uint)(s[digit] - '0') <= 9)
                 {
                     int power = 0;
-                    for (i = digit; (uint)(s[i] - '0') <= 9; i++) { power = Math.Min(power * 10 + (s[i] - '0'), 100000); }
+                    for (i = digit; (uint)(s[i] - '0') <= 9; i++)
+                    {
+                        power = Math.Min(power * 10 + (s[i] - '0'), 100000);
+                    }
                     exponent += sign * power;
                 }
             }
@@ -389,7 +395,10 @@ namespace Garage.Usd
         {
             int before = at;
             Skip();
-            if (at != before && (text[at] == '-' || text[at] == '.' || (text[at] >= '0' && text[at] <= '9'))) { return Number(); }
+            if (at != before && (text[at] == '-' || text[at] == '.' || (text[at] >= '0' && text[at] <= '9')))
+            {
+                return Number();
+            }
             bool negative = text[at] == '-';
             int start = at;
             if (negative) { at++; }
@@ -416,7 +425,10 @@ namespace Garage.Usd
                 i++;
             }
             byte letter = s[i];
-            if (i == start || letter == '.' || (letter | 32) == 'e' || (uint)(letter - '0') <= 9) { return LongInteger(least, most); }
+            if (i == start || letter == '.' || (letter | 32) == 'e' || (uint)(letter - '0') <= 9)
+            {
+                return LongInteger(least, most);
+            }
             at = i;
             number = negative ? -number : number;
             if (number < least || number > most) { throw Error(number + " is not between " + least + " and " + most); }
@@ -448,7 +460,8 @@ namespace Garage.Usd
             int start = at, stop = at;
             while ((uint)(text[stop] - '0') <= 9) { stop++; }
             ulong exact;
-            if (stop == start || stop - start > 20 || !ulong.TryParse(Encoding.ASCII.GetString(text, start, stop - start), out exact))
+            if (stop == start || stop - start > 20
+                || !ulong.TryParse(Encoding.ASCII.GetString(text, start, stop - start), out exact))
             {
                 throw Unexpected("a whole number from 0 to " + ulong.MaxValue);
             }

@@ -10,8 +10,9 @@ namespace Garage.Usd.Dump
     /// <summary>
     /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
     /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time SECONDS FILE...</c> how
-    /// long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c> takes a quaternion and its
-    /// vector to the axes of Unity; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
+    /// long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
+    /// takes a quaternion and its vector to the axes of Unity; <c>batch</c> takes such commands from lines of the
+    /// standard input, parts separated by tabs.
     /// </summary>
     static class Program
     {
@@ -51,7 +52,8 @@ namespace Garage.Usd.Dump
                     case "stage": return StageDump.Of(UsdStage.Open(command[1]));
                     case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
                     case "fuzz": return Survival(command[1]);
-                    case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]), Number(command[4]), Number(command[5]));
+                    case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]),
+                        Number(command[4]), Number(command[5]));
                     case "time": return Time(Number(command[1]), Rest(command, 2));
                     default: return "{\"error\":\"unknown command\"}";
                 }
@@ -140,7 +142,10 @@ namespace Garage.Usd.Dump
             json.Close(']');
         }
 
-        /// <summary>Processor seconds that reading all files takes, in rounds until the given seconds are over; the first is not counted.</summary>
+        /// <summary>
+        /// Processor seconds that reading all files takes, in rounds until the given seconds are over; the first is not
+        /// counted.
+        /// </summary>
         static string Time(double seconds, string[] paths)
         {
             var files = new List<byte[]>();
