@@ -18,6 +18,7 @@ from pathlib import Path
 from planning import planning
 from scale import scale
 from stage import stages
+from unity import unity
 
 import garage2usd
 
@@ -28,7 +29,7 @@ PYTHON_EPISODES = 40
 
 def main() -> None:
     """Run everything and write the table."""
-    sections = [_heading(), _building(), planning(), scale(), stages(), _compiled()]
+    sections = [_heading(), _building(), planning(), scale(), stages(), unity(), _compiled()]
     (HERE / "results.md").write_text("\n\n".join(sections) + "\n")
 
 
