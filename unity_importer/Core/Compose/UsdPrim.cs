@@ -57,13 +57,16 @@ namespace Garage.Usd
         string[] propertyNames;
         List<string> apiSchemas;
 
+        /// <summary>The stage that it belongs to.</summary>
         public UsdStage Stage { get; private set; }
 
         /// <summary>Null for the root and for prototypes.</summary>
         public UsdPrim Parent { get; private set; }
 
+        /// <summary>Of the stage: "/A/B"; below "/__Prototype_1" for what instances share.</summary>
         public string Path { get; private set; }
 
+        /// <summary>Whether anything defines the prim.</summary>
         public Specifier Specifier { get; private set; }
 
         /// <summary>"Mesh" and the like; empty where none is given.</summary>
@@ -123,11 +126,13 @@ namespace Garage.Usd
             get { return index == null ? Path : index.Path; }
         }
 
+        /// <summary>The last element of the path.</summary>
         public string Name
         {
             get { return UsdPaths.Name(Path); }
         }
 
+        /// <summary>Whether the prim is there at all.</summary>
         public bool IsActive
         {
             get
@@ -158,6 +163,7 @@ namespace Garage.Usd
             get { return Specifier == Specifier.Class || (Parent != null && Parent.IsAbstract); }
         }
 
+        /// <summary>Whether the children are those of Prototype.</summary>
         public bool IsInstance
         {
             get { return Prototype != null; }
@@ -184,6 +190,7 @@ namespace Garage.Usd
             }
         }
 
+        /// <summary>Whether a schema is applied.</summary>
         public bool HasApi(string schema)
         {
             return ApiSchemas.Contains(schema);
@@ -341,6 +348,7 @@ namespace Garage.Usd
             index = null;
         }
 
+        /// <summary>The active child with this name, or null.</summary>
         public UsdPrim Child(string name)
         {
             IList<UsdPrim> all = Children;
@@ -422,18 +430,21 @@ namespace Garage.Usd
             return property == null ? null : property.Value;
         }
 
+        /// <summary>The first string of an attribute, or the given one.</summary>
         public string Text(string name, string otherwise)
         {
             UsdValue value = Value(name);
             return value == null ? otherwise : value.Text ?? otherwise;
         }
 
+        /// <summary>The first number of an attribute, or the given one.</summary>
         public double Number(string name, double otherwise)
         {
             UsdValue value = Value(name);
             return value == null ? otherwise : value.Number(otherwise);
         }
 
+        /// <summary>Whether the first number of an attribute is not 0, or the given answer.</summary>
         public bool Truth(string name, bool otherwise)
         {
             UsdValue value = Value(name);

@@ -8,6 +8,7 @@ namespace Garage.Usd
         readonly PropertySpec[] specs;
         readonly Opinion[] places;
 
+        /// <summary>The prim that it belongs to.</summary>
         public UsdPrim Prim { get; private set; }
 
         internal UsdProperty(UsdPrim prim, PropertySpec[] specs, Opinion[] places)
@@ -17,11 +18,13 @@ namespace Garage.Usd
             this.places = places;
         }
 
+        /// <summary>With namespaces: "primvars:st".</summary>
         public string Name
         {
             get { return specs[0].Name; }
         }
 
+        /// <summary>Otherwise it is an attribute.</summary>
         public bool IsRelationship
         {
             get { return specs[0].IsRelationship; }
@@ -150,6 +153,7 @@ namespace Garage.Usd
             return value == null ? null : value.Text;
         }
 
+        /// <summary>A field of the strongest layer that has it: a UsdValue, a UsdDictionary, or null.</summary>
         public object Metadata(string name)
         {
             foreach (PropertySpec spec in specs)

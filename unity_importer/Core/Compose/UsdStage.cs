@@ -71,6 +71,7 @@ namespace Garage.Usd
             get { return Composer.Library.Warnings; }
         }
 
+        /// <summary>Metres of one unit; 0.01 where the root layer does not say, or says no length.</summary>
         public double MetersPerUnit
         {
             get
@@ -86,6 +87,7 @@ namespace Garage.Usd
             get { return rootLayer.Text("upAxis") == "Z"; }
         }
 
+        /// <summary>Of the root layer; 24 where it does not say.</summary>
         public double TimeCodesPerSecond
         {
             get { return rootLayer.TimeCodesPerSecond; }
@@ -97,6 +99,7 @@ namespace Garage.Usd
             get { return prototypeList; }
         }
 
+        /// <summary>What references to the stage mean by default, or null.</summary>
         public UsdPrim DefaultPrim
         {
             get

@@ -3,6 +3,9 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
+    /// <summary>
+    /// Whether a spec defines a prim, says something of one that others define, or is only there to be inherited.
+    /// </summary>
     public enum Specifier : byte
     {
         Def, Over, Class,
@@ -11,11 +14,16 @@ namespace Garage.Usd
     /// <summary>time in the outer layer = Scale * time in the inner layer + Offset.</summary>
     public struct LayerOffset
     {
+        /// <summary>The same time in both.</summary>
         public static readonly LayerOffset Identity = new LayerOffset(0, 1);
 
+        /// <summary>In time codes of the outer layer.</summary>
         public readonly double Offset;
+
+        /// <summary>Time codes of the outer layer in one of the inner.</summary>
         public readonly double Scale;
 
+        /// <summary>Of these numbers.</summary>
         public LayerOffset(double offset, double scale)
         {
             Offset = offset;
@@ -34,10 +42,16 @@ namespace Garage.Usd
     /// </summary>
     public sealed class ReferenceArc : IEquatable<ReferenceArc>
     {
+        /// <summary>As the layer names it.</summary>
         public readonly string Asset;
+
+        /// <summary>Of the prim that is referred to.</summary>
         public readonly string Path;
+
+        /// <summary>Of the time of what is referred to.</summary>
         public readonly LayerOffset Offset;
 
+        /// <summary>To a prim of an asset.</summary>
         public ReferenceArc(string asset, string path, LayerOffset offset)
         {
             Asset = asset;
@@ -45,17 +59,20 @@ namespace Garage.Usd
             Offset = offset;
         }
 
+        /// <summary>Whether both say the same.</summary>
         public bool Equals(ReferenceArc other)
         {
             return other != null && Asset == other.Asset && Path == other.Path && Offset.Offset == other.Offset.Offset
                 && Offset.Scale == other.Offset.Scale;
         }
 
+        /// <summary>Whether both say the same.</summary>
         public override bool Equals(object other)
         {
             return Equals(other as ReferenceArc);
         }
 
+        /// <summary>Equal for arcs that say the same.</summary>
         public override int GetHashCode()
         {
             return Asset.GetHashCode() * 31 + Path.GetHashCode();
@@ -65,9 +82,13 @@ namespace Garage.Usd
     /// <summary>A sublayer as a layer names it.</summary>
     public struct SubLayer
     {
+        /// <summary>As the layer names it.</summary>
         public readonly string Asset;
+
+        /// <summary>Of the time of the sublayer.</summary>
         public readonly LayerOffset Offset;
 
+        /// <summary>Of an asset.</summary>
         public SubLayer(string asset, LayerOffset offset)
         {
             Asset = asset;
@@ -84,11 +105,13 @@ namespace Garage.Usd
         /// <summary>The prim whose children are the root prims and whose metadata is the layer's.</summary>
         public readonly PrimSpec Root = new PrimSpec("");
 
+        /// <summary>The strongest first.</summary>
         public readonly List<SubLayer> SubLayers = new List<SubLayer>();
 
         /// <summary>Specs of prims, variants included.</summary>
         public int SpecCount;
 
+        /// <summary>An empty layer.</summary>
         public Layer(string identifier)
         {
             Identifier = identifier;
@@ -108,6 +131,7 @@ namespace Garage.Usd
             return value == null ? otherwise : value.Number(otherwise);
         }
 
+        /// <summary>Of the layer itself; 24 where it does not say.</summary>
         public double TimeCodesPerSecond
         {
             get

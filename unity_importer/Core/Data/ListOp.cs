@@ -5,14 +5,19 @@ namespace Garage.Usd
     /// <summary>An edit of a list, or a whole list (Explicit).</summary>
     public sealed class ListOp<T>
     {
+        /// <summary>Whether Explicit takes the place of whatever weaker opinions say.</summary>
         public bool IsExplicit;
+
+        /// <summary>Null where this says nothing of the kind.</summary>
         public List<T> Explicit, Added, Prepended, Appended, Deleted, Ordered;
 
+        /// <summary>A whole list.</summary>
         public static ListOp<T> Whole(List<T> items)
         {
             return new ListOp<T> { IsExplicit = true, Explicit = items };
         }
 
+        /// <summary>The same, to be changed.</summary>
         public ListOp<T> Copy()
         {
             return (ListOp<T>)MemberwiseClone();

@@ -6,8 +6,10 @@ namespace Garage.Usd
     /// <summary>Something that a layer says under a name.</summary>
     public abstract class NamedSpec
     {
+        /// <summary>Without the path.</summary>
         public readonly string Name;
 
+        /// <summary>With this name.</summary>
         protected NamedSpec(string name)
         {
             Name = name;
@@ -23,8 +25,10 @@ namespace Garage.Usd
         T[] items;
         Dictionary<string, T> byName;
 
+        /// <summary>How many there are.</summary>
         public int Count { get; private set; }
 
+        /// <summary>The item at a place in the order.</summary>
         public T this[int index]
         {
             get { return items[index]; }
@@ -36,6 +40,7 @@ namespace Garage.Usd
             if (items == null && count > 0) { items = new T[count]; }
         }
 
+        /// <summary>Adds an item behind the others, also where there is one of its name.</summary>
         public void Add(T item)
         {
             if (items == null) { items = new T[2]; }

@@ -50,6 +50,7 @@ namespace Garage.Usd
             return path.Length == prefix.Length || path[prefix.Length] == '/' || path[prefix.Length] == '.';
         }
 
+        /// <summary>The path of a child.</summary>
         public static string Child(string parent, string name)
         {
             return parent == "/" ? "/" + name : parent + "/" + name;
@@ -81,6 +82,7 @@ namespace Garage.Usd
             return dot < 0 ? path : path.Substring(0, dot);
         }
 
+        /// <summary>The last element of a path.</summary>
         public static string Name(string path)
         {
             return path.Substring(path.LastIndexOf('/') + 1);

@@ -56,12 +56,14 @@ namespace Garage.Usd
             entry = packed ? identifier.Substring(bracket + 1, identifier.Length - bracket - 2) : null;
         }
 
+        /// <summary>The path without its last element; empty where it has one alone.</summary>
         public static string Folder(string path)
         {
             int slash = path.LastIndexOf('/');
             return slash < 0 ? "" : path.Substring(0, slash);
         }
 
+        /// <summary>Whether the path is that of a .usdz.</summary>
         public static bool IsPackage(string path)
         {
             return path.EndsWith(".usdz", StringComparison.OrdinalIgnoreCase);
@@ -77,6 +79,7 @@ namespace Garage.Usd
         readonly string root;
         readonly Dictionary<string, UsdzPackage> packages = new Dictionary<string, UsdzPackage>();
 
+        /// <summary>Of a folder of the file system.</summary>
         public FolderResolver(string root)
         {
             this.root = root;
@@ -88,6 +91,7 @@ namespace Garage.Usd
             packages.Add(name, package);
         }
 
+        /// <summary>As IAssetResolver. Throws UsdFormatException where a package is damaged.</summary>
         public string Resolve(string anchor, string asset, out string reason)
         {
             reason = null;
@@ -126,6 +130,7 @@ namespace Garage.Usd
             return normal + "[" + inner + "]";
         }
 
+        /// <summary>As IAssetResolver. Throws UsdFormatException where the file cannot be read.</summary>
         public byte[] Read(string identifier)
         {
             string file, entry;

@@ -82,11 +82,13 @@ namespace Garage.Usd
             entries.Add(name, new KeyValuePair<int, int>((int)start, (int)size));
         }
 
+        /// <summary>Whether there is an entry of this name.</summary>
         public bool Has(string entry)
         {
             return entries.ContainsKey(entry);
         }
 
+        /// <summary>The bytes of an entry that there is.</summary>
         public byte[] Read(string entry)
         {
             KeyValuePair<int, int> place = entries[entry];

@@ -15,7 +15,10 @@ namespace Garage.Usd
         /// <summary>"r", "g", "b", "a" or "rgb".</summary>
         public string Channel;
 
+        /// <summary>"repeat", "mirror", "clamp", "black" or "useMetadata"; "raw", "sRGB" or "auto".</summary>
         public string WrapS, WrapT, SourceColorSpace;
+
+        /// <summary>Four numbers each: a pixel times Scale plus Bias; what stands for a missing file.</summary>
         public float[] Scale, Bias, Fallback;
 
         /// <summary>The primvar with the texture coordinates.</summary>
@@ -24,7 +27,10 @@ namespace Garage.Usd
         /// <summary>UsdTransform2d: scale, then rotation, then translation.</summary>
         public float[] CoordinateScale = { 1, 1 };
 
+        /// <summary>UsdTransform2d: counterclockwise.</summary>
         public float CoordinateRotationDegrees;
+
+        /// <summary>UsdTransform2d.</summary>
         public float[] CoordinateTranslation = { 0, 0 };
     }
 
@@ -37,6 +43,7 @@ namespace Garage.Usd
         /// <summary>The constant of an input that is a word, such as "opacityMode".</summary>
         public string Text;
 
+        /// <summary>Null where the value comes from no texture.</summary>
         public TextureData Texture;
 
         /// <summary>Name of the primvar that gives the value.</summary>
@@ -48,6 +55,7 @@ namespace Garage.Usd
     {
         const int LongestConnection = 16;
 
+        /// <summary>Path of the material.</summary>
         public string Path { get; private set; }
 
         /// <summary>By name: "diffuseColor", "roughness"; only what is given.</summary>
@@ -75,6 +83,7 @@ namespace Garage.Usd
             return Fallbacks.TryGetValue(input, out fallback) ? fallback : new float[1];
         }
 
+        /// <summary>The texture of an input; null where it has none.</summary>
         public TextureData Texture(string input)
         {
             MaterialInput found;

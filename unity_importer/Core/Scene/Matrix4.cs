@@ -7,16 +7,19 @@ namespace Garage.Usd
     /// </summary>
     public static class Matrix4
     {
+        /// <summary>What leaves every point where it is.</summary>
         public static double[] Identity()
         {
             return new double[] { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
         }
 
+        /// <summary>A move.</summary>
         public static double[] Translation(double x, double y, double z)
         {
             return new[] { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1 };
         }
 
+        /// <summary>Factors along the axes.</summary>
         public static double[] Scaling(double x, double y, double z)
         {
             return new[] { x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1 };
@@ -124,19 +127,23 @@ namespace Garage.Usd
     {
         readonly bool isZUp;
 
+        /// <summary>Metres of one unit of the stage.</summary>
         public readonly double MetersPerUnit;
 
+        /// <summary>Of a stage with +Z, otherwise +Y, pointing up.</summary>
         public Basis(bool isZUp, double metersPerUnit)
         {
             this.isZUp = isZUp;
             MetersPerUnit = metersPerUnit;
         }
 
+        /// <summary>Of a stage.</summary>
         public static Basis Of(UsdStage stage)
         {
             return new Basis(stage.IsZUp, stage.MetersPerUnit);
         }
 
+        /// <summary>Whether +Z points up in the stage; otherwise +Y does.</summary>
         public bool IsZUp
         {
             get { return isZUp; }

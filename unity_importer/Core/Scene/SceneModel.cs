@@ -10,6 +10,7 @@ namespace Garage.Usd
     {
         static readonly List<SceneNode> None = new List<SceneNode>();
 
+        /// <summary>The prim itself.</summary>
         public UsdPrim Prim { get; private set; }
 
         /// <summary>To the parent's space, in the axes and units of the stage.</summary>
@@ -27,16 +28,28 @@ namespace Garage.Usd
         /// <summary>Bindings of the node itself; those above it count where it has none.</summary>
         public MaterialBinding Material { get; private set; }
 
+        /// <summary>As Material, for the purpose "physics".</summary>
         public MaterialBinding PhysicsMaterial { get; private set; }
 
         /// <summary>Null where the prim is no mesh, or a bad one.</summary>
         public TriangleMesh Mesh { get; private set; }
 
+        /// <summary>Null where the prim is no light.</summary>
         public LightData Light { get; private set; }
+
+        /// <summary>Null where the prim is no camera.</summary>
         public CameraData Camera { get; private set; }
+
+        /// <summary>Null where the prim is no cube, sphere or the like.</summary>
         public ShapeData Shape { get; private set; }
+
+        /// <summary>Null where nothing can collide with the prim.</summary>
         public ColliderData Collider { get; private set; }
+
+        /// <summary>Null where the prim is no curves.</summary>
         public CurvesData Curves { get; private set; }
+
+        /// <summary>Null where the prim is no PointInstancer.</summary>
         public PointInstancerData PointInstancer { get; private set; }
 
         /// <summary>Labels of UsdSemantics by taxonomy ("class").</summary>
@@ -87,7 +100,10 @@ namespace Garage.Usd
         readonly Dictionary<UsdPrim, long> shownBelow = new Dictionary<UsdPrim, long>();
         readonly Dictionary<string, MaterialData> materials = new Dictionary<string, MaterialData>();
 
+        /// <summary>The stage that is shown.</summary>
         public UsdStage Stage { get; private set; }
+
+        /// <summary>From the stage's axes and units to Unity's.</summary>
         public Basis Basis { get; private set; }
 
         /// <summary>Root prims that define something.</summary>

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
+    /// <summary>The shapes of UsdLux lights.</summary>
     public enum LightKind
     {
         Rect, Disk, Sphere, Cylinder, Distant, Dome,
@@ -11,17 +12,31 @@ namespace Garage.Usd
     /// <summary>A UsdLux light. It shines along -Z; a cylinder lies along X.</summary>
     public sealed class LightData
     {
+        /// <summary>The shape.</summary>
         public LightKind Kind { get; private set; }
+
+        /// <summary>Linear red, green, blue.</summary>
         public float[] Color { get; private set; }
+
+        /// <summary>inputs:intensity, before exposure and normalization: see Luminance.</summary>
         public double Intensity { get; private set; }
+
+        /// <summary>Powers of two by which the intensity is multiplied.</summary>
         public double Exposure { get; private set; }
+
+        /// <summary>Whether the intensity is divided by the area that shines.</summary>
         public bool IsNormalized { get; private set; }
 
         /// <summary>In units of the stage.</summary>
         public double Width { get; private set; }
 
+        /// <summary>In units of the stage.</summary>
         public double Height { get; private set; }
+
+        /// <summary>In units of the stage.</summary>
         public double Radius { get; private set; }
+
+        /// <summary>In units of the stage.</summary>
         public double Length { get; private set; }
 
         /// <summary>Degrees that a distant light spans.</summary>
@@ -30,11 +45,13 @@ namespace Garage.Usd
         /// <summary>Half of the cone in degrees; 90 where the light is not shaped.</summary>
         public double ConeAngleDegrees { get; private set; }
 
+        /// <summary>Share of the cone in which the light fades, 0 to 1.</summary>
         public double ConeSoftness { get; private set; }
 
         /// <summary>Kelvin; 0 where the light's color alone counts.</summary>
         public double ColorTemperature { get; private set; }
 
+        /// <summary>The light of a prim; null where it is none.</summary>
         public static LightData Of(UsdPrim prim)
         {
             LightKind kind;
@@ -128,18 +145,31 @@ namespace Garage.Usd
     /// </summary>
     public sealed class CameraData
     {
+        /// <summary>Whether lines of sight are parallel.</summary>
         public bool IsOrthographic { get; private set; }
+
+        /// <summary>In tenths of a unit of the stage.</summary>
         public double FocalLength { get; private set; }
+
+        /// <summary>In tenths of a unit of the stage.</summary>
         public double HorizontalAperture { get; private set; }
+
+        /// <summary>In tenths of a unit of the stage.</summary>
         public double VerticalAperture { get; private set; }
+
+        /// <summary>Distance of the near clipping plane in units of the stage.</summary>
         public double Near { get; private set; }
+
+        /// <summary>Distance of the far clipping plane in units of the stage.</summary>
         public double Far { get; private set; }
 
+        /// <summary>Degrees from the lower to the upper edge of the picture.</summary>
         public double VerticalFieldOfViewDegrees
         {
             get { return 2 * Math.Atan(VerticalAperture / (2 * FocalLength)) * 180 / Math.PI; }
         }
 
+        /// <summary>The camera of a prim; null where it is none.</summary>
         public static CameraData Of(UsdPrim prim)
         {
             if (prim.TypeName != "Camera") { return null; }
@@ -159,19 +189,28 @@ namespace Garage.Usd
     /// <summary>Cube, Sphere, Cylinder, Capsule, Cone or Plane.</summary>
     public sealed class ShapeData
     {
+        /// <summary>The type of the prim.</summary>
         public string Kind { get; private set; }
 
         /// <summary>Edge of a cube.</summary>
         public double Size { get; private set; }
 
+        /// <summary>In units of the stage, as are all lengths here.</summary>
         public double Radius { get; private set; }
+
+        /// <summary>Along the axis; without the caps for a capsule.</summary>
         public double Height { get; private set; }
+
+        /// <summary>Of a plane.</summary>
         public double Width { get; private set; }
+
+        /// <summary>Of a plane.</summary>
         public double Length { get; private set; }
 
         /// <summary>'X', 'Y' or 'Z', along which it is high.</summary>
         public char Axis { get; private set; }
 
+        /// <summary>The shape of a prim; null where it is none.</summary>
         public static ShapeData Of(UsdPrim prim)
         {
             switch (prim.TypeName)
@@ -194,6 +233,7 @@ namespace Garage.Usd
     /// <summary>UsdPhysics on a prim: what collides, and how heavy it is.</summary>
     public sealed class ColliderData
     {
+        /// <summary>physics:collisionEnabled.</summary>
         public bool IsEnabled { get; private set; }
 
         /// <summary>
@@ -201,6 +241,7 @@ namespace Garage.Usd
         /// </summary>
         public string Approximation { get; private set; }
 
+        /// <summary>The collider of a prim; null where it has none.</summary>
         public static ColliderData Of(UsdPrim prim)
         {
             if (!prim.HasApi("PhysicsCollisionAPI")) { return null; }
@@ -215,11 +256,19 @@ namespace Garage.Usd
     /// <summary>Friction and the like.</summary>
     public sealed class PhysicsMaterialData
     {
+        /// <summary>Coefficient of what stands still.</summary>
         public double StaticFriction { get; private set; }
+
+        /// <summary>Coefficient of what slides.</summary>
         public double DynamicFriction { get; private set; }
+
+        /// <summary>Share of the speed that is kept, 0 to 1.</summary>
         public double Restitution { get; private set; }
+
+        /// <summary>Mass units a cubic unit of the stage; 0 where the prim does not say.</summary>
         public double Density { get; private set; }
 
+        /// <summary>The physics material of a prim; null where it has none, or for no prim.</summary>
         public static PhysicsMaterialData Of(UsdPrim prim)
         {
             if (prim == null || !prim.HasApi("PhysicsMaterialAPI")) { return null; }
@@ -235,16 +284,25 @@ namespace Garage.Usd
     /// <summary>BasisCurves.</summary>
     public sealed class CurvesData
     {
+        /// <summary>Whether points are joined by straight lines.</summary>
         public bool IsLinear { get; private set; }
+
+        /// <summary>"bezier", "bspline" or "catmullRom", where the curves are cubic.</summary>
         public string Basis { get; private set; }
+
+        /// <summary>"nonperiodic", "periodic" or "pinned".</summary>
         public string Wrap { get; private set; }
+
+        /// <summary>Points of each curve.</summary>
         public int[] VertexCounts { get; private set; }
 
         /// <summary>Three numbers a point.</summary>
         public float[] Points { get; private set; }
 
+        /// <summary>In units of the stage; empty where none are given.</summary>
         public float[] Widths { get; private set; }
 
+        /// <summary>The curves of a prim; null where it has none, or counts that do not fit its points.</summary>
         public static CurvesData Of(UsdPrim prim)
         {
             if (prim.TypeName != "BasisCurves") { return null; }
@@ -279,9 +337,13 @@ namespace Garage.Usd
         /// </summary>
         public int[] Numbers { get; private set; }
 
+        /// <summary>Of each visible instance: the number of its prototype.</summary>
         public int[] PrototypeOf { get; private set; }
+
+        /// <summary>Of each visible instance: to the space of the instancer.</summary>
         public double[][] Matrices { get; private set; }
 
+        /// <summary>The instances of a prim; null where it has none.</summary>
         public static PointInstancerData Of(UsdPrim prim)
         {
             UsdValue which = prim.TypeName != "PointInstancer" ? null : prim.Value("protoIndices"),

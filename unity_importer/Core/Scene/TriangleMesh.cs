@@ -26,6 +26,7 @@ namespace Garage.Usd
         /// <summary>Three numbers a vertex.</summary>
         public float[] Points { get; private set; }
 
+        /// <summary>Three numbers a vertex, of length 1 where the mesh gives none of its own.</summary>
         public float[] Normals { get; private set; }
 
         /// <summary>Two numbers a vertex, by the name of the primvar ("st").</summary>
@@ -34,8 +35,10 @@ namespace Garage.Usd
         /// <summary>primvars:displayColor, three numbers a vertex; null where there is none.</summary>
         public float[] Colors { get; private set; }
 
+        /// <summary>The triangles, by material.</summary>
         public List<SubMesh> SubMeshes { get; private set; }
 
+        /// <summary>Whether the backs of faces are seen.</summary>
         public bool IsDoubleSided { get; private set; }
 
         /// <summary>The point of the mesh that each vertex is.</summary>
