@@ -1,8 +1,5 @@
 """The C# readers, compiled once in each worker."""
 
-import os
-from pathlib import Path
-
 import layer
 import pytest
 import reader
@@ -13,8 +10,7 @@ def usd_dump(tmp_path_factory):
     """The running readers."""
     if reader.missing():
         pytest.skip(reader.missing())
-    program = os.environ.get(reader.PROGRAM_VARIABLE) or reader.compile_program(tmp_path_factory.mktemp("usd_dump"))
-    running = reader.Reader(Path(program))
+    running = reader.Reader(reader.compile_program(tmp_path_factory.mktemp("usd_dump")))
     yield running
     running.close()
 

@@ -79,7 +79,8 @@ def Xform "Turned" { float3 xformOp:rotateXYZ = (10, 20, 30)
         float xformOp:rotateZ = 45
         uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateZ"] }
 }
-def "Copy" ( references = </Turned> ) { over "Reset" { float3 xformOp:translate = (7, 7, 7) } }
+def "Copy" ( references = </Turned> ) { over "Reset" { float3 xformOp:translate = (7, 7, 7) }
+    over "Operations" { float3 xformOp:translate = None } }
 def "Instance" ( references = </Turned>
     instanceable = true ) { double3 xformOp:translate = (9, 9, 9) }
 """,

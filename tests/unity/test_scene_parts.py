@@ -1,5 +1,6 @@
 """What a scene says of cameras, shapes, curves, lights and colliders, and how Unity's axes and units see it."""
 
+import itertools
 import math
 
 import numpy as np
@@ -95,6 +96,30 @@ def test_shapes(nodes, usd_dump, tmp_path):
     found = scene_of(usd_dump, written(tmp_path, text))["nodes"]
     for kind, (_, wanted) in texts.items():
         assert found[f"/{kind}"]["shape"].items() >= wanted.items(), kind
+
+
+CUBE = """
+def Mesh "Cube" {
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
+    SCHEME
+}
+"""
+
+
+@pytest.mark.parametrize("scheme", ["none", "catmullClark", None])
+def test_normals_that_a_mesh_does_not_give(usd_dump, tmp_path, scheme):
+    """Those of the faces; between them where the mesh stands for a smooth surface, as it does by default."""
+    text = CUBE.replace("SCHEME", "" if scheme is None else f'uniform token subdivisionScheme = "{scheme}"')
+    mesh = scene_of(usd_dump, written(tmp_path, text))["nodes"]["/Cube"]["mesh"]
+    points = np.array(list(itertools.product((0, 1), repeat=3)))[[0, 4, 6, 2, 1, 5, 7, 3]]
+    corners = points[np.array(mesh["corners"]).reshape(-1, 3)]
+    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    smooth = (corners - 0.5) / math.sqrt(0.75)
+    wanted = np.repeat(flat[:, np.newaxis], 3, axis=1) if scheme == "none" else smooth
+    assert np.allclose(np.array(mesh["normals"]).reshape(-1, 3, 3), wanted, atol=1e-6)
+    assert mesh["vertices"] == (24 if scheme == "none" else 8)
 
 
 def test_mesh_with_colors_subsets_and_a_collider(nodes):

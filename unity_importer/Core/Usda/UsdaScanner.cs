@@ -74,12 +74,13 @@ namespace Garage.Usd
             for (;;)
             {
                 byte letter = s[i];
+                while (letter == ' ') { letter = s[++i]; }
                 if (letter > ' ' && letter != '#' && letter != '/')
                 {
                     at = i;
                     return;
                 }
-                if (letter == ' ' || letter == '\n' || letter == '\t' || letter == '\r')
+                if (letter == '\n' || letter == '\t' || letter == '\r')
                 {
                     i++;
                 }

@@ -63,6 +63,18 @@ namespace Garage.Usd
 
         UsdValue ReadScalar(UsdType type)
         {
+            Storage storage = UsdTypes.StorageOf(type);
+            if (storage == Storage.Strings) { return UsdValue.OfString(type, ReadText(type)); }
+            if (storage == Storage.Floats)
+            {
+                var floats = new float[UsdTypes.Components(type)];
+                ReadTuple(floats, 0, floats.Length);
+                for (int i = 0; UsdTypes.IsHalf(type) && i < floats.Length; i++)
+                {
+                    floats[i] = HalfNumber.Nearest(floats[i]);
+                }
+                return new UsdValue(type, false, floats);
+            }
             values.Start(type);
             ReadElement(type);
             return values.Finish(type, false);
@@ -99,26 +111,35 @@ namespace Garage.Usd
                     Array.Resize(ref floats, floats.Length * 2);
                     values.Floats = floats;
                 }
-                if (components == 1)
-                {
-                    floats[count++] = (float)Number();
-                }
-                else
-                {
-                    Expect('(');
-                    for (int i = 0; i < components; i++)
-                    {
-                        if (i > 0 && text[at] != ',') { Expect(','); }
-                        else if (i > 0) { at++; }
-                        floats[count++] = (float)Number();
-                    }
-                    if (text[at] == ')') { at++; }
-                    else { Expect(')'); }
-                }
+                ReadTuple(floats, count, components);
+                count += components;
                 if (text[at] == ',') { at++; }
                 else if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
             }
             values.Count = count;
+        }
+
+        void ReadTuple(float[] into, int first, int components)
+        {
+            if (components == 1)
+            {
+                into[first] = (float)Number();
+                return;
+            }
+            Expect('(');
+            for (int i = first; i < first + components; i++)
+            {
+                if (i > first && text[at] != ',') { Expect(','); }
+                else if (i > first) { at++; }
+                into[i] = (float)Number();
+            }
+            if (text[at] == ')') { at++; }
+            else { Expect(')'); }
+        }
+
+        string ReadText(UsdType type)
+        {
+            return type == UsdType.Asset && !AtQuote() ? AssetPath() : type == UsdType.Path ? PathText() : QuotedString();
         }
 
         void ReadElement(UsdType type)
@@ -163,8 +184,7 @@ namespace Garage.Usd
                     else { values.Add((byte)Integer(0, 255)); }
                     break;
                 default:
-                    values.Add(type == UsdType.Asset && !AtQuote() ? AssetPath()
-                        : type == UsdType.Path ? PathText() : QuotedString());
+                    values.Add(ReadText(type));
                     break;
             }
         }
