@@ -1,13 +1,15 @@
-"""Measure building and planning, and write the table ``benchmarks/results.md``.
+"""Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py
+Usage: python benchmarks/run.py [building | planning | scale | stages | unity | compiled ...]
 
-Every figure is measured in this run; where two are compared, they are measured in turns and given as a ratio too.
+Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
+compared, they are measured in turns and given as a ratio too.
 """
 
 import json
 import os
 import platform
+import re
 import statistics
 import subprocess
 import sys
@@ -18,6 +20,7 @@ from pathlib import Path
 from planning import planning
 from scale import scale
 from stage import stages
+from unity import unity
 
 import garage2usd
 
@@ -27,9 +30,25 @@ PYTHON_EPISODES = 40
 
 
 def main() -> None:
-    """Run everything and write the table."""
-    sections = [_heading(), _building(), planning(), scale(), stages(), _compiled()]
-    (HERE / "results.md").write_text("\n\n".join(sections) + "\n")
+    """Run what is asked for and write the tables."""
+    measures = {
+        "building": _building,
+        "planning": planning,
+        "scale": scale,
+        "stages": stages,
+        "unity": unity,
+        "compiled": _compiled,
+    }
+    asked = sys.argv[1:] or list(measures)
+    if unknown := set(asked) - set(measures):
+        sys.exit(f"unknown sections {', '.join(sorted(unknown))}: name some of {', '.join(measures)}")
+    results = HERE / "results.md"
+    kept = dict(re.findall(r"<!-- (\w+) -->\n(.*?)(?=\n\n<!-- |\Z)", results.read_text(), re.DOTALL))
+    sections = {
+        name: measures[name]() if name in asked else kept[name].rstrip() for name in measures if name in {*asked, *kept}
+    }
+    marked = [f"<!-- {name} -->\n{section}" for name, section in sections.items()]
+    results.write_text("\n\n".join([_heading(), *marked]) + "\n")
 
 
 def _heading() -> str:

@@ -124,10 +124,16 @@ def _describe(made: "Build") -> None:
         *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("labels", str(made.labels)),
+        ("Unity", f"add the package unity_importer, then drop {_dropped(made)} into Assets"),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def _dropped(made: "Build") -> str:
+    """What a Unity project needs of a build."""
+    return made.stage.name if made.asset_folder is None else f"{made.stage.name} and {made.asset_folder.name}/"
 
 
 @main.command()

@@ -52,6 +52,8 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output
+    assets = "" if extension == "usdz" else " and g_assets/"
+    assert f"drop {out.name}{assets} into Assets" in result.output
     names = {"g_plan.png", "g_report.json", "g_labels.json", out.name} | (
         set() if extension == "usdz" else {"g_assets"}
     )

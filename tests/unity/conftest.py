@@ -1,5 +1,8 @@
 """The C# readers, compiled once in each worker."""
 
+import os
+from pathlib import Path
+
 import layer
 import pytest
 import reader
@@ -10,7 +13,8 @@ def usd_dump(tmp_path_factory):
     """The running readers."""
     if reader.missing():
         pytest.skip(reader.missing())
-    running = reader.Reader(reader.compile_program(tmp_path_factory.mktemp("usd_dump")))
+    program = os.environ.get(reader.PROGRAM_VARIABLE) or reader.compile_program(tmp_path_factory.mktemp("usd_dump"))
+    running = reader.Reader(Path(program))
     yield running
     running.close()
 

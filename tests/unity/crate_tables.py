@@ -26,22 +26,27 @@ class CrateTables:
     spec_sets: list[int] = field(default_factory=list)
     spec_types: list[int] = field(default_factory=list)
 
-    def packed(self) -> bytes:
-        """The crate with these tables, whatever they say."""
+    def packed(self, chunk_bytes: int | None = None) -> bytes:
+        """The crate with these tables, whatever they say, and its compressed blocks in chunks if told so."""
+
+        def block(data: bytes) -> bytes:
+            packed = _lz4(data, chunk_bytes)
+            return struct.pack("<Q", len(packed)) + packed
+
         text = b"".join(token + b"\0" for token in self.tokens)
-        packed_text = _lz4(text)
+        packed_text = _lz4(text, chunk_bytes)
         sections = {
             "TOKENS": struct.pack("<QQQ", len(self.tokens), len(text), len(packed_text)) + packed_text,
             "STRINGS": struct.pack("<Q", len(self.strings)) + _plain(self.strings, "I"),
             "FIELDS": _sized(
-                self.field_tokens, _block(_integers(self.field_tokens)) + _block(_plain(self.field_values, "Q"))
+                self.field_tokens, block(_integers(self.field_tokens)) + block(_plain(self.field_values, "Q"))
             ),
-            "FIELDSETS": _sized(self.field_sets, _block(_integers(self.field_sets))),
+            "FIELDSETS": _sized(self.field_sets, block(_integers(self.field_sets))),
             "PATHS": struct.pack("<QQ", self.path_count, len(self.paths))
-            + b"".join(_block(_integers(column)) for column in (self.paths, self.path_tokens, self.path_jumps)),
+            + b"".join(block(_integers(column)) for column in (self.paths, self.path_tokens, self.path_jumps)),
             "SPECS": _sized(
                 self.spec_paths,
-                b"".join(_block(_integers(column)) for column in (self.spec_paths, self.spec_sets, self.spec_types)),
+                b"".join(block(_integers(column)) for column in (self.spec_paths, self.spec_sets, self.spec_types)),
             ),
         }
         data, contents = bytearray(self.values), b""
@@ -92,16 +97,18 @@ def _plain(numbers: list[int], letter: str) -> bytes:
     return b"".join((number % 256**size).to_bytes(size, "little") for number in numbers)
 
 
-def _block(data: bytes) -> bytes:
-    packed = _lz4(data)
-    return struct.pack("<Q", len(packed)) + packed
+def _lz4(data: bytes, chunk_bytes: int | None = None) -> bytes:
+    """Literals alone, in one chunk behind a zero, or in several behind their count, each behind its size."""
+    if chunk_bytes is None:
+        return b"\0" + _literals(data)
+    chunks = [_literals(data[at : at + chunk_bytes]) for at in range(0, len(data), chunk_bytes)]
+    return bytes([len(chunks)]) + b"".join(struct.pack("<i", len(chunk)) + chunk for chunk in chunks)
 
 
-def _lz4(data: bytes) -> bytes:
-    """One chunk of literals, behind the byte that says so."""
+def _literals(data: bytes) -> bytes:
     rest = len(data) - 15
     more = b"" if rest < 0 else b"\xff" * (rest // 255) + bytes([rest % 255])
-    return b"\0" + bytes([min(len(data), 15) << 4]) + more + data
+    return bytes([min(len(data), 15) << 4]) + more + data
 
 
 def _unpacked_lz4(packed: bytes) -> bytes:

@@ -7,6 +7,8 @@ import threading
 from pathlib import Path
 
 PACKAGE = Path(__file__).parents[2] / "unity_importer"
+PROGRAM_VARIABLE = "GARAGE2USD_TEST_USD_DUMP"
+"""Names a compiled program for the tests to use instead of compiling the sources: one with a planted fault."""
 
 
 def missing() -> str | None:
@@ -15,12 +17,11 @@ def missing() -> str | None:
     return f"{' and '.join(absent)} not installed" if absent else None
 
 
-def compile_program(folder: Path) -> Path:
-    """``UsdDump.exe`` from the sources of the package, each warning an error."""
+def compile_program(folder: Path, package: Path = PACKAGE, *, flags: tuple[str, ...] = ("-warnaserror",)) -> Path:
+    """``UsdDump.exe`` from the sources of the package, each warning an error where not told otherwise."""
     program = folder / "UsdDump.exe"
-    sources = sorted((PACKAGE / "Core").rglob("*.cs")) + sorted((PACKAGE / "Tools~" / "UsdDump").rglob("*.cs"))
-    flags = ["-warnaserror", "-langversion:7.2", "-optimize+", "-r:System.Core"]
-    command = ["mcs", *flags, f"-out:{program}", *map(str, sources)]
+    sources = sorted((package / "Core").rglob("*.cs")) + sorted((package / "Tools~" / "UsdDump").rglob("*.cs"))
+    command = ["mcs", *flags, "-langversion:7.2", "-optimize+", "-r:System.Core", f"-out:{program}", *map(str, sources)]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     if done.returncode:
         raise AssertionError(done.stdout + done.stderr)

@@ -1,6 +1,32 @@
 """Small stages, one for each rule of composition."""
 
+LETTERS = "ivrps"
+"""Inherits, variants, references, payloads, specializes."""
+
+
+def pairs(letter: str) -> str:
+    """A property for each two kinds of arc of which this is one."""
+    other = (sorted((letter, one), key=LETTERS.index) for one in LETTERS if one != letter)
+    return "\n    ".join(f'token {one}{two} = "{letter}"' for one, two in other)
+
+
 ARCS = {
+    "strength of every arc against every other": {
+        "root.usd": f"""
+def "A" ( inherits = </I>
+    references = </R>
+    payload = </P>
+    specializes = </S>
+    variants = {{ string set = "v" }}
+    prepend variantSets = "set" ) {{
+    variantSet "set" = {{ "v" {{ {pairs("v")} }} }}
+}}
+class "I" {{ {pairs("i")} }}
+def "R" {{ {pairs("r")} }}
+def "P" {{ {pairs("p")} }}
+def "S" {{ {pairs("s")} }}
+""",
+    },
     "sublayers with offsets": {
         "root.usd": """(
     subLayers = [@strong.usd@ (offset = 10; scale = 2), @weak.usd@ (offset = -5)]

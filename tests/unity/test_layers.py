@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 import values_of_pxr
+from crate_tables import unpacked
 from pxr import Sdf, Tf, Usd
 
 STAGES = Path(__file__).parent / "stages"
@@ -97,6 +98,14 @@ def test_crates_of_every_version(usd_dump, tmp_path, minor):
     subprocess.run([sys.executable, "-c", code, tmp_path / "values.usda", crate], env=environment, check=True)
     assert crate.read_bytes()[8:10] == bytes([0, minor])
     same(usd_dump, crate)
+
+
+def test_crates_of_many_chunks(usd_dump, tmp_path):
+    """Blocks of more than two gigabytes come in chunks: here each of a few hundred bytes."""
+    Sdf.Layer.FindOrOpen(str(STAGES / "scene.usda")).Export(str(tmp_path / "scene.usdc"))
+    chunked = tmp_path / "chunked.usdc"
+    chunked.write_bytes(unpacked((tmp_path / "scene.usdc").read_bytes()).packed(300))
+    same(usd_dump, chunked)
 
 
 def decimal(draw: random.Random) -> str:

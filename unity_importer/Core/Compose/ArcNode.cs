@@ -21,7 +21,9 @@ namespace Garage.Usd
         }
     }
 
-    /// <summary>One place in one layer stack that has opinions on a prim, with the places that it refers to below it.</summary>
+    /// <summary>
+    /// One place in one layer stack that has opinions on a prim, with the places that it refers to below it.
+    /// </summary>
     sealed class ArcNode
     {
         static readonly LayerSpec[] NoSpecs = new LayerSpec[0];
@@ -31,7 +33,9 @@ namespace Garage.Usd
         public readonly string Path;
         public readonly Arc Arc;
 
-        /// <summary>The prim at which the arc was introduced, counted from the root: a deeper one is stronger.</summary>
+        /// <summary>
+        /// The prim at which the arc was introduced, counted from the root: a deeper one is stronger.
+        /// </summary>
         public readonly int Depth;
 
         /// <summary>Prefixes of paths in this node's stack and in that of the parent.</summary>
@@ -82,7 +86,8 @@ namespace Garage.Usd
         /// <summary>Of a root: how many nodes are below it, itself included.</summary>
         public int Size;
 
-        public ArcNode(LayerStack stack, string path, Arc arc, int depth, string from, string to, bool keepsOtherPaths, LayerOffset offset, string variant)
+        public ArcNode(LayerStack stack, string path, Arc arc, int depth, string from, string to, bool keepsOtherPaths,
+            LayerOffset offset, string variant)
         {
             Stack = stack;
             Path = path;
@@ -105,7 +110,9 @@ namespace Garage.Usd
             get { return Arc == Arc.Inherit || Arc == Arc.Specialize; }
         }
 
-        /// <summary>Whether the prim itself inherits this place, directly or by way of others, and not a prim above it.</summary>
+        /// <summary>
+        /// Whether the prim itself inherits this place, directly or by way of others, and not a prim above it.
+        /// </summary>
         public bool IsInheritedDirectly
         {
             get
@@ -133,11 +140,17 @@ namespace Garage.Usd
             return one.Arc != other.Arc ? one.Arc < other.Arc : one.Depth > other.Depth;
         }
 
-        /// <summary>A path of this node's stack as the parent's stack means it; null where it means nothing there.</summary>
+        /// <summary>
+        /// A path of this node's stack as the parent's stack means it; null where it means nothing there.
+        /// </summary>
         public string PathInParent(string path)
         {
             if (From == null) { return path; }
-            if (UsdPaths.HasPrefix(path, From)) { return From == To ? path : To == "/" ? path.Substring(From.Length) : To + path.Substring(From == "/" ? 0 : From.Length); }
+            if (UsdPaths.HasPrefix(path, From))
+            {
+                return From == To ? path : To == "/" ? path.Substring(From.Length)
+                    : To + path.Substring(From == "/" ? 0 : From.Length);
+            }
             // what stands at the parent's place there is hidden by what this node brings to that place
             return KeepsOtherPaths && !UsdPaths.HasPrefix(path, To) ? path : null;
         }
@@ -158,16 +171,17 @@ namespace Garage.Usd
             int count = 0;
             foreach (LayerSpec spec in Specs)
             {
-                if (spec.Spec.FindChild(name) != null) { count++; }
+                if (spec.Spec.Children.Find(name) != null) { count++; }
             }
-            var extended = new ArcNode(Stack, UsdPaths.Child(Path, name), Arc, Depth, From, To, KeepsOtherPaths, Offset, Variant);
+            var extended = new ArcNode(Stack, UsdPaths.Child(Path, name), Arc, Depth, From, To, KeepsOtherPaths,
+                Offset, Variant);
             if (count > 0)
             {
                 extended.Specs = new LayerSpec[count];
                 count = 0;
                 foreach (LayerSpec spec in Specs)
                 {
-                    PrimSpec child = spec.Spec.FindChild(name);
+                    PrimSpec child = spec.Spec.Children.Find(name);
                     if (child != null) { extended.Specs[count++] = new LayerSpec(spec.Layer, child); }
                 }
             }

@@ -4,8 +4,8 @@ using System.Collections.Generic;
 namespace Garage.Usd
 {
     /// <summary>
-    /// Finds all opinions on a prim: local, inherited, of variants, references, payloads and specialized prims, in this order of
-    /// strength at each place.
+    /// Finds all opinions on a prim: local, inherited, of variants, references, payloads and specialized prims, in this
+    /// order of strength at each place.
     /// </summary>
     sealed class Composer
     {
@@ -69,11 +69,16 @@ namespace Garage.Usd
         // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
         ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, Choices choices)
         {
-            string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path + (choices == null ? "" : choices.Key);
+            string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path
+                + (choices == null ? "" : choices.Key);
             ArcNode made;
             if (templates.TryGetValue(key, out made)) { return made; }
             if (!inProgress.Add(key)) { return null; }
-            if (inProgress.Count > DeepestArc) { throw new UsdFormatException(stack.Root.Identifier, "<" + path + ">", "references lead more than " + DeepestArc + " deep"); }
+            if (inProgress.Count > DeepestArc)
+            {
+                throw new UsdFormatException(stack.Root.Identifier, "<" + path + ">",
+                    "references lead more than " + DeepestArc + " deep");
+            }
             string parentPath = UsdPaths.Parent(path);
             ArcNode root;
             if (parentPath == "/" || parentPath == null || !withAncestors)
@@ -169,7 +174,8 @@ namespace Garage.Usd
             var targets = new List<Target>();
             for (int i = node.Specs.Length - 1; i >= 0; i--)
             {
-                ListOp<ReferenceArc> op = arc == Arc.Reference ? node.Specs[i].Spec.References : node.Specs[i].Spec.Payloads;
+                ListOp<ReferenceArc> op = arc == Arc.Reference ? node.Specs[i].Spec.References
+                    : node.Specs[i].Spec.Payloads;
                 if (op == null) { continue; }
                 int layer = node.Specs[i].Layer;
                 Converted(op, delegate(ReferenceArc one) { return Resolve(node, layer, one); }).ApplyTo(targets);
@@ -188,7 +194,8 @@ namespace Garage.Usd
             string path = arc.Path.Length > 0 ? arc.Path : stack.DefaultPrim;
             if (path == null || path == "/")
             {
-                library.Warn(layer.Identifier + ": <" + node.Path + "> refers to " + stack.Root.Identifier + ", which has no default prim");
+                library.Warn(layer.Identifier + ": <" + node.Path + "> refers to " + stack.Root.Identifier
+                    + ", which has no default prim");
                 return null;
             }
             LayerOffset offset = node.Stack.Offsets[layerNumber].After(library.Rated(arc.Offset, layer, stack.Root));
@@ -199,7 +206,8 @@ namespace Garage.Usd
         {
             return new ListOp<Target>
             {
-                IsExplicit = op.IsExplicit, Explicit = Converted(op.Explicit, convert), Added = Converted(op.Added, convert),
+                IsExplicit = op.IsExplicit, Explicit = Converted(op.Explicit, convert),
+                Added = Converted(op.Added, convert),
                 Prepended = Converted(op.Prepended, convert), Appended = Converted(op.Appended, convert),
                 Deleted = Converted(op.Deleted, convert), Ordered = Converted(op.Ordered, convert),
             };
@@ -233,7 +241,8 @@ namespace Garage.Usd
         }
 
         /// <summary>Adds a copy of all opinions on the target below a node; null where that is impossible.</summary>
-        ArcNode Attach(ArcNode node, Arc arc, LayerStack stack, string path, LayerOffset offset, bool keepsOtherPaths, bool withAncestors)
+        ArcNode Attach(ArcNode node, Arc arc, LayerStack stack, string path, LayerOffset offset, bool keepsOtherPaths,
+            bool withAncestors)
         {
             if (Repeats(node, stack, path))
             {
@@ -241,7 +250,8 @@ namespace Garage.Usd
                 return null;
             }
             bool isClass = arc == Arc.Inherit || arc == Arc.Specialize;
-            ArcNode template = Template(stack, path, false, withAncestors, isClass && withAncestors ? Choices.Of(node, path) : null);
+            ArcNode template = Template(stack, path, false, withAncestors, isClass && withAncestors
+                ? Choices.Of(node, path) : null);
             if (template == null)
             {
                 library.Warn("<" + node.Path + "> leads in a circle by <" + path + ">");
@@ -249,9 +259,11 @@ namespace Garage.Usd
             }
             if (template.Specs.Length == 0 && template.Children == null && !isClass)
             {
-                library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of " + stack.Root.Identifier + ", which does not exist");
+                library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of "
+                    + stack.Root.Identifier + ", which does not exist");
             }
-            var root = new ArcNode(stack, path, arc, UsdPaths.Depth(node.Path), path, node.Path, keepsOtherPaths, offset, null)
+            var root = new ArcNode(stack, path, arc, UsdPaths.Depth(node.Path), path, node.Path, keepsOtherPaths,
+                offset, null)
             {
                 Specs = template.Specs, IsExpanded = template.IsExpanded,
                 ChosenSets = template.ChosenSets == null ? null : new List<string>(template.ChosenSets),
@@ -323,7 +335,11 @@ namespace Garage.Usd
         {
             for (; node != null; node = node.Parent)
             {
-                if (ReferenceEquals(node.Stack, stack) && (UsdPaths.HasPrefix(node.Path, path) || UsdPaths.HasPrefix(path, node.Path))) { return true; }
+                if (ReferenceEquals(node.Stack, stack) && (UsdPaths.HasPrefix(node.Path, path)
+                    || UsdPaths.HasPrefix(path, node.Path)))
+                {
+                    return true;
+                }
             }
             return false;
         }
@@ -331,7 +347,8 @@ namespace Garage.Usd
         // ---- implied classes
 
         /// <summary>
-        /// What inherits a class in a referenced layer inherits the class of the same name in the layers that refer to it too.
+        /// What inherits a class in a referenced layer inherits the class of the same name in the layers that refer to
+        /// it too.
         /// </summary>
         void Imply(ArcNode added)
         {
@@ -368,7 +385,11 @@ namespace Garage.Usd
                 {
                     foreach (ArcNode child in at.Children)
                     {
-                        if (child.Arc == chain[i].Arc && child.Path == paths[i] && ReferenceEquals(child.Stack, at.Stack)) { found = child; }
+                        if (child.Arc == chain[i].Arc && child.Path == paths[i]
+                            && ReferenceEquals(child.Stack, at.Stack))
+                        {
+                            found = child;
+                        }
                     }
                 }
                 if (found == null)
@@ -399,7 +420,8 @@ namespace Garage.Usd
                 foreach (string set in node.VariantSets)
                 {
                     if (node.ChosenSets != null && node.ChosenSets.Contains(set)) { continue; }
-                    string selection = (choices == null ? null : choices.Find(root.Path, set)) ?? SelectionOf(order, set);
+                    string selection = (choices == null ? null : choices.Find(root.Path, set))
+                        ?? SelectionOf(order, set);
                     if (selection == null) { continue; }
                     node.ChosenSets = node.ChosenSets ?? new List<string>(1);
                     node.ChosenSets.Add(set);
@@ -410,18 +432,24 @@ namespace Garage.Usd
             return null;
         }
 
-        /// <summary>Variants of the prims above a class, where those who refer to the layer of the class choose others than the layer does.</summary>
+        /// <summary>
+        /// Variants of the prims above a class, where those who refer to the layer of the class choose others than the
+        /// layer does.
+        /// </summary>
         sealed class Choices
         {
             readonly Dictionary<string, string> selections = new Dictionary<string, string>();
 
             public string Key { get; private set; }
 
-            /// <summary>What places around a node choose above a path of its layers; null where they choose nothing.</summary>
+            /// <summary>
+            /// What places around a node choose above a path of its layers; null where they choose nothing.
+            /// </summary>
             public static Choices Of(ArcNode node, string path)
             {
                 Choices choices = null;
-                for (string above = UsdPaths.Parent(path); above != null && above != "/"; above = UsdPaths.Parent(above))
+                string above = path;
+                while ((above = UsdPaths.Parent(above)) != null && above != "/")
                 {
                     string seen = above;
                     for (ArcNode place = node; place.Parent != null && seen != null; place = place.Parent)
@@ -434,12 +462,18 @@ namespace Garage.Usd
                         {
                             if (specs[i].Spec.VariantSelections == null) { continue; }
                             choices = choices ?? new Choices();
-                            foreach (KeyValuePair<string, string> one in specs[i].Spec.VariantSelections) { choices.selections[above + "{" + one.Key] = one.Value; }
+                            foreach (KeyValuePair<string, string> one in specs[i].Spec.VariantSelections)
+                            {
+                                choices.selections[above + "{" + one.Key] = one.Value;
+                            }
                         }
                     }
                 }
                 if (choices == null) { return null; }
-                foreach (KeyValuePair<string, string> one in choices.selections) { choices.Key += "{" + one.Key + "=" + one.Value; }
+                foreach (KeyValuePair<string, string> one in choices.selections)
+                {
+                    choices.Key += "{" + one.Key + "=" + one.Value;
+                }
                 return choices;
             }
 
@@ -457,7 +491,8 @@ namespace Garage.Usd
                 foreach (LayerSpec spec in one.Specs)
                 {
                     string selection;
-                    if (spec.Spec.VariantSelections != null && spec.Spec.VariantSelections.TryGetValue(set, out selection)) { return selection; }
+                    Dictionary<string, string> selections = spec.Spec.VariantSelections;
+                    if (selections != null && selections.TryGetValue(set, out selection)) { return selection; }
                 }
             }
             return null;
@@ -473,7 +508,8 @@ namespace Garage.Usd
                 if (found != null) { specs.Add(new LayerSpec(spec.Layer, found)); }
             }
             if (specs.Count == 0) { return null; }
-            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, UsdPaths.Depth(node.Path), null, null, true, LayerOffset.Identity, set + "=" + selection)
+            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, UsdPaths.Depth(node.Path), null, null, true,
+                LayerOffset.Identity, set + "=" + selection)
             {
                 Specs = specs.ToArray(),
             };

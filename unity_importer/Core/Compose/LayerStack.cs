@@ -79,7 +79,11 @@ namespace Garage.Usd
             Layer layer;
             if (!layers.TryGetValue(identifier, out layer))
             {
-                if (layers.Count >= MostLayers) { throw new UsdFormatException(identifier, "layer", "the stage has more than " + MostLayers + " layers"); }
+                if (layers.Count >= MostLayers)
+                {
+                    throw new UsdFormatException(identifier, "layer",
+                        "the stage has more than " + MostLayers + " layers");
+                }
                 layer = LayerReader.Read(resolver.Read(identifier), identifier);
                 Add(layer);
             }
@@ -137,12 +141,16 @@ namespace Garage.Usd
             above.RemoveAt(above.Count - 1);
         }
 
-        /// <summary>An offset between layers that count time differently; none where time would stand still or run backwards.</summary>
+        /// <summary>
+        /// An offset between layers that count time differently; none where time would stand still or run backwards.
+        /// </summary>
         public LayerOffset Rated(LayerOffset offset, Layer outer, Layer inner)
         {
-            if (!(offset.Scale > 0) || double.IsInfinity(offset.Scale) || double.IsNaN(offset.Offset) || double.IsInfinity(offset.Offset))
+            if (!(offset.Scale > 0) || double.IsInfinity(offset.Scale) || double.IsNaN(offset.Offset)
+                || double.IsInfinity(offset.Offset))
             {
-                Warn(outer.Identifier + ": the offset " + offset.Offset + " and scale " + offset.Scale + " of " + inner.Identifier + " are no times");
+                Warn(outer.Identifier + ": the offset " + offset.Offset + " and scale " + offset.Scale + " of "
+                    + inner.Identifier + " are no times");
                 offset = LayerOffset.Identity;
             }
             double ratio = outer.TimeCodesPerSecond / inner.TimeCodesPerSecond;

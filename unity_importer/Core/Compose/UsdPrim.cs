@@ -34,7 +34,10 @@ namespace Garage.Usd
         /// <summary>A path of the layer as the stage means it; null where it means nothing there.</summary>
         public string PathInRoot(string path)
         {
-            for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent) { path = node.PathInParent(path); }
+            for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent)
+            {
+                path = node.PathInParent(path);
+            }
             return path;
         }
     }
@@ -54,13 +57,16 @@ namespace Garage.Usd
         string[] propertyNames;
         List<string> apiSchemas;
 
+        /// <summary>The stage that it belongs to.</summary>
         public UsdStage Stage { get; private set; }
 
         /// <summary>Null for the root and for prototypes.</summary>
         public UsdPrim Parent { get; private set; }
 
+        /// <summary>Of the stage: "/A/B"; below "/__Prototype_1" for what instances share.</summary>
         public string Path { get; private set; }
 
+        /// <summary>Whether anything defines the prim.</summary>
         public Specifier Specifier { get; private set; }
 
         /// <summary>"Mesh" and the like; empty where none is given.</summary>
@@ -120,11 +126,13 @@ namespace Garage.Usd
             get { return index == null ? Path : index.Path; }
         }
 
+        /// <summary>The last element of the path.</summary>
         public string Name
         {
             get { return UsdPaths.Name(Path); }
         }
 
+        /// <summary>Whether the prim is there at all.</summary>
         public bool IsActive
         {
             get
@@ -155,12 +163,15 @@ namespace Garage.Usd
             get { return Specifier == Specifier.Class || (Parent != null && Parent.IsAbstract); }
         }
 
+        /// <summary>Whether the children are those of Prototype.</summary>
         public bool IsInstance
         {
             get { return Prototype != null; }
         }
 
-        /// <summary>Names of applied schemas, with their instances: "MaterialBindingAPI", "SemanticsLabelsAPI:class".</summary>
+        /// <summary>
+        /// Names of applied schemas, with their instances: "MaterialBindingAPI", "SemanticsLabelsAPI:class".
+        /// </summary>
         public IList<string> ApiSchemas
         {
             get
@@ -179,6 +190,7 @@ namespace Garage.Usd
             }
         }
 
+        /// <summary>Whether a schema is applied.</summary>
         public bool HasApi(string schema)
         {
             return ApiSchemas.Contains(schema);
@@ -202,7 +214,9 @@ namespace Garage.Usd
             }
         }
 
-        /// <summary>A field of the prim such as "kind": a UsdValue, a UsdDictionary (of all layers together), or null.</summary>
+        /// <summary>
+        /// A field of the prim such as "kind": a UsdValue, a UsdDictionary (of all layers together), or null.
+        /// </summary>
         public object Metadata(string name)
         {
             UsdDictionary merged = null;
@@ -265,7 +279,8 @@ namespace Garage.Usd
                 has |= node.Specs.Length > 0;
                 key.Append((int)node.Arc).Append(' ').Append(node.Stack.Number).Append(' ');
                 // a variant of the instance itself is another thing wherever the instance is
-                key.Append(node.Path).Append(' ').Append(node.Variant).Append(' ').Append(offset.Offset).Append(' ').Append(offset.Scale);
+                key.Append(node.Path).Append(' ').Append(node.Variant).Append(' ');
+                key.Append(offset.Offset).Append(' ').Append(offset.Scale);
             }
             key.Append('(');
             if (node.Children != null)
@@ -302,9 +317,10 @@ namespace Garage.Usd
                 if (spec.Children.Count > 0)
                 {
                     seen = seen ?? new HashSet<string>();
-                    foreach (PrimSpec child in spec.Children)
+                    for (int k = 0; k < spec.Children.Count; k++)
                     {
-                        if (seen.Add(child.Name)) { names.Add(child.Name); }
+                        string name = spec.Children[k].Name;
+                        if (seen.Add(name)) { names.Add(name); }
                     }
                 }
                 if (spec.ChildOrder != null) { ListOp<string>.Reorder(names, spec.ChildOrder); }
@@ -313,7 +329,11 @@ namespace Garage.Usd
             {
                 int depth = 0;
                 for (UsdPrim above = this; above != null; above = above.Parent) { depth++; }
-                if (depth > Deepest) { throw new UsdFormatException(opinions[0].Layer.Identifier, "<" + Path + ">", "prims are nested more than " + Deepest + " deep"); }
+                if (depth > Deepest)
+                {
+                    throw new UsdFormatException(opinions[0].Layer.Identifier, "<" + Path + ">",
+                        "prims are nested more than " + Deepest + " deep");
+                }
                 var made = new List<UsdPrim>(names.Count);
                 foreach (string name in names)
                 {
@@ -328,6 +348,7 @@ namespace Garage.Usd
             index = null;
         }
 
+        /// <summary>The active child with this name, or null.</summary>
         public UsdPrim Child(string name)
         {
             IList<UsdPrim> all = Children;
@@ -360,7 +381,8 @@ namespace Garage.Usd
                     var names = new HashSet<string>();
                     foreach (Opinion opinion in opinions)
                     {
-                        foreach (PropertySpec property in opinion.Spec.Spec.Properties) { names.Add(property.Name); }
+                        NamedList<PropertySpec> properties = opinion.Spec.Spec.Properties;
+                        for (int i = 0; i < properties.Count; i++) { names.Add(properties[i].Name); }
                     }
                     propertyNames = new string[names.Count];
                     names.CopyTo(propertyNames);
@@ -376,7 +398,7 @@ namespace Garage.Usd
             int first = -1, count = 0;
             for (int i = 0; i < opinions.Length; i++)
             {
-                if (opinions[i].Spec.Spec.FindProperty(name) == null) { continue; }
+                if (opinions[i].Spec.Spec.Properties.Find(name) == null) { continue; }
                 if (count++ == 0) { first = i; }
             }
             if (count == 0) { return null; }
@@ -385,7 +407,7 @@ namespace Garage.Usd
             count = 0;
             for (int i = first; i < opinions.Length; i++)
             {
-                PropertySpec spec = opinions[i].Spec.Spec.FindProperty(name);
+                PropertySpec spec = opinions[i].Spec.Spec.Properties.Find(name);
                 if (spec == null) { continue; }
                 specs[count] = spec;
                 places[count++] = opinions[i];
@@ -398,7 +420,7 @@ namespace Garage.Usd
         {
             foreach (Opinion opinion in opinions)
             {
-                PropertySpec spec = opinion.Spec.Spec.FindProperty(name);
+                PropertySpec spec = opinion.Spec.Spec.Properties.Find(name);
                 if (spec == null || spec.Default == null) { continue; }
                 if (ReferenceEquals(spec.Default, UsdValue.Blocked)) { return null; }
                 if (spec.Default.Type != UsdType.TimeCode) { return spec.Default; }
@@ -408,18 +430,21 @@ namespace Garage.Usd
             return property == null ? null : property.Value;
         }
 
+        /// <summary>The first string of an attribute, or the given one.</summary>
         public string Text(string name, string otherwise)
         {
             UsdValue value = Value(name);
             return value == null ? otherwise : value.Text ?? otherwise;
         }
 
+        /// <summary>The first number of an attribute, or the given one.</summary>
         public double Number(string name, double otherwise)
         {
             UsdValue value = Value(name);
             return value == null ? otherwise : value.Number(otherwise);
         }
 
+        /// <summary>Whether the first number of an attribute is not 0, or the given answer.</summary>
         public bool Truth(string name, bool otherwise)
         {
             UsdValue value = Value(name);

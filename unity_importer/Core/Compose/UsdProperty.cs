@@ -8,6 +8,7 @@ namespace Garage.Usd
         readonly PropertySpec[] specs;
         readonly Opinion[] places;
 
+        /// <summary>The prim that it belongs to.</summary>
         public UsdPrim Prim { get; private set; }
 
         internal UsdProperty(UsdPrim prim, PropertySpec[] specs, Opinion[] places)
@@ -17,11 +18,13 @@ namespace Garage.Usd
             this.places = places;
         }
 
+        /// <summary>With namespaces: "primvars:st".</summary>
         public string Name
         {
             get { return specs[0].Name; }
         }
 
+        /// <summary>Otherwise it is an attribute.</summary>
         public bool IsRelationship
         {
             get { return specs[0].IsRelationship; }
@@ -80,7 +83,9 @@ namespace Garage.Usd
             return new UsdValue(UsdType.TimeCode, value.IsArray, times);
         }
 
-        /// <summary>The samples of the strongest layer that has any, in the time of the stage; null where none has.</summary>
+        /// <summary>
+        /// The samples of the strongest layer that has any, in the time of the stage; null where none has.
+        /// </summary>
         public TimeSamples Samples
         {
             get
@@ -93,7 +98,10 @@ namespace Garage.Usd
                         LayerOffset offset = places[i].Offset;
                         if (offset.Offset == 0 && offset.Scale == 1) { return samples; }
                         var times = new double[samples.Times.Length];
-                        for (int k = 0; k < times.Length; k++) { times[k] = offset.Scale * samples.Times[k] + offset.Offset; }
+                        for (int k = 0; k < times.Length; k++)
+                        {
+                            times[k] = offset.Scale * samples.Times[k] + offset.Offset;
+                        }
                         return new TimeSamples(times, samples.Values);
                     }
                     if (specs[i].Default != null) { return null; }
@@ -145,6 +153,7 @@ namespace Garage.Usd
             return value == null ? null : value.Text;
         }
 
+        /// <summary>A field of the strongest layer that has it: a UsdValue, a UsdDictionary, or null.</summary>
         public object Metadata(string name)
         {
             foreach (PropertySpec spec in specs)
@@ -155,7 +164,10 @@ namespace Garage.Usd
             return null;
         }
 
-        /// <summary>The identifier of the asset that the value names, for UsdStage.Read; null with the reason where there is none.</summary>
+        /// <summary>
+        /// The identifier of the asset that the value names, for UsdStage.Read; null with the reason where there is
+        /// none.
+        /// </summary>
         public string ResolvedAsset(out string reason)
         {
             int place;

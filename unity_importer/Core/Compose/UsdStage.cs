@@ -29,7 +29,9 @@ namespace Garage.Usd
             Root = new UsdPrim(this, null, "/", Composer.RootOf(library.StackOf(root.Identifier)), null, null);
         }
 
-        /// <summary>Opens a .usda, .usdc or .usdz; it may refer to files in its folder and below. Throws UsdFormatException.</summary>
+        /// <summary>
+        /// Opens a .usda, .usdc or .usdz; it may refer to files in its folder and below. Throws UsdFormatException.
+        /// </summary>
         public static UsdStage Open(string path)
         {
             string full = Path.GetFullPath(path);
@@ -49,7 +51,9 @@ namespace Garage.Usd
             return Open(package.Read(package.First), name + "[" + package.First + "]", resolver);
         }
 
-        /// <summary>Opens the layer in these bytes, which the resolver knows by the identifier. Throws UsdFormatException.</summary>
+        /// <summary>
+        /// Opens the layer in these bytes, which the resolver knows by the identifier. Throws UsdFormatException.
+        /// </summary>
         public static UsdStage Open(byte[] root, string identifier, IAssetResolver resolver)
         {
             return new UsdStage(LayerReader.Read(root, identifier), resolver);
@@ -67,6 +71,7 @@ namespace Garage.Usd
             get { return Composer.Library.Warnings; }
         }
 
+        /// <summary>Metres of one unit; 0.01 where the root layer does not say, or says no length.</summary>
         public double MetersPerUnit
         {
             get
@@ -82,6 +87,7 @@ namespace Garage.Usd
             get { return rootLayer.Text("upAxis") == "Z"; }
         }
 
+        /// <summary>Of the root layer; 24 where it does not say.</summary>
         public double TimeCodesPerSecond
         {
             get { return rootLayer.TimeCodesPerSecond; }
@@ -93,6 +99,7 @@ namespace Garage.Usd
             get { return prototypeList; }
         }
 
+        /// <summary>What references to the stage mean by default, or null.</summary>
         public UsdPrim DefaultPrim
         {
             get
@@ -120,7 +127,10 @@ namespace Garage.Usd
                 if (ReferenceEquals(prim, Root) && name.StartsWith("__Prototype_", StringComparison.Ordinal))
                 {
                     int number;
-                    if (int.TryParse(name.Substring(12), out number) && number > 0 && number <= prototypeList.Count) { next = prototypeList[number - 1]; }
+                    if (int.TryParse(name.Substring(12), out number) && number > 0 && number <= prototypeList.Count)
+                    {
+                        next = prototypeList[number - 1];
+                    }
                 }
                 prim = next ?? (prim.Prototype ?? prim).Child(name);
                 if (prim == null) { return null; }
@@ -132,7 +142,8 @@ namespace Garage.Usd
         {
             if (++primsMade > LeastPrims + PrimsPerSpec * Composer.Library.SpecCount)
             {
-                throw new UsdFormatException(rootLayer.Identifier, "<" + path + ">", "the references of the stage make more prims than its layers can need");
+                throw new UsdFormatException(rootLayer.Identifier, "<" + path + ">",
+                    "the references of the stage make more prims than its layers can need");
             }
         }
 
@@ -141,7 +152,8 @@ namespace Garage.Usd
             UsdPrim prototype;
             if (!prototypes.TryGetValue(key, out prototype))
             {
-                prototype = new UsdPrim(this, null, "/__Prototype_" + (prototypeList.Count + 1), shared, instance.SourcePath, null);
+                prototype = new UsdPrim(this, null, "/__Prototype_" + (prototypeList.Count + 1), shared,
+                    instance.SourcePath, null);
                 prototypes.Add(key, prototype);
                 prototypeList.Add(prototype);
             }

@@ -10,8 +10,8 @@ namespace Garage.Usd
 
         static readonly double[] ExactPowers =
         {
-            1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19,
-            1e20, 1e21, 1e22,
+            1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+            1e19, 1e20, 1e21, 1e22,
         };
 
         // 5^q for q in -54..54, normalised to 128 bits; truncated for q >= 0, rounded up for q < 0
@@ -63,7 +63,9 @@ namespace Garage.Usd
             PowerLow[ReciprocalLimit - q] = quotientLow;
         }
 
-        /// <summary>digits * 10^exponent; the fast path that callers may inline is digits below 2^53, |exponent| up to 22.</summary>
+        /// <summary>
+        /// digits * 10^exponent; the fast path that callers may inline is digits below 2^53, |exponent| up to 22.
+        /// </summary>
         public static double Nearest(ulong digits, int exponent)
         {
             if (digits < 1UL << 53)
@@ -126,7 +128,7 @@ namespace Garage.Usd
 
         static bool ByProduct(ulong digits, int exponent, out double nearest)
         {
-            // Eisel and Lemire: the upper bits of digits * 5^exponent decide, but for a few cases that are left to Exact
+            // Eisel and Lemire: the upper bits of digits * 5^exponent decide, but for a few cases left to Exact
             int zeros = 0;
             while (digits >> 63 == 0)
             {

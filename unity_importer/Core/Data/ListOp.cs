@@ -5,12 +5,22 @@ namespace Garage.Usd
     /// <summary>An edit of a list, or a whole list (Explicit).</summary>
     public sealed class ListOp<T>
     {
+        /// <summary>Whether Explicit takes the place of whatever weaker opinions say.</summary>
         public bool IsExplicit;
+
+        /// <summary>Null where this says nothing of the kind.</summary>
         public List<T> Explicit, Added, Prepended, Appended, Deleted, Ordered;
 
+        /// <summary>A whole list.</summary>
         public static ListOp<T> Whole(List<T> items)
         {
             return new ListOp<T> { IsExplicit = true, Explicit = items };
+        }
+
+        /// <summary>The same, to be changed.</summary>
+        public ListOp<T> Copy()
+        {
+            return (ListOp<T>)MemberwiseClone();
         }
 
         /// <summary>Applies the edit to what weaker opinions made of the list.</summary>
@@ -48,7 +58,9 @@ namespace Garage.Usd
             if (Ordered != null && Ordered.Count > 0) { Reorder(list, Ordered); }
         }
 
-        /// <summary>Puts the named items in the named order; each takes along the unnamed ones that follow it.</summary>
+        /// <summary>
+        /// Puts the named items in the named order; each takes along the unnamed ones that follow it.
+        /// </summary>
         public static void Reorder(List<T> list, List<T> order)
         {
             var named = new Dictionary<T, int>();

@@ -5,13 +5,18 @@ namespace Garage.Usd
     /// <summary>Paths of prims and properties as text: "/A/B", "/A/B.name".</summary>
     public static class UsdPaths
     {
-        /// <summary>The path as seen from a prim, absolute and without "..", or null where it leads above the root.</summary>
+        /// <summary>
+        /// The path as seen from a prim, absolute and without "..", or null where it leads above the root.
+        /// </summary>
         public static string Absolute(string prim, string path)
         {
             var parts = new List<string>();
             string property = "";
             if (path[0] != '/') { AddParts(parts, prim); }
-            if (path[0] == '.' && path.Length > 1 && path[1] != '.' && path[1] != '/') { return (prim == "/" ? "" : prim) + path; }
+            if (path[0] == '.' && path.Length > 1 && path[1] != '.' && path[1] != '/')
+            {
+                return (prim == "/" ? "" : prim) + path;
+            }
             int dot = path.LastIndexOf('.');
             if (dot > 0 && dot > path.LastIndexOf('/') && dot + 1 < path.Length && path[dot - 1] != '.')
             {
@@ -45,6 +50,7 @@ namespace Garage.Usd
             return path.Length == prefix.Length || path[prefix.Length] == '/' || path[prefix.Length] == '.';
         }
 
+        /// <summary>The path of a child.</summary>
         public static string Child(string parent, string name)
         {
             return parent == "/" ? "/" + name : parent + "/" + name;
@@ -76,6 +82,7 @@ namespace Garage.Usd
             return dot < 0 ? path : path.Substring(0, dot);
         }
 
+        /// <summary>The last element of a path.</summary>
         public static string Name(string path)
         {
             return path.Substring(path.LastIndexOf('/') + 1);

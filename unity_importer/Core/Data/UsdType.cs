@@ -5,8 +5,8 @@ namespace Garage.Usd
     /// <summary>The types of values, without their roles: a color3f is a Float3.</summary>
     public enum UsdType : byte
     {
-        None, Bool, UChar, Int, UInt, Int64, UInt64, Half, Float, Double, TimeCode, String, Token, Asset, PathExpression,
-        Matrix2d, Matrix3d, Matrix4d, Quatd, Quatf, Quath,
+        None, Bool, UChar, Int, UInt, Int64, UInt64, Half, Float, Double, TimeCode, String, Token, Asset,
+        PathExpression, Matrix2d, Matrix3d, Matrix4d, Quatd, Quatf, Quath,
         Double2, Float2, Half2, Int2, Double3, Float3, Half3, Int3, Double4, Float4, Half4, Int4,
         Dictionary, Path,
     }
@@ -63,10 +63,12 @@ namespace Garage.Usd
                 case UsdType.Half: case UsdType.Half2: case UsdType.Half3: case UsdType.Half4: case UsdType.Quath:
                 case UsdType.Float: case UsdType.Float2: case UsdType.Float3: case UsdType.Float4: case UsdType.Quatf:
                     return Storage.Floats;
-                case UsdType.Double: case UsdType.TimeCode: case UsdType.Double2: case UsdType.Double3: case UsdType.Double4:
-                case UsdType.Quatd: case UsdType.Matrix2d: case UsdType.Matrix3d: case UsdType.Matrix4d:
+                case UsdType.Double: case UsdType.TimeCode: case UsdType.Double2: case UsdType.Double3:
+                case UsdType.Double4: case UsdType.Quatd: case UsdType.Matrix2d: case UsdType.Matrix3d:
+                case UsdType.Matrix4d:
                     return Storage.Doubles;
-                case UsdType.String: case UsdType.Token: case UsdType.Asset: case UsdType.PathExpression: case UsdType.Path:
+                case UsdType.String: case UsdType.Token: case UsdType.Asset: case UsdType.PathExpression:
+                case UsdType.Path:
                     return Storage.Strings;
                 default: return Storage.None;
             }
@@ -97,7 +99,8 @@ namespace Garage.Usd
                 { "quath", UsdType.Quath }, { "double2", UsdType.Double2 }, { "double3", UsdType.Double3 },
                 { "double4", UsdType.Double4 }, { "float2", UsdType.Float2 }, { "float3", UsdType.Float3 },
                 { "float4", UsdType.Float4 }, { "half2", UsdType.Half2 }, { "half3", UsdType.Half3 },
-                { "half4", UsdType.Half4 }, { "int2", UsdType.Int2 }, { "int3", UsdType.Int3 }, { "int4", UsdType.Int4 },
+                { "half4", UsdType.Half4 }, { "int2", UsdType.Int2 }, { "int3", UsdType.Int3 },
+                { "int4", UsdType.Int4 },
             };
             foreach (string role in new[] { "point", "normal", "vector", "color", "texCoord" })
             {
@@ -110,7 +113,8 @@ namespace Garage.Usd
                     names.Add(role + count + "h", (UsdType)((int)UsdType.Half2 + 4 * (count - 2)));
                 }
             }
-            foreach (string old in new[] { "Point", "PointFloat", "Normal", "NormalFloat", "Vector", "VectorFloat", "Color", "ColorFloat" })
+            foreach (string old in new[] { "Point", "PointFloat", "Normal", "NormalFloat", "Vector", "VectorFloat",
+                "Color", "ColorFloat" })
             {
                 names.Add(old, old.EndsWith("Float") ? UsdType.Float3 : UsdType.Double3);
             }

@@ -12,12 +12,18 @@ namespace Garage.Usd
         /// <summary>The opinion that there is no value ("None").</summary>
         public static readonly UsdValue Blocked = new UsdValue(UsdType.None, false, new byte[0]);
 
+        /// <summary>Of one element.</summary>
         public readonly UsdType Type;
+
+        /// <summary>Whether there may be any number of elements.</summary>
         public readonly bool IsArray;
 
-        /// <summary>byte[], int[], uint[], long[], ulong[], float[], double[] or string[], as UsdTypes.StorageOf says.</summary>
+        /// <summary>
+        /// byte[], int[], uint[], long[], ulong[], float[], double[] or string[], as UsdTypes.StorageOf says.
+        /// </summary>
         public readonly Array Data;
 
+        /// <summary>Of data as UsdTypes.StorageOf says; it is not copied.</summary>
         public UsdValue(UsdType type, bool isArray, Array data)
         {
             Type = type;
@@ -25,6 +31,7 @@ namespace Garage.Usd
             Data = data;
         }
 
+        /// <summary>One string, token or the like.</summary>
         public static UsdValue OfString(UsdType type, string text)
         {
             return new UsdValue(type, false, new[] { text });
@@ -46,6 +53,7 @@ namespace Garage.Usd
             }
         }
 
+        /// <summary>All strings; empty for numbers.</summary>
         public string[] Texts
         {
             get { return Data as string[] ?? new string[0]; }
@@ -57,6 +65,7 @@ namespace Garage.Usd
             return Data.Length == 0 || Data is string[] ? otherwise : NumberAt(0);
         }
 
+        /// <summary>Whether the first number is not 0, or the given answer where there is none.</summary>
         public bool Truth(bool otherwise)
         {
             return Number(otherwise ? 1 : 0) != 0;
@@ -84,7 +93,9 @@ namespace Garage.Usd
             return converted;
         }
 
-        /// <summary>All numbers as int, the stored array itself where it is one; empty for strings and what no int holds.</summary>
+        /// <summary>
+        /// All numbers as int, the stored array itself where it is one; empty for strings and what no int holds.
+        /// </summary>
         public int[] Ints()
         {
             var ints = Data as int[];
@@ -122,11 +133,13 @@ namespace Garage.Usd
         readonly Dictionary<string, object> values = new Dictionary<string, object>();
         readonly List<string> keys = new List<string>();
 
+        /// <summary>The names.</summary>
         public IList<string> Keys
         {
             get { return keys; }
         }
 
+        /// <summary>The value under a name, or null; a new name comes last.</summary>
         public object this[string key]
         {
             get
@@ -152,9 +165,13 @@ namespace Garage.Usd
     /// <summary>Values over time, times ascending.</summary>
     public sealed class TimeSamples
     {
+        /// <summary>In time codes of the layer, ascending.</summary>
         public readonly double[] Times;
+
+        /// <summary>At each of the times.</summary>
         public readonly UsdValue[] Values;
 
+        /// <summary>Of samples in any order.</summary>
         public TimeSamples(double[] times, UsdValue[] values)
         {
             bool ascending = true;

@@ -8,8 +8,8 @@ namespace Garage.Usd
     public interface IAssetResolver
     {
         /// <summary>
-        /// The identifier of an asset as the layer with the identifier anchor names it; null, with the reason, where there is no
-        /// such file or it may not be read.
+        /// The identifier of an asset as the layer with the identifier anchor names it; null, with the reason, where
+        /// there is no such file or it may not be read.
         /// </summary>
         string Resolve(string anchor, string asset, out string reason);
 
@@ -17,13 +17,21 @@ namespace Garage.Usd
         byte[] Read(string identifier);
     }
 
-    /// <summary>Asset paths and the identifiers that come of them: "folder/a.usda", "folder/b.usdz[textures/c.png]".</summary>
+    /// <summary>
+    /// Asset paths and the identifiers that come of them: "folder/a.usda", "folder/b.usdz[textures/c.png]".
+    /// </summary>
     public static class AssetPaths
     {
-        /// <summary>A path relative to a folder, in the plain form without "." and ".."; null where it leads out of it.</summary>
+        /// <summary>
+        /// A path relative to a folder, in the plain form without "." and ".."; null where it leads out of it.
+        /// </summary>
         public static string Normal(string folder, string path)
         {
-            if (path.Length == 0 || path[0] == '/' || path.IndexOf('\\') >= 0 || path.IndexOf(':') >= 0 || path.IndexOf('\0') >= 0) { return null; }
+            if (path.Length == 0 || path[0] == '/' || path.IndexOf('\\') >= 0 || path.IndexOf(':') >= 0
+                || path.IndexOf('\0') >= 0)
+            {
+                return null;
+            }
             var parts = new List<string>();
             foreach (string part in (folder + "/" + path).Split('/'))
             {
@@ -48,12 +56,14 @@ namespace Garage.Usd
             entry = packed ? identifier.Substring(bracket + 1, identifier.Length - bracket - 2) : null;
         }
 
+        /// <summary>The path without its last element; empty where it has one alone.</summary>
         public static string Folder(string path)
         {
             int slash = path.LastIndexOf('/');
             return slash < 0 ? "" : path.Substring(0, slash);
         }
 
+        /// <summary>Whether the path is that of a .usdz.</summary>
         public static bool IsPackage(string path)
         {
             return path.EndsWith(".usdz", StringComparison.OrdinalIgnoreCase);
@@ -61,14 +71,15 @@ namespace Garage.Usd
     }
 
     /// <summary>
-    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused. Identifiers
-    /// are relative to the folder.
+    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused.
+    /// Identifiers are relative to the folder.
     /// </summary>
     public sealed class FolderResolver : IAssetResolver
     {
         readonly string root;
         readonly Dictionary<string, UsdzPackage> packages = new Dictionary<string, UsdzPackage>();
 
+        /// <summary>Of a folder of the file system.</summary>
         public FolderResolver(string root)
         {
             this.root = root;
@@ -80,6 +91,7 @@ namespace Garage.Usd
             packages.Add(name, package);
         }
 
+        /// <summary>As IAssetResolver. Throws UsdFormatException where a package is damaged.</summary>
         public string Resolve(string anchor, string asset, out string reason)
         {
             reason = null;
@@ -89,7 +101,8 @@ namespace Garage.Usd
             string normal = AssetPaths.Normal(AssetPaths.Folder(anchorEntry ?? anchorFile), file);
             if (normal == null)
             {
-                reason = "is not a relative path within " + (anchorEntry != null ? "the package" : "the folder of the stage");
+                reason = "is not a relative path within " + (anchorEntry != null ? "the package"
+                    : "the folder of the stage");
                 return null;
             }
             if (anchorEntry != null)
@@ -117,6 +130,7 @@ namespace Garage.Usd
             return normal + "[" + inner + "]";
         }
 
+        /// <summary>As IAssetResolver. Throws UsdFormatException where the file cannot be read.</summary>
         public byte[] Read(string identifier)
         {
             string file, entry;
@@ -133,7 +147,10 @@ namespace Garage.Usd
             }
             catch (Exception failure)
             {
-                if (failure is IOException || failure is UnauthorizedAccessException) { throw new UsdFormatException(file, "file", failure.Message); }
+                if (failure is IOException || failure is UnauthorizedAccessException)
+                {
+                    throw new UsdFormatException(file, "file", failure.Message);
+                }
                 throw;
             }
         }

@@ -30,7 +30,10 @@ namespace Garage.Usd
             for (int i = 0; i < count && i < MostEntries; i++)
             {
                 string place = "entry " + (i + 1);
-                if (at > bytes.Length - 46 || UInt((int)at) != 0x02014b50) { throw new UsdFormatException(file, place, "the directory is damaged"); }
+                if (at > bytes.Length - 46 || UInt((int)at) != 0x02014b50)
+                {
+                    throw new UsdFormatException(file, place, "the directory is damaged");
+                }
                 int entry = (int)at;
                 int flags = UShort(entry + 8), method = UShort(entry + 10), nameLength = UShort(entry + 28);
                 long packed = UInt(entry + 20), size = UInt(entry + 24), header = UInt(entry + 42);
@@ -38,9 +41,15 @@ namespace Garage.Usd
                 if (at > bytes.Length) { throw new UsdFormatException(file, place, "the directory is cut off"); }
                 string name = Encoding.UTF8.GetString(bytes, entry + 46, nameLength);
                 if (name.EndsWith("/", StringComparison.Ordinal)) { continue; }
-                if (method != 0 || packed != size) { throw new UsdFormatException(file, name, "is compressed; a usdz only stores"); }
+                if (method != 0 || packed != size)
+                {
+                    throw new UsdFormatException(file, name, "is compressed; a usdz only stores");
+                }
                 if ((flags & 1) != 0) { throw new UsdFormatException(file, name, "is encrypted"); }
-                if (AssetPaths.Normal("", name) != name) { throw new UsdFormatException(file, name, "is no plain path within the package"); }
+                if (AssetPaths.Normal("", name) != name)
+                {
+                    throw new UsdFormatException(file, name, "is no plain path within the package");
+                }
                 Add(file, name, header, size, nameLength, entry + 46);
                 if (header < firstPlace)
                 {
@@ -53,22 +62,33 @@ namespace Garage.Usd
 
         void Add(string file, string name, long header, long size, int nameLength, int nameAt)
         {
-            if (header > bytes.Length - 30 || UInt((int)header) != 0x04034b50) { throw new UsdFormatException(file, name, "has no header where the directory says"); }
+            if (header > bytes.Length - 30 || UInt((int)header) != 0x04034b50)
+            {
+                throw new UsdFormatException(file, name, "has no header where the directory says");
+            }
             int local = (int)header;
             bool same = UShort(local + 26) == nameLength && header + 30 + nameLength <= bytes.Length;
             for (int i = 0; same && i < nameLength; i++) { same = bytes[local + 30 + i] == bytes[nameAt + i]; }
-            if (!same) { throw new UsdFormatException(file, name, "has another name in its header than in the directory"); }
+            if (!same)
+            {
+                throw new UsdFormatException(file, name, "has another name in its header than in the directory");
+            }
             long start = header + 30 + nameLength + UShort(local + 28);
-            if (start + size > bytes.Length) { throw new UsdFormatException(file, name, "ends beyond the end of the package"); }
+            if (start + size > bytes.Length)
+            {
+                throw new UsdFormatException(file, name, "ends beyond the end of the package");
+            }
             if (entries.ContainsKey(name)) { throw new UsdFormatException(file, name, "is in the package twice"); }
             entries.Add(name, new KeyValuePair<int, int>((int)start, (int)size));
         }
 
+        /// <summary>Whether there is an entry of this name.</summary>
         public bool Has(string entry)
         {
             return entries.ContainsKey(entry);
         }
 
+        /// <summary>The bytes of an entry that there is.</summary>
         public byte[] Read(string entry)
         {
             KeyValuePair<int, int> place = entries[entry];

@@ -3,7 +3,9 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>Which material a prim shows: one bound for a purpose, wherever that is, before one bound for all purposes.</summary>
+    /// <summary>
+    /// Which material a prim shows: one bound for a purpose, wherever that is, before one bound for all purposes.
+    /// </summary>
     public struct MaterialBinding
     {
         readonly string special, general;
@@ -34,7 +36,9 @@ namespace Garage.Usd
             get { return special != null ? isSpecialStrong : isGeneralStrong; }
         }
 
-        /// <summary>What is bound to the prim itself, for a purpose ("preview", "full", "physics") and for all purposes.</summary>
+        /// <summary>
+        /// What is bound to the prim itself, for a purpose ("preview", "full", "physics") and for all purposes.
+        /// </summary>
         public static MaterialBinding Of(UsdPrim prim, string purpose)
         {
             bool isSpecialStrong, isGeneralStrong;
@@ -57,7 +61,8 @@ namespace Garage.Usd
         /// <summary>This binding below those that it inherits.</summary>
         public MaterialBinding Under(MaterialBinding above)
         {
-            bool keepsSpecial = special != null && !above.isSpecialStrong, keepsGeneral = general != null && !above.isGeneralStrong;
+            bool keepsSpecial = special != null && !above.isSpecialStrong;
+            bool keepsGeneral = general != null && !above.isGeneralStrong;
             return new MaterialBinding(
                 keepsSpecial ? special : above.special, keepsSpecial ? isSpecialStrong : above.isSpecialStrong,
                 keepsGeneral ? general : above.general, keepsGeneral ? isGeneralStrong : above.isGeneralStrong);
@@ -66,7 +71,9 @@ namespace Garage.Usd
         /// <summary>The same with other paths.</summary>
         public MaterialBinding Moved(Func<string, string> path)
         {
-            return new MaterialBinding(special == null ? null : path(special), isSpecialStrong, general == null ? null : path(general), isGeneralStrong);
+            string movedSpecial = special == null ? null : path(special);
+            string movedGeneral = general == null ? null : path(general);
+            return new MaterialBinding(movedSpecial, isSpecialStrong, movedGeneral, isGeneralStrong);
         }
 
         /// <summary>The material, or null where none is bound, or something else than a material.</summary>

@@ -15,7 +15,10 @@ namespace Garage.Usd
         /// <summary>"r", "g", "b", "a" or "rgb".</summary>
         public string Channel;
 
+        /// <summary>"repeat", "mirror", "clamp", "black" or "useMetadata"; "raw", "sRGB" or "auto".</summary>
         public string WrapS, WrapT, SourceColorSpace;
+
+        /// <summary>Four numbers each: a pixel times Scale plus Bias; what stands for a missing file.</summary>
         public float[] Scale, Bias, Fallback;
 
         /// <summary>The primvar with the texture coordinates.</summary>
@@ -24,7 +27,10 @@ namespace Garage.Usd
         /// <summary>UsdTransform2d: scale, then rotation, then translation.</summary>
         public float[] CoordinateScale = { 1, 1 };
 
+        /// <summary>UsdTransform2d: counterclockwise.</summary>
         public float CoordinateRotationDegrees;
+
+        /// <summary>UsdTransform2d.</summary>
         public float[] CoordinateTranslation = { 0, 0 };
     }
 
@@ -37,6 +43,7 @@ namespace Garage.Usd
         /// <summary>The constant of an input that is a word, such as "opacityMode".</summary>
         public string Text;
 
+        /// <summary>Null where the value comes from no texture.</summary>
         public TextureData Texture;
 
         /// <summary>Name of the primvar that gives the value.</summary>
@@ -48,6 +55,7 @@ namespace Garage.Usd
     {
         const int LongestConnection = 16;
 
+        /// <summary>Path of the material.</summary>
         public string Path { get; private set; }
 
         /// <summary>By name: "diffuseColor", "roughness"; only what is given.</summary>
@@ -56,10 +64,14 @@ namespace Garage.Usd
         // UsdPreviewSurface's own values for what is not given
         static readonly Dictionary<string, float[]> Fallbacks = new Dictionary<string, float[]>
         {
-            { "diffuseColor", new[] { 0.18f, 0.18f, 0.18f } }, { "emissiveColor", new float[3] }, { "useSpecularWorkflow", new float[1] },
-            { "specularColor", new float[3] }, { "metallic", new float[1] }, { "roughness", new[] { 0.5f } }, { "clearcoat", new float[1] },
-            { "clearcoatRoughness", new[] { 0.01f } }, { "opacity", new[] { 1f } }, { "opacityThreshold", new float[1] },
-            { "ior", new[] { 1.5f } }, { "normal", new[] { 0f, 0f, 1f } }, { "displacement", new float[1] }, { "occlusion", new[] { 1f } },
+            { "diffuseColor", new[] { 0.18f, 0.18f, 0.18f } }, { "emissiveColor", new float[3] },
+            { "useSpecularWorkflow", new float[1] },
+            { "specularColor", new float[3] }, { "metallic", new float[1] }, { "roughness", new[] { 0.5f } },
+            { "clearcoat", new float[1] },
+            { "clearcoatRoughness", new[] { 0.01f } }, { "opacity", new[] { 1f } },
+            { "opacityThreshold", new float[1] },
+            { "ior", new[] { 1.5f } }, { "normal", new[] { 0f, 0f, 1f } }, { "displacement", new float[1] },
+            { "occlusion", new[] { 1f } },
         };
 
         /// <summary>The constant of an input, or UsdPreviewSurface's fallback.</summary>
@@ -71,6 +83,7 @@ namespace Garage.Usd
             return Fallbacks.TryGetValue(input, out fallback) ? fallback : new float[1];
         }
 
+        /// <summary>The texture of an input; null where it has none.</summary>
         public TextureData Texture(string input)
         {
             MaterialInput found;
@@ -94,7 +107,10 @@ namespace Garage.Usd
             var data = new MaterialData { Path = material.Path, Inputs = new Dictionary<string, MaterialInput>() };
             foreach (string name in shader.PropertyNames)
             {
-                if (name.StartsWith("inputs:", StringComparison.Ordinal)) { data.Inputs[name.Substring(7)] = Input(stage, shader, name); }
+                if (name.StartsWith("inputs:", StringComparison.Ordinal))
+                {
+                    data.Inputs[name.Substring(7)] = Input(stage, shader, name);
+                }
             }
             return data;
         }
@@ -139,7 +155,10 @@ namespace Garage.Usd
             if (shader == null) { return input; }
             string id = shader.Text("info:id", "");
             if (id == "UsdUVTexture") { input.Texture = TextureOf(stage, shader, output.Substring(8)); }
-            else if (id.StartsWith("UsdPrimvarReader", StringComparison.Ordinal)) { input.Primvar = TextOf(stage, shader, "inputs:varname", null); }
+            else if (id.StartsWith("UsdPrimvarReader", StringComparison.Ordinal))
+            {
+                input.Primvar = TextOf(stage, shader, "inputs:varname", null);
+            }
             return input;
         }
 
@@ -165,9 +184,11 @@ namespace Garage.Usd
         {
             var data = new TextureData
             {
-                Channel = channel, WrapS = TextOf(stage, texture, "inputs:wrapS", "useMetadata"), WrapT = TextOf(stage, texture, "inputs:wrapT", "useMetadata"),
+                Channel = channel, WrapS = TextOf(stage, texture, "inputs:wrapS", "useMetadata"),
+                WrapT = TextOf(stage, texture, "inputs:wrapT", "useMetadata"),
                 SourceColorSpace = TextOf(stage, texture, "inputs:sourceColorSpace", "auto"),
-                Scale = FloatsOf(stage, texture, "inputs:scale", new[] { 1f, 1, 1, 1 }), Bias = FloatsOf(stage, texture, "inputs:bias", new float[4]),
+                Scale = FloatsOf(stage, texture, "inputs:scale", new[] { 1f, 1, 1, 1 }),
+                Bias = FloatsOf(stage, texture, "inputs:bias", new float[4]),
                 Fallback = FloatsOf(stage, texture, "inputs:fallback", new[] { 0f, 0, 0, 1 }),
             };
             UsdPrim shader;
@@ -178,7 +199,10 @@ namespace Garage.Usd
                 string reason;
                 data.AssetPath = file.Value.Text;
                 data.Identifier = file.ResolvedAsset(out reason);
-                if (data.Identifier == null) { stage.Composer.Library.Warn("<" + texture.Path + ">: @" + data.AssetPath + "@ " + reason); }
+                if (data.Identifier == null)
+                {
+                    stage.Composer.Library.Warn("<" + texture.Path + ">: @" + data.AssetPath + "@ " + reason);
+                }
             }
             UsdPrim reader;
             Source(stage, texture, "inputs:st", out reader, out output);

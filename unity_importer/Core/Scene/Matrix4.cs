@@ -2,19 +2,24 @@ using System;
 
 namespace Garage.Usd
 {
-    /// <summary>4x4 matrices as USD has them: 16 numbers, row by row, translation in the last row, a point times the matrix.</summary>
+    /// <summary>
+    /// 4x4 matrices as USD has them: 16 numbers, row by row, translation in the last row, a point times the matrix.
+    /// </summary>
     public static class Matrix4
     {
+        /// <summary>What leaves every point where it is.</summary>
         public static double[] Identity()
         {
             return new double[] { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
         }
 
+        /// <summary>A move.</summary>
         public static double[] Translation(double x, double y, double z)
         {
             return new[] { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1 };
         }
 
+        /// <summary>Factors along the axes.</summary>
         public static double[] Scaling(double x, double y, double z)
         {
             return new[] { x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1 };
@@ -33,7 +38,10 @@ namespace Garage.Usd
             return matrix;
         }
 
-        /// <summary>The rotation of a quaternion: about (x, y, z), whatever its length, by the angle of whose half w is the cosine.</summary>
+        /// <summary>
+        /// The rotation of a quaternion: about (x, y, z), whatever its length, by the angle of whose half w is the
+        /// cosine.
+        /// </summary>
         public static double[] Quaternion(double w, double x, double y, double z)
         {
             double length = Math.Sqrt(x * x + y * y + z * z);
@@ -119,19 +127,23 @@ namespace Garage.Usd
     {
         readonly bool isZUp;
 
+        /// <summary>Metres of one unit of the stage.</summary>
         public readonly double MetersPerUnit;
 
+        /// <summary>Of a stage with +Z, otherwise +Y, pointing up.</summary>
         public Basis(bool isZUp, double metersPerUnit)
         {
             this.isZUp = isZUp;
             MetersPerUnit = metersPerUnit;
         }
 
+        /// <summary>Of a stage.</summary>
         public static Basis Of(UsdStage stage)
         {
             return new Basis(stage.IsZUp, stage.MetersPerUnit);
         }
 
+        /// <summary>Whether +Z points up in the stage; otherwise +Y does.</summary>
         public bool IsZUp
         {
             get { return isZUp; }
@@ -168,7 +180,8 @@ namespace Garage.Usd
         /// <summary>B M B^-1, translation in metres.</summary>
         public double[] Matrix(double[] matrix)
         {
-            var basis = isZUp ? new double[] { 1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1 } : Matrix4.Scaling(1, 1, -1);
+            var basis = isZUp ? new double[] { 1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1 }
+                : Matrix4.Scaling(1, 1, -1);
             // both bases are their own inverses
             double[] turned = Matrix4.Multiply(Matrix4.Multiply(basis, matrix), basis);
             for (int i = 12; i < 15; i++) { turned[i] *= MetersPerUnit; }

@@ -3,11 +3,14 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>A prim as a scene shows it. Nodes of a prototype are there once, however many instances share them.</summary>
+    /// <summary>
+    /// A prim as a scene shows it. Nodes of a prototype are there once, however many instances share them.
+    /// </summary>
     public sealed class SceneNode
     {
         static readonly List<SceneNode> None = new List<SceneNode>();
 
+        /// <summary>The prim itself.</summary>
         public UsdPrim Prim { get; private set; }
 
         /// <summary>To the parent's space, in the axes and units of the stage.</summary>
@@ -25,16 +28,28 @@ namespace Garage.Usd
         /// <summary>Bindings of the node itself; those above it count where it has none.</summary>
         public MaterialBinding Material { get; private set; }
 
+        /// <summary>As Material, for the purpose "physics".</summary>
         public MaterialBinding PhysicsMaterial { get; private set; }
 
         /// <summary>Null where the prim is no mesh, or a bad one.</summary>
         public TriangleMesh Mesh { get; private set; }
 
+        /// <summary>Null where the prim is no light.</summary>
         public LightData Light { get; private set; }
+
+        /// <summary>Null where the prim is no camera.</summary>
         public CameraData Camera { get; private set; }
+
+        /// <summary>Null where the prim is no cube, sphere or the like.</summary>
         public ShapeData Shape { get; private set; }
+
+        /// <summary>Null where nothing can collide with the prim.</summary>
         public ColliderData Collider { get; private set; }
+
+        /// <summary>Null where the prim is no curves.</summary>
         public CurvesData Curves { get; private set; }
+
+        /// <summary>Null where the prim is no PointInstancer.</summary>
         public PointInstancerData PointInstancer { get; private set; }
 
         /// <summary>Labels of UsdSemantics by taxonomy ("class").</summary>
@@ -85,7 +100,10 @@ namespace Garage.Usd
         readonly Dictionary<UsdPrim, long> shownBelow = new Dictionary<UsdPrim, long>();
         readonly Dictionary<string, MaterialData> materials = new Dictionary<string, MaterialData>();
 
+        /// <summary>The stage that is shown.</summary>
         public UsdStage Stage { get; private set; }
+
+        /// <summary>From the stage's axes and units to Unity's.</summary>
         public Basis Basis { get; private set; }
 
         /// <summary>Root prims that define something.</summary>
@@ -94,7 +112,9 @@ namespace Garage.Usd
         /// <summary>Prims that the scene shows, at all places of all instances.</summary>
         public long ShownCount { get; private set; }
 
-        /// <summary>Throws UsdFormatException where instances within instances stand for more prims than anything can show.</summary>
+        /// <summary>
+        /// Throws UsdFormatException where instances within instances stand for more prims than anything can show.
+        /// </summary>
         public SceneModel(UsdStage stage)
         {
             Stage = stage;
@@ -118,7 +138,8 @@ namespace Garage.Usd
                 count += below;
                 if (count > MostShown)
                 {
-                    throw new UsdFormatException(Stage.Identifier, "<" + node.Prim.Path + ">", "instances stand for more than " + MostShown + " prims");
+                    throw new UsdFormatException(Stage.Identifier, "<" + node.Prim.Path + ">",
+                        "instances stand for more than " + MostShown + " prims");
                 }
             }
             return count;
@@ -150,7 +171,9 @@ namespace Garage.Usd
             return shared;
         }
 
-        /// <summary>A node for the prim at a path, such as a prototype of a PointInstancer; null where there is none.</summary>
+        /// <summary>
+        /// A node for the prim at a path, such as a prototype of a PointInstancer; null where there is none.
+        /// </summary>
         public SceneNode NodeAt(string path)
         {
             UsdPrim prim = Stage.PrimAt(path);

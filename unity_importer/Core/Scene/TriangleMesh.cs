@@ -3,7 +3,9 @@ using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>A part of a mesh with a material of its own: the faces of a GeomSubset, or those that no subset has.</summary>
+    /// <summary>
+    /// A part of a mesh with a material of its own: the faces of a GeomSubset, or those that no subset has.
+    /// </summary>
     public sealed class SubMesh
     {
         /// <summary>Path of the subset; null for the faces of none.</summary>
@@ -24,6 +26,7 @@ namespace Garage.Usd
         /// <summary>Three numbers a vertex.</summary>
         public float[] Points { get; private set; }
 
+        /// <summary>Three numbers a vertex, of length 1 where the mesh gives none of its own.</summary>
         public float[] Normals { get; private set; }
 
         /// <summary>Two numbers a vertex, by the name of the primvar ("st").</summary>
@@ -32,8 +35,10 @@ namespace Garage.Usd
         /// <summary>primvars:displayColor, three numbers a vertex; null where there is none.</summary>
         public float[] Colors { get; private set; }
 
+        /// <summary>The triangles, by material.</summary>
         public List<SubMesh> SubMeshes { get; private set; }
 
+        /// <summary>Whether the backs of faces are seen.</summary>
         public bool IsDoubleSided { get; private set; }
 
         /// <summary>The point of the mesh that each vertex is.</summary>
@@ -73,8 +78,12 @@ namespace Garage.Usd
 
             public string Read()
             {
-                UsdValue pointsValue = prim.Value("points"), countsValue = prim.Value("faceVertexCounts"), indicesValue = prim.Value("faceVertexIndices");
-                if (pointsValue == null || countsValue == null || indicesValue == null) { return "has no points or faces"; }
+                UsdValue pointsValue = prim.Value("points"), countsValue = prim.Value("faceVertexCounts"),
+                    indicesValue = prim.Value("faceVertexIndices");
+                if (pointsValue == null || countsValue == null || indicesValue == null)
+                {
+                    return "has no points or faces";
+                }
                 points = pointsValue.Floats();
                 counts = countsValue.Ints();
                 indices = indicesValue.Ints();
@@ -89,7 +98,10 @@ namespace Garage.Usd
                     if (total > indices.Length) { return "faceVertexCounts need more indices than there are"; }
                 }
                 faceStarts[counts.Length] = (int)total;
-                if (total != indices.Length) { return "faceVertexCounts need " + total + " indices, but there are " + indices.Length; }
+                if (total != indices.Length)
+                {
+                    return "faceVertexCounts need " + total + " indices, but there are " + indices.Length;
+                }
                 foreach (int index in indices)
                 {
                     if ((uint)index >= (uint)pointCount) { return "an index of a face is not that of a point"; }
@@ -112,7 +124,10 @@ namespace Garage.Usd
                 channels.Add(normals);
                 foreach (string name in prim.PropertyNames)
                 {
-                    if (!name.StartsWith("primvars:", StringComparison.Ordinal) || name == "primvars:normals") { continue; }
+                    if (!name.StartsWith("primvars:", StringComparison.Ordinal) || name == "primvars:normals")
+                    {
+                        continue;
+                    }
                     UsdValue value = prim.Value(name);
                     bool isColor = name == "primvars:displayColor";
                     if (value == null || UsdTypes.Components(value.Type) != (isColor ? 3 : 2)) { continue; }
@@ -127,7 +142,10 @@ namespace Garage.Usd
             {
                 UsdProperty property = prim.Property(name);
                 UsdValue value = property == null ? null : property.Value;
-                if (value == null || value.Data.Length < size || UsdTypes.Components(value.Type) != size) { return null; }
+                if (value == null || value.Data.Length < size || UsdTypes.Components(value.Type) != size)
+                {
+                    return null;
+                }
                 UsdValue indicesValue = prim.Value(name + ":indices");
                 string otherwise = name == "normals" ? "vertex" : "constant";
                 var channel = new Channel
@@ -135,12 +153,15 @@ namespace Garage.Usd
                     Size = size, Values = value.Floats(), Indices = indicesValue == null ? null : indicesValue.Ints(),
                     Interpolation = property.MetadataText("interpolation") ?? otherwise,
                 };
-                int items = channel.Values.Length / size, elements = channel.Indices == null ? items : channel.Indices.Length;
-                int needed = channel.Interpolation == "faceVarying" ? indices.Length : channel.Interpolation == "uniform" ? counts.Length
+                int items = channel.Values.Length / size;
+                int elements = channel.Indices == null ? items : channel.Indices.Length;
+                int needed = channel.Interpolation == "faceVarying" ? indices.Length
+                    : channel.Interpolation == "uniform" ? counts.Length
                     : channel.Interpolation == "constant" ? 1 : points.Length / 3;
                 if (elements < needed)
                 {
-                    prim.Stage.Composer.Library.Warn("<" + prim.Path + "." + name + "> has " + elements + " elements where " + needed + " are needed");
+                    prim.Stage.Composer.Library.Warn("<" + prim.Path + "." + name + "> has " + elements
+                        + " elements where " + needed + " are needed");
                     return null;
                 }
                 if (channel.Indices != null)
@@ -148,7 +169,8 @@ namespace Garage.Usd
                     foreach (int index in channel.Indices)
                     {
                         if ((uint)index < (uint)items) { continue; }
-                        prim.Stage.Composer.Library.Warn("<" + prim.Path + "." + name + "> has an index out of its values");
+                        prim.Stage.Composer.Library.Warn("<" + prim.Path + "." + name
+                            + "> has an index out of its values");
                         return null;
                     }
                 }
@@ -185,8 +207,12 @@ namespace Garage.Usd
 
             static void Unit(double[] from, int at, float[] into, int place)
             {
-                double length = Math.Sqrt(from[at] * from[at] + from[at + 1] * from[at + 1] + from[at + 2] * from[at + 2]);
-                for (int k = 0; k < 3; k++) { into[place + k] = length > 0 ? (float)(from[at + k] / length) : k == 1 ? 1 : 0; }
+                double length = Math.Sqrt(from[at] * from[at] + from[at + 1] * from[at + 1]
+                    + from[at + 2] * from[at + 2]);
+                for (int k = 0; k < 3; k++)
+                {
+                    into[place + k] = length > 0 ? (float)(from[at + k] / length) : k == 1 ? 1 : 0;
+                }
             }
 
             // twice the area times the direction, by Newell
@@ -209,7 +235,8 @@ namespace Garage.Usd
                 int[] pointOfVertex = SplitVertices(out vertexOfCorner);
                 var mesh = new TriangleMesh
                 {
-                    PointOfVertex = pointOfVertex, TextureCoordinates = new Dictionary<string, float[]>(), SubMeshes = new List<SubMesh>(),
+                    PointOfVertex = pointOfVertex, TextureCoordinates = new Dictionary<string, float[]>(),
+                    SubMeshes = new List<SubMesh>(),
                     IsDoubleSided = prim.Truth("doubleSided", false), Points = new float[3 * pointOfVertex.Length],
                 };
                 for (int vertex = 0; vertex < pointOfVertex.Length; vertex++)
@@ -228,7 +255,8 @@ namespace Garage.Usd
 
             static int Element(Channel channel, int corner, int face, int point)
             {
-                int element = channel.Interpolation == "faceVarying" ? corner : channel.Interpolation == "uniform" ? face
+                int element = channel.Interpolation == "faceVarying" ? corner
+                    : channel.Interpolation == "uniform" ? face
                     : channel.Interpolation == "constant" ? 0 : point;
                 return channel.Indices == null ? element : channel.Indices[element];
             }
@@ -253,7 +281,10 @@ namespace Garage.Usd
             int[] SplitVertices(out int[] vertexOfCorner)
             {
                 bool splits = false;
-                foreach (Channel channel in channels) { splits |= channel.Interpolation == "faceVarying" || channel.Interpolation == "uniform"; }
+                foreach (Channel channel in channels)
+                {
+                    splits |= channel.Interpolation == "faceVarying" || channel.Interpolation == "uniform";
+                }
                 vertexOfCorner = indices;
                 int[] pointOfVertex;
                 int[] cornerOfVertex = null, faceOfVertex = null;
@@ -273,13 +304,17 @@ namespace Garage.Usd
                     {
                         int corner = splits ? cornerOfVertex[vertex] : 0, face = splits ? faceOfVertex[vertex] : 0;
                         int element = Element(channel, corner, face, pointOfVertex[vertex]);
-                        for (int k = 0; k < channel.Size; k++) { channel.Result[channel.Size * vertex + k] = channel.Values[channel.Size * element + k]; }
+                        for (int k = 0; k < channel.Size; k++)
+                        {
+                            channel.Result[channel.Size * vertex + k] = channel.Values[channel.Size * element + k];
+                        }
                     }
                 }
                 return pointOfVertex;
             }
 
-            void Split(out int[] pointOfVertex, out int[] cornerOfVertex, out int[] faceOfVertex, out int[] vertexOfCorner)
+            void Split(out int[] pointOfVertex, out int[] cornerOfVertex, out int[] faceOfVertex,
+                out int[] vertexOfCorner)
             {
                 // elements with equal values count as one, so that smooth edges stay closed
                 var canonical = new List<int[]>();
@@ -313,7 +348,8 @@ namespace Garage.Usd
                             }
                             others = ((long)i << 40) + number;
                         }
-                        var key = new Key { Point = indices[corner], First = canonical[0][Element(channels[0], corner, face, indices[corner])], Others = others };
+                        int first = canonical[0][Element(channels[0], corner, face, indices[corner])];
+                        var key = new Key { Point = indices[corner], First = first, Others = others };
                         int vertex;
                         if (!vertices.TryGetValue(key, out vertex))
                         {
@@ -353,7 +389,8 @@ namespace Garage.Usd
                 for (int i = 0; i < equal.Length; i++)
                 {
                     int at = channel.Size * i;
-                    var triple = new Triple { X = channel.Values[at], Y = channel.Values[at + 1], Z = channel.Size > 2 ? channel.Values[at + 2] : 0 };
+                    var triple = new Triple { X = channel.Values[at], Y = channel.Values[at + 1] };
+                    if (channel.Size > 2) { triple.Z = channel.Values[at + 2]; }
                     int found;
                     if (!first.TryGetValue(triple, out found))
                     {
@@ -374,11 +411,17 @@ namespace Garage.Usd
                     if (child.TypeName != "GeomSubset" || child.Text("elementType", "face") != "face") { continue; }
                     MaterialBinding binding = MaterialBinding.Of(child, "preview");
                     UsdValue faces = child.Value("indices");
-                    if (faces == null || (binding.Path == null && child.Text("familyName", "") != "materialBind")) { continue; }
+                    if (faces == null || (binding.Path == null && child.Text("familyName", "") != "materialBind"))
+                    {
+                        continue;
+                    }
                     parts.Add(new SubMesh { SubsetPath = child.Path, MaterialPath = binding.Path });
                     foreach (int face in faces.Ints())
                     {
-                        if ((uint)face < (uint)counts.Length && partOfFace[face] == 0) { partOfFace[face] = parts.Count - 1; }
+                        if ((uint)face < (uint)counts.Length && partOfFace[face] == 0)
+                        {
+                            partOfFace[face] = parts.Count - 1;
+                        }
                     }
                 }
                 var triangles = new List<int>[parts.Count];
@@ -417,7 +460,8 @@ namespace Garage.Usd
                 // the plane in which the face is largest
                 var normal = new double[3];
                 FaceNormal(face, normal);
-                int drop = Math.Abs(normal[0]) > Math.Abs(normal[1]) ? (Math.Abs(normal[0]) > Math.Abs(normal[2]) ? 0 : 2)
+                int drop = Math.Abs(normal[0]) > Math.Abs(normal[1])
+                    ? (Math.Abs(normal[0]) > Math.Abs(normal[2]) ? 0 : 2)
                     : Math.Abs(normal[1]) > Math.Abs(normal[2]) ? 1 : 2;
                 int u = (drop + 1) % 3, v = (drop + 2) % 3;
                 double sign = normal[drop] < 0 ? -1 : 1;
@@ -447,7 +491,8 @@ namespace Garage.Usd
                 corners.Add(c);
             }
 
-            // the first corner that can be cut off without crossing the rest; whichever is least bad where the face crosses itself
+            // the first corner that can be cut off without crossing the rest; whichever is least bad where the face
+            // crosses itself
             static int BestEar(List<int> rest, double[] x, double[] y)
             {
                 int best = 1;
@@ -467,8 +512,10 @@ namespace Garage.Usd
                     foreach (int other in rest)
                     {
                         if (other == a || other == b || other == c) { continue; }
-                        bool atCorner = (x[other] == x[a] && y[other] == y[a]) || (x[other] == x[b] && y[other] == y[b]) || (x[other] == x[c] && y[other] == y[c]);
-                        if (!atCorner && Area(x, y, a, b, other) >= 0 && Area(x, y, b, c, other) >= 0 && Area(x, y, c, a, other) >= 0)
+                        bool atCorner = (x[other] == x[a] && y[other] == y[a]) || (x[other] == x[b] && y[other] == y[b])
+                            || (x[other] == x[c] && y[other] == y[c]);
+                        if (!atCorner && Area(x, y, a, b, other) >= 0 && Area(x, y, b, c, other) >= 0
+                            && Area(x, y, c, a, other) >= 0)
                         {
                             isFree = false;
                             break;

@@ -9,10 +9,10 @@ namespace Garage.Usd
         // types without a place of their own: what such a prim says of a transform means nothing
         static readonly HashSet<string> Placeless = new HashSet<string>
         {
-            "", "Backdrop", "BlendShape", "GeomSubset", "LODDistanceHeuristic", "LODScreenSizeHeuristic", "Material", "NodeGraph",
-            "PhysicsCollisionGroup", "PhysicsDistanceJoint", "PhysicsFixedJoint", "PhysicsJoint", "PhysicsPrismaticJoint",
-            "PhysicsRevoluteJoint", "PhysicsScene", "PhysicsSphericalJoint", "RenderPass", "RenderProduct", "RenderSettings",
-            "RenderVar", "Scope", "Shader", "SkelAnimation",
+            "", "Backdrop", "BlendShape", "GeomSubset", "LODDistanceHeuristic", "LODScreenSizeHeuristic", "Material",
+            "NodeGraph", "PhysicsCollisionGroup", "PhysicsDistanceJoint", "PhysicsFixedJoint", "PhysicsJoint",
+            "PhysicsPrismaticJoint", "PhysicsRevoluteJoint", "PhysicsScene", "PhysicsSphericalJoint", "RenderPass",
+            "RenderProduct", "RenderSettings", "RenderVar", "Scope", "Shader", "SkelAnimation",
         };
 
         /// <summary>The matrix to the parent's space; whether the prim leaves its parents' transforms aside.</summary>
@@ -50,9 +50,10 @@ namespace Garage.Usd
             double[] v = value.Doubles();
             int end = name.IndexOf(':', 8);
             string kind = end < 0 ? name.Substring(8) : name.Substring(8, end - 8);
-            int needed = kind == "transform" ? 16 : kind == "orient" ? 4 : kind.Length == 7 && kind.StartsWith("rotate", StringComparison.Ordinal) ? 1
-                : kind.StartsWith("translate", StringComparison.Ordinal) && kind.Length == 10 ? 1
-                : kind.StartsWith("scale", StringComparison.Ordinal) && kind.Length == 6 ? 1 : 3;
+            bool isOfOneAxis = (kind.StartsWith("rotate", StringComparison.Ordinal) && kind.Length == 7)
+                || (kind.StartsWith("translate", StringComparison.Ordinal) && kind.Length == 10)
+                || (kind.StartsWith("scale", StringComparison.Ordinal) && kind.Length == 6);
+            int needed = kind == "transform" ? 16 : kind == "orient" ? 4 : isOfOneAxis ? 1 : 3;
             if (v.Length < needed) { return null; }
             switch (kind)
             {
@@ -69,7 +70,8 @@ namespace Garage.Usd
                 case "rotateZ": return Matrix4.Rotation(2, v[0]);
                 case "orient": return Matrix4.Quaternion(v[0], v[1], v[2], v[3]);
                 case "transform": return v.Length == 16 ? (double[])v.Clone() : null;
-                case "rotateXYZ": case "rotateXZY": case "rotateYXZ": case "rotateYZX": case "rotateZXY": case "rotateZYX":
+                case "rotateXYZ": case "rotateXZY": case "rotateYXZ":
+                case "rotateYZX": case "rotateZXY": case "rotateZYX":
                     double[] turned = Matrix4.Identity();
                     for (int i = 6; i < 9; i++)
                     {

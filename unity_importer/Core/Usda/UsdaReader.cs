@@ -4,20 +4,20 @@ using System.Collections.Generic;
 namespace Garage.Usd
 {
     /// <summary>Reads text layers (.usda).</summary>
-    sealed class UsdaReader : UsdaScanner
+    sealed class UsdaReader : UsdaValueReader
     {
         const int DeepestPrim = 400;
-        const int DeepestValue = 40;
 
         readonly Layer layer;
-        readonly List<string> names = new List<string>();
-        readonly UsdaValues values;
+        readonly LineMemo lines;
+        readonly string[] names = new string[DeepestPrim];
+        int depth, variantDepth;
         string primPath;
 
         UsdaReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
             layer = new Layer(identifier);
-            values = new UsdaValues();
+            lines = new LineMemo(text, end);
         }
 
         public static bool Knows(byte[] bytes)
@@ -29,7 +29,10 @@ namespace Garage.Usd
         /// <summary>The layer in these bytes. Throws UsdFormatException.</summary>
         public static Layer Read(byte[] bytes, string identifier)
         {
-            if (!Knows(bytes)) { throw new UsdFormatException(identifier, "line 1", "does not begin with '#usda 1.0'"); }
+            if (!Knows(bytes))
+            {
+                throw new UsdFormatException(identifier, "line 1", "does not begin with '#usda 1.0'");
+            }
             return new UsdaReader(bytes, identifier).ReadLayer();
         }
 
@@ -64,25 +67,38 @@ namespace Garage.Usd
 
         static bool TrySpecifier(string word, out Specifier specifier)
         {
-            specifier = word == "def" ? Specifier.Def : word == "class" ? Specifier.Class : Specifier.Over;
-            return word == "def" || word == "over" || word == "class";
+            specifier = Specifier.Over;
+            switch (word == null ? 0 : word.Length)
+            {
+                case 3:
+                    specifier = Specifier.Def;
+                    return word == "def";
+                case 4: return word == "over";
+                case 5:
+                    specifier = Specifier.Class;
+                    return word == "class";
+                default: return false;
+            }
         }
 
         void ReadPrim(PrimSpec parent, Specifier specifier)
         {
-            if (names.Count >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
+            if (depth >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
             string typeName = AtQuote() ? "" : Name();
-            string name = QuotedString();
-            if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0) { throw Error("'" + name + "' is no name of a prim"); }
+            string name = QuotedString(false);
+            if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0)
+            {
+                throw Error("'" + name + "' is no name of a prim");
+            }
             var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
             if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
             layer.SpecCount++;
-            names.Add(name);
+            names[depth++] = name;
             primPath = null;
             if (Take('(')) { ReadPrimMetadata(prim); }
             Expect('{');
             ReadBody(prim);
-            names.RemoveAt(names.Count - 1);
+            depth--;
             primPath = null;
         }
 
@@ -96,6 +112,8 @@ namespace Garage.Usd
                     at++;
                     return;
                 }
+                int start = at;
+                if (MayComeOften(text[at]) && TakeKnownProperty(prim)) { continue; }
                 string word = Name();
                 Specifier specifier;
                 if (TrySpecifier(word, out specifier))
@@ -115,9 +133,36 @@ namespace Garage.Usd
                 }
                 else
                 {
+                    int before = prim.Properties.Count;
                     ReadProperty(prim, word);
+                    if (prim.Properties.Count > before) { lines.Keep(start, at, prim.Properties[before]); }
                 }
             }
+        }
+
+        // "uniform", "token", "rel", "custom", "bool", "asset", "string"; lines of numbers are rarely equal
+        static bool MayComeOften(byte first)
+        {
+            return first == 'u' || first == 't' || first == 'r' || first == 'c' || first == 'b' || first == 'a'
+                || first == 's';
+        }
+
+        // a line that was read before, of a property that the prim does not have yet: both prims share it
+        bool TakeKnownProperty(PrimSpec prim)
+        {
+            int stop;
+            var known = lines.Find(at, out stop) as PropertySpec;
+            if (known == null || prim.Properties.Find(known.Name) != null) { return false; }
+            int start = at;
+            at = stop;
+            // what belongs to it may stand on the next line
+            if (Next() == '(')
+            {
+                at = start;
+                return false;
+            }
+            prim.Properties.Add(known);
+            return true;
         }
 
         bool AtReorder()
@@ -140,7 +185,10 @@ namespace Garage.Usd
             }
             Expect('=');
             Expect('{');
-            if (variantDepth >= DeepestValue) { throw Error("variants are nested more than " + DeepestValue + " deep"); }
+            if (variantDepth >= DeepestValue)
+            {
+                throw Error("variants are nested more than " + DeepestValue + " deep");
+            }
             variantDepth++;
             while (!Take('}'))
             {
@@ -159,8 +207,6 @@ namespace Garage.Usd
             }
             variantDepth--;
         }
-
-        int variantDepth;
 
         // ---- properties
 
@@ -188,14 +234,15 @@ namespace Garage.Usd
             if (!isRelationship && text[at] == '[' && text[at + 1] == ']')
             {
                 at += 2;
-                typeName = values.ArrayName(word);
+                typeName = ArrayName(word);
             }
             string name = Name();
-            PropertySpec property = prim.FindProperty(name);
+            PropertySpec property = prim.OwnProperty(name);
             if (property == null)
             {
-                property = new PropertySpec(name) { IsRelationship = isRelationship, TypeName = isRelationship ? "" : typeName };
-                prim.AddProperty(property);
+                property = new PropertySpec(name) { IsRelationship = isRelationship };
+                property.TypeName = isRelationship ? "" : typeName;
+                prim.Properties.Add(property);
             }
             else if (property.IsRelationship != isRelationship)
             {
@@ -231,16 +278,27 @@ namespace Garage.Usd
             {
                 throw Error("'" + part + "' is no part of a property");
             }
+            int stop = at;
             if (Next() == '(')
             {
                 at++;
                 ReadPropertyMetadata(property);
             }
+            else
+            {
+                at = stop;
+            }
         }
 
         static bool IsEdit(string word)
         {
-            return word == "prepend" || word == "append" || word == "delete" || word == "add" || word == "reorder";
+            switch (word.Length)
+            {
+                case 3: return word == "add";
+                case 6: return word == "append" || word == "delete";
+                case 7: return word == "prepend" || word == "reorder";
+                default: return false;
+            }
         }
 
         void ReadPropertyMetadata(PropertySpec property)
@@ -307,6 +365,14 @@ namespace Garage.Usd
                     prim.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
                     continue;
                 }
+                int start = at, stop = at;
+                bool isList = text[at] == 'p' || text[at] == 'r' || text[at] == 'a';
+                var known = isList ? lines.Find(start, out stop) as SharedField : null;
+                if (known != null && known.AddTo(prim))
+                {
+                    at = stop;
+                    continue;
+                }
                 string edit = null, key = Name();
                 if (IsEdit(key))
                 {
@@ -314,7 +380,36 @@ namespace Garage.Usd
                     key = Name();
                 }
                 Expect('=');
+                bool isFirst = isList && ((key == "references" && prim.References == null)
+                    || (key == "inherits" && prim.Inherits == null)
+                    || (key == "apiSchemas" && prim.ApiSchemas == null));
                 ReadPrimField(prim, edit, key);
+                if (isFirst) { lines.Keep(start, at, new SharedField(prim, key)); }
+            }
+        }
+
+        // what many prims of a layer refer to alike
+        sealed class SharedField
+        {
+            readonly ListOp<ReferenceArc> references;
+            readonly ListOp<string> inherits, apiSchemas;
+
+            public SharedField(PrimSpec prim, string key)
+            {
+                references = key == "references" ? prim.References : null;
+                inherits = key == "inherits" ? prim.Inherits : null;
+                apiSchemas = key == "apiSchemas" ? prim.ApiSchemas : null;
+            }
+
+            public bool AddTo(PrimSpec prim)
+            {
+                if ((references ?? prim.References) != (prim.References ?? references)) { return false; }
+                if ((inherits ?? prim.Inherits) != (prim.Inherits ?? inherits)) { return false; }
+                if ((apiSchemas ?? prim.ApiSchemas) != (prim.ApiSchemas ?? apiSchemas)) { return false; }
+                prim.References = references ?? prim.References;
+                prim.Inherits = inherits ?? prim.Inherits;
+                prim.ApiSchemas = apiSchemas ?? prim.ApiSchemas;
+                return true;
             }
         }
 
@@ -335,13 +430,6 @@ namespace Garage.Usd
                 case "relocates": RefuseRelocates(); break;
                 default: prim.AddField(key == "doc" ? "documentation" : key, ReadAnything(0)); break;
             }
-        }
-
-        bool Truth()
-        {
-            string word = TryName();
-            if (word != null) { return values.Truth(word, this); }
-            return Number() != 0;
         }
 
         void RefuseRelocates()
@@ -404,14 +492,26 @@ namespace Garage.Usd
             while (!(many && Take(']')))
             {
                 string asset = Next() == '@' ? AssetPath() : "";
-                string path = Next() == '<' ? Absolute(PathText(), true) : "";
-                if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']' && text[at - 1] != '@' && text[at - 1] != '>')
+                int stop = at;
+                string path = "";
+                if (Next() == '<')
+                {
+                    path = Absolute(PathText(), true);
+                    stop = at;
+                }
+                if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']'
+                    && text[at - 1] != '@' && text[at - 1] != '>')
                 {
                     throw Unexpected("an asset or a path");
                 }
-                LayerOffset offset = Take('(') ? ReadOffset() : LayerOffset.Identity;
-                arcs.Add(new ReferenceArc(asset, path, offset));
-                if (!many) { break; }
+                bool hasOffset = Take('(');
+                arcs.Add(new ReferenceArc(asset, path, hasOffset ? ReadOffset() : LayerOffset.Identity));
+                if (!many)
+                {
+                    // a line ends where its last word does
+                    at = hasOffset ? at : stop;
+                    break;
+                }
                 if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
             }
             return arcs;
@@ -451,17 +551,10 @@ namespace Garage.Usd
             return list;
         }
 
-        bool TakeNone()
-        {
-            if (Next() != 'N' || text[at + 1] != 'o' || text[at + 2] != 'n' || text[at + 3] != 'e') { return false; }
-            at += 4;
-            return true;
-        }
-
         static ListOp<T> Edited<T>(ListOp<T> op, string edit, List<T> items)
         {
-            // a whole list and edits of one replace each other
-            if (op == null || edit == null || op.IsExplicit) { op = new ListOp<T>(); }
+            // a whole list and edits of one replace each other; what is there may be shared
+            op = op == null || edit == null || op.IsExplicit ? new ListOp<T>() : op.Copy();
             switch (edit)
             {
                 case "prepend": op.Prepended = items; break;
@@ -485,353 +578,10 @@ namespace Garage.Usd
                 throw Error("a path is empty");
             }
             if (path[0] == '/' && path.IndexOf("..", StringComparison.Ordinal) < 0) { return path; }
-            primPath = primPath ?? "/" + string.Join("/", names.ToArray());
+            primPath = primPath ?? "/" + string.Join("/", names, 0, depth);
             string absolute = UsdPaths.Absolute(primPath, path);
             if (absolute == null) { throw Error("the path <" + path + "> leads out of the layer"); }
             return absolute;
-        }
-
-        // ---- values
-
-        UsdValue ReadValue(string typeName)
-        {
-            Skip();
-            if (text[at] == 'N' && TakeNone()) { return UsdValue.Blocked; }
-            if (text[at] == 'A' && TryName() == "AnimationBlock") { return null; }
-            UsdType type;
-            bool isArray = values.Resolve(typeName, out type);
-            if (type == UsdType.None || type == UsdType.Dictionary)
-            {
-                // a type of somebody's plugin: its text is passed
-                ReadAnything(0);
-                return null;
-            }
-            if (isArray && text[at] == 'e') { throw Error("edits of arrays are not supported"); }
-            return isArray ? ReadArray(type) : ReadScalar(type);
-        }
-
-        UsdValue ReadScalar(UsdType type)
-        {
-            values.Start(type);
-            ReadElement(type);
-            return values.Finish(type, false);
-        }
-
-        UsdValue ReadArray(UsdType type)
-        {
-            Expect('[');
-            values.Start(type);
-            int components = UsdTypes.Components(type);
-            if (UsdTypes.StorageOf(type) == Storage.Floats && UsdTypes.Rows(type) == 1)
-            {
-                ReadFloats(components);
-                if (UsdTypes.IsHalf(type)) { values.RoundHalves(); }
-                return values.Finish(type, true);
-            }
-            while (!Take(']'))
-            {
-                ReadElement(type);
-                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
-            }
-            return values.Finish(type, true);
-        }
-
-        // the elements of an array of floats and its closing bracket: the loop that large layers spend their time in
-        void ReadFloats(int components)
-        {
-            float[] floats = values.Floats;
-            int count = 0;
-            while (!Take(']'))
-            {
-                if (count + components > floats.Length)
-                {
-                    Array.Resize(ref floats, floats.Length * 2);
-                    values.Floats = floats;
-                }
-                if (components == 1)
-                {
-                    floats[count++] = (float)Number();
-                }
-                else
-                {
-                    Expect('(');
-                    for (int i = 0; i < components; i++)
-                    {
-                        if (i > 0 && text[at] != ',') { Expect(','); }
-                        else if (i > 0) { at++; }
-                        floats[count++] = (float)Number();
-                    }
-                    if (text[at] == ')') { at++; }
-                    else { Expect(')'); }
-                }
-                if (text[at] == ',') { at++; }
-                else if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
-            }
-            values.Count = count;
-        }
-
-        void ReadElement(UsdType type)
-        {
-            int components = UsdTypes.Components(type);
-            if (components == 1)
-            {
-                ReadComponent(type);
-                return;
-            }
-            int rows = UsdTypes.Rows(type), columns = components / rows;
-            if (rows > 1) { Expect('('); }
-            for (int row = 0; row < rows; row++)
-            {
-                if (row > 0) { Expect(','); }
-                Expect('(');
-                for (int column = 0; column < columns; column++)
-                {
-                    if (column > 0) { Expect(','); }
-                    ReadComponent(type);
-                }
-                Expect(')');
-            }
-            if (rows > 1) { Expect(')'); }
-        }
-
-        void ReadComponent(UsdType type)
-        {
-            switch (UsdTypes.StorageOf(type))
-            {
-                case Storage.Floats:
-                    float number = (float)Number();
-                    values.Add(UsdTypes.IsHalf(type) ? HalfNumber.Nearest(number) : number);
-                    break;
-                case Storage.Doubles: values.Add(Number()); break;
-                case Storage.Ints: values.Add((int)Integer(int.MinValue, int.MaxValue)); break;
-                case Storage.UInts: values.Add((uint)Integer(0, uint.MaxValue)); break;
-                case Storage.Longs: values.Add(Integer(long.MinValue, long.MaxValue)); break;
-                case Storage.ULongs: values.Add(UnsignedLong()); break;
-                case Storage.Bytes:
-                    if (type == UsdType.Bool) { values.Add((byte)(Truth() ? 1 : 0)); }
-                    else { values.Add((byte)Integer(0, 255)); }
-                    break;
-                default:
-                    values.Add(type == UsdType.Asset && !AtQuote() ? AssetPath() : type == UsdType.Path ? PathText() : QuotedString());
-                    break;
-            }
-        }
-
-        /// <summary>A value whose type only its text tells; tuples and lists of numbers are flat arrays of doubles.</summary>
-        object ReadAnything(int depth)
-        {
-            if (depth > DeepestValue) { throw Error("values are nested more than " + DeepestValue + " deep"); }
-            byte letter = Next();
-            switch ((char)letter)
-            {
-                case '"': case '\'': return UsdValue.OfString(UsdType.String, QuotedString());
-                case '@': return UsdValue.OfString(UsdType.Asset, AssetPath());
-                case '<': return UsdValue.OfString(UsdType.Path, PathText());
-                case '{': return ReadDictionary(depth);
-                case '[': return ReadList(']', depth);
-                case '(': return ReadList(')', depth);
-            }
-            if ((letter >= '0' && letter <= '9') || letter == '-' || letter == '.')
-            {
-                return new UsdValue(UsdType.Double, false, new[] { Number() });
-            }
-            string word = TryName();
-            if (word == null) { throw Unexpected("a value"); }
-            if (word == "None") { return UsdValue.Blocked; }
-            if (word == "true" || word == "false") { return new UsdValue(UsdType.Bool, false, new[] { (byte)(word == "true" ? 1 : 0) }); }
-            if (word == "inf") { return new UsdValue(UsdType.Double, false, new[] { double.PositiveInfinity }); }
-            if (word == "nan") { return new UsdValue(UsdType.Double, false, new[] { double.NaN }); }
-            return UsdValue.OfString(UsdType.Token, word);
-        }
-
-        UsdValue ReadList(char closing, int depth)
-        {
-            at++;
-            var texts = new List<string>();
-            var numbers = new List<double>();
-            while (!Take(closing))
-            {
-                var item = ReadAnything(depth + 1) as UsdValue;
-                if (item != null && item.Data is string[]) { texts.AddRange(item.Texts); }
-                else if (item != null) { numbers.AddRange(item.Doubles()); }
-                // a reference with its offset
-                if (Next() == '<' || Next() == '(') { continue; }
-                if (!Take(',') && !Take(';') && Next() != (byte)closing) { throw Unexpected("',' or '" + closing + "'"); }
-            }
-            return texts.Count > 0 ? new UsdValue(UsdType.String, true, texts.ToArray())
-                : new UsdValue(UsdType.Double, true, numbers.ToArray());
-        }
-
-        UsdDictionary ReadDictionary(int depth)
-        {
-            if (depth > DeepestValue) { throw Error("dictionaries are nested more than " + DeepestValue + " deep"); }
-            at++;
-            var dictionary = new UsdDictionary();
-            for (;;)
-            {
-                SkipSeparators();
-                if (Take('}')) { return dictionary; }
-                byte letter = text[at];
-                if (letter == '"' || letter == '\'' || letter == '<' || letter == '-' || (letter >= '0' && letter <= '9'))
-                {
-                    // pairs without types: prefixes, times
-                    object pairKey = ReadAnything(depth + 1);
-                    Expect(':');
-                    object pairValue = ReadAnything(depth + 1);
-                    var named = (UsdValue)pairKey;
-                    dictionary[named.Text ?? named.Number(0).ToString("R", System.Globalization.CultureInfo.InvariantCulture)] = pairValue;
-                    Take(',');
-                    continue;
-                }
-                string typeName = Name();
-                if (text[at] == '[' && text[at + 1] == ']')
-                {
-                    at += 2;
-                    typeName = values.ArrayName(typeName);
-                }
-                string key = AtQuote() ? QuotedString() : Name();
-                Expect('=');
-                if (typeName == "dictionary" && Next() == '{') { dictionary[key] = ReadDictionary(depth + 1); }
-                else { dictionary[key] = ReadValue(typeName) ?? UsdValue.Blocked; }
-                Take(',');
-            }
-        }
-
-        /// <summary>The buffers in which the numbers of a value gather, and the types by name.</summary>
-        sealed class UsdaValues
-        {
-            public float[] Floats = new float[256];
-            public int Count;
-
-            double[] doubles = new double[64];
-            int[] ints = new int[256];
-            List<string> strings = new List<string>();
-            List<long> longs = new List<long>();
-            List<ulong> ulongs = new List<ulong>();
-            List<uint> uints = new List<uint>();
-            List<byte> bytes = new List<byte>();
-
-            readonly Dictionary<string, KeyValuePair<UsdType, bool>> types = new Dictionary<string, KeyValuePair<UsdType, bool>>();
-            readonly Dictionary<string, string> arrayNames = new Dictionary<string, string>();
-            string lastName;
-            KeyValuePair<UsdType, bool> lastType;
-
-            public string ArrayName(string name)
-            {
-                string array;
-                if (!arrayNames.TryGetValue(name, out array))
-                {
-                    array = name + "[]";
-                    arrayNames.Add(name, array);
-                }
-                return array;
-            }
-
-            /// <summary>The type with this name, and whether it is an array.</summary>
-            public bool Resolve(string typeName, out UsdType type)
-            {
-                if (!ReferenceEquals(typeName, lastName))
-                {
-                    if (!types.TryGetValue(typeName, out lastType))
-                    {
-                        bool isArray = typeName.EndsWith("[]", StringComparison.Ordinal);
-                        string element = isArray ? typeName.Substring(0, typeName.Length - 2) : typeName;
-                        lastType = new KeyValuePair<UsdType, bool>(UsdTypes.OfName(element), isArray);
-                        types.Add(typeName, lastType);
-                    }
-                    lastName = typeName;
-                }
-                type = lastType.Key;
-                return lastType.Value;
-            }
-
-            public bool Truth(string word, UsdaReader reader)
-            {
-                switch (word.ToLowerInvariant())
-                {
-                    case "true": case "yes": case "on": return true;
-                    case "false": case "no": case "off": return false;
-                    default: throw reader.Unexpected("true or false");
-                }
-            }
-
-            public void Start(UsdType type)
-            {
-                Count = 0;
-                switch (UsdTypes.StorageOf(type))
-                {
-                    case Storage.Strings: strings.Clear(); break;
-                    case Storage.Longs: longs.Clear(); break;
-                    case Storage.ULongs: ulongs.Clear(); break;
-                    case Storage.UInts: uints.Clear(); break;
-                    case Storage.Bytes: bytes.Clear(); break;
-                }
-            }
-
-            public void Add(float number)
-            {
-                if (Count == Floats.Length) { Array.Resize(ref Floats, 2 * Count); }
-                Floats[Count++] = number;
-            }
-
-            public void Add(double number)
-            {
-                if (Count == doubles.Length) { Array.Resize(ref doubles, 2 * Count); }
-                doubles[Count++] = number;
-            }
-
-            public void Add(int number)
-            {
-                if (Count == ints.Length) { Array.Resize(ref ints, 2 * Count); }
-                ints[Count++] = number;
-            }
-
-            public void Add(uint number)
-            {
-                uints.Add(number);
-            }
-
-            public void Add(long number)
-            {
-                longs.Add(number);
-            }
-
-            public void Add(ulong number)
-            {
-                ulongs.Add(number);
-            }
-
-            public void Add(byte number)
-            {
-                bytes.Add(number);
-            }
-
-            public void Add(string value)
-            {
-                strings.Add(value);
-            }
-
-            public void RoundHalves()
-            {
-                for (int i = 0; i < Count; i++) { Floats[i] = HalfNumber.Nearest(Floats[i]); }
-            }
-
-            public UsdValue Finish(UsdType type, bool isArray)
-            {
-                Array data;
-                switch (UsdTypes.StorageOf(type))
-                {
-                    case Storage.Floats: data = new float[Count]; Array.Copy(Floats, data, Count); break;
-                    case Storage.Doubles: data = new double[Count]; Array.Copy(doubles, data, Count); break;
-                    case Storage.Ints: data = new int[Count]; Array.Copy(ints, data, Count); break;
-                    case Storage.UInts: data = uints.ToArray(); break;
-                    case Storage.Longs: data = longs.ToArray(); break;
-                    case Storage.ULongs: data = ulongs.ToArray(); break;
-                    case Storage.Bytes: data = bytes.ToArray(); break;
-                    default: data = strings.ToArray(); break;
-                }
-                return new UsdValue(type, isArray, data);
-            }
         }
     }
 }

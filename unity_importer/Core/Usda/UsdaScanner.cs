@@ -16,16 +16,17 @@ namespace Garage.Usd
         protected int at;
 
         readonly string file;
-        string[] internedStrings = new string[1024];
-        int[] internedStarts = new int[1024];
-        int[] internedLengths = new int[1024];
+        readonly char[] ascii = new char[128];
+        string[] internedStrings;
+        int[] internedStarts, internedLengths;
         int internedCount;
 
         static UsdaScanner()
         {
             for (int i = 0; i < 256; i++)
             {
-                InName[i] = (i >= 'a' && i <= 'z') || (i >= 'A' && i <= 'Z') || (i >= '0' && i <= '9') || i == '_' || i >= 128;
+                InName[i] = (i >= 'a' && i <= 'z') || (i >= 'A' && i <= 'Z') || (i >= '0' && i <= '9') || i == '_'
+                    || i >= 128;
                 InNamespacedName[i] = InName[i] || i == ':';
             }
         }
@@ -36,6 +37,11 @@ namespace Garage.Usd
             end = bytes.Length;
             text = new byte[end + 2];
             Buffer.BlockCopy(bytes, 0, text, 0, end);
+            int slots = 1024;
+            while (slots < 65536 && slots < end / 256) { slots *= 2; }
+            internedStrings = new string[slots];
+            internedStarts = new int[slots];
+            internedLengths = new int[slots];
         }
 
         protected UsdFormatException Error(string reason)
@@ -55,7 +61,8 @@ namespace Garage.Usd
 
         protected UsdFormatException Unexpected(string wanted)
         {
-            string found = at >= end ? "the end of the file" : "'" + Encoding.UTF8.GetString(text, at, Math.Min(20, end - at)) + "'";
+            string found = at >= end ? "the end of the file"
+                : "'" + Encoding.UTF8.GetString(text, at, Math.Min(20, end - at)) + "'";
             return Error("expected " + wanted + ", found " + found);
         }
 
@@ -67,6 +74,11 @@ namespace Garage.Usd
             for (;;)
             {
                 byte letter = s[i];
+                if (letter > ' ' && letter != '#' && letter != '/')
+                {
+                    at = i;
+                    return;
+                }
                 if (letter == ' ' || letter == '\n' || letter == '\t' || letter == '\r')
                 {
                     i++;
@@ -158,6 +170,12 @@ namespace Garage.Usd
         /// <summary>A string in one or three single or double quotes.</summary>
         protected string QuotedString()
         {
+            return QuotedString(true);
+        }
+
+        /// <summary>As QuotedString; tells whether the same text may come often.</summary>
+        protected string QuotedString(bool isShared)
+        {
             Skip();
             byte[] s = text;
             byte quote = s[at];
@@ -182,7 +200,7 @@ namespace Garage.Usd
             }
             at = i + 1;
             if (escaped) { return Unescaped(start, i); }
-            return i - start <= 64 ? Interned(start, i - start, hash) : Encoding.UTF8.GetString(s, start, i - start);
+            return isShared && i - start <= 64 ? Interned(start, i - start, hash) : Decoded(start, i - start);
         }
 
         string LongString(byte quote)
@@ -201,7 +219,7 @@ namespace Garage.Usd
                 i++;
             }
             at = i + 3;
-            return escaped ? Unescaped(start, i) : Encoding.UTF8.GetString(s, start, i - start);
+            return escaped ? Unescaped(start, i) : Decoded(start, i - start);
         }
 
         string Unescaped(int start, int stop)
@@ -241,7 +259,8 @@ namespace Garage.Usd
                             break;
                         }
                         int octal = letter - '0';
-                        for (int digits = 1; digits < 3 && i + 1 < stop && text[i + 1] >= '0' && text[i + 1] <= '7'; digits++)
+                        for (int digits = 1; digits < 3 && i + 1 < stop && text[i + 1] >= '0'
+                            && text[i + 1] <= '7'; digits++)
                         {
                             octal = octal * 8 + (text[++i] - '0');
                         }
@@ -299,7 +318,7 @@ namespace Garage.Usd
                 at++;
             }
             at++;
-            return Encoding.UTF8.GetString(s, first, at - 1 - first);
+            return Decoded(first, at - 1 - first);
         }
 
         /// <summary>What stands between angle brackets.</summary>
@@ -316,7 +335,7 @@ namespace Garage.Usd
             }
             int length = at - start;
             at++;
-            return length <= 128 ? Interned(start, length, hash) : Encoding.UTF8.GetString(s, start, length);
+            return length <= 128 ? Interned(start, length, hash) : Decoded(start, length);
         }
 
         /// <summary>A number of any form; an integer is exact up to 2^64.</summary>
@@ -359,7 +378,10 @@ namespace Garage.Usd
                 if ((uint)(s[digit] - '0') <= 9)
                 {
                     int power = 0;
-                    for (i = digit; (uint)(s[i] - '0') <= 9; i++) { power = Math.Min(power * 10 + (s[i] - '0'), 100000); }
+                    for (i = digit; (uint)(s[i] - '0') <= 9; i++)
+                    {
+                        power = Math.Min(power * 10 + (s[i] - '0'), 100000);
+                    }
                     exponent += sign * power;
                 }
             }
@@ -373,7 +395,10 @@ namespace Garage.Usd
         {
             int before = at;
             Skip();
-            if (at != before && (text[at] == '-' || text[at] == '.' || (text[at] >= '0' && text[at] <= '9'))) { return Number(); }
+            if (at != before && (text[at] == '-' || text[at] == '.' || (text[at] >= '0' && text[at] <= '9')))
+            {
+                return Number();
+            }
             bool negative = text[at] == '-';
             int start = at;
             if (negative) { at++; }
@@ -400,7 +425,10 @@ namespace Garage.Usd
                 i++;
             }
             byte letter = s[i];
-            if (i == start || letter == '.' || (letter | 32) == 'e' || (uint)(letter - '0') <= 9) { return LongInteger(least, most); }
+            if (i == start || letter == '.' || (letter | 32) == 'e' || (uint)(letter - '0') <= 9)
+            {
+                return LongInteger(least, most);
+            }
             at = i;
             number = negative ? -number : number;
             if (number < least || number > most) { throw Error(number + " is not between " + least + " and " + most); }
@@ -432,12 +460,27 @@ namespace Garage.Usd
             int start = at, stop = at;
             while ((uint)(text[stop] - '0') <= 9) { stop++; }
             ulong exact;
-            if (stop == start || stop - start > 20 || !ulong.TryParse(Encoding.ASCII.GetString(text, start, stop - start), out exact))
+            if (stop == start || stop - start > 20
+                || !ulong.TryParse(Encoding.ASCII.GetString(text, start, stop - start), out exact))
             {
                 throw Unexpected("a whole number from 0 to " + ulong.MaxValue);
             }
             at = stop;
             return exact;
+        }
+
+        // plain ASCII needs no decoder, whose calls cost more than short texts
+        string Decoded(int start, int length)
+        {
+            if (length > ascii.Length) { return Encoding.UTF8.GetString(text, start, length); }
+            byte[] s = text;
+            for (int i = 0; i < length; i++)
+            {
+                byte letter = s[start + i];
+                if (letter >= 128) { return Encoding.UTF8.GetString(s, start, length); }
+                ascii[i] = (char)letter;
+            }
+            return new string(ascii, 0, length);
         }
 
         /// <summary>One string for equal bytes.</summary>
@@ -450,7 +493,7 @@ namespace Garage.Usd
             // few probes, as a file can be made to have colliding names
             for (int probes = 0; internedStrings[slot] != null; probes++)
             {
-                if (probes == 16) { return Encoding.UTF8.GetString(s, start, length); }
+                if (probes == 16) { return Decoded(start, length); }
                 if (internedLengths[slot] == length)
                 {
                     int other = internedStarts[slot], i = 0;
@@ -459,7 +502,7 @@ namespace Garage.Usd
                 }
                 slot = (slot + 1) & mask;
             }
-            string made = Encoding.UTF8.GetString(s, start, length);
+            string made = Decoded(start, length);
             internedStrings[slot] = made;
             internedStarts[slot] = start;
             internedLengths[slot] = length;

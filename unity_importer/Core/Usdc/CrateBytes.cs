@@ -37,12 +37,18 @@ namespace Garage.Usd
         public void Charge(long place, long size)
         {
             budget -= size;
-            if (budget < 0) { throw Error(place, "the values of the file take more memory than a file of this size can need"); }
+            if (budget < 0)
+            {
+                throw Error(place, "the values of the file take more memory than a file of this size can need");
+            }
         }
 
         void Check(long place, long size)
         {
-            if (place < 0 || size < 0 || place > bytes.Length - size) { throw Error(place, "the file ends before what is here"); }
+            if (place < 0 || size < 0 || place > bytes.Length - size)
+            {
+                throw Error(place, "the file ends before what is here");
+            }
         }
 
         public byte Byte(long place)
@@ -72,7 +78,10 @@ namespace Garage.Usd
         public int Count(long place, int sizeOfEach)
         {
             long count = Long(place);
-            if (count < 0 || count > (bytes.Length - place) / sizeOfEach) { throw Error(place, "a count of " + count + " is more than the file holds"); }
+            if (count < 0 || count > (bytes.Length - place) / sizeOfEach)
+            {
+                throw Error(place, "a count of " + count + " is more than the file holds");
+            }
             return (int)count;
         }
 
@@ -116,7 +125,10 @@ namespace Garage.Usd
         {
             Check(place, packedSize);
             // LZ4 makes at most 255 bytes of one
-            if (packedSize < 1 || least < 0 || least > 255 * packedSize) { throw Error(place, "a compressed block is too short for what it should hold"); }
+            if (packedSize < 1 || least < 0 || least > 255 * packedSize)
+            {
+                throw Error(place, "a compressed block is too short for what it should hold");
+            }
             most = Math.Min(most, 255 * packedSize + 64);
             if (most > int.MaxValue - 64) { throw Error(place, "a compressed block is too large"); }
             if (unpacked.Length < most + 8)
@@ -135,7 +147,10 @@ namespace Garage.Usd
             {
                 int size = Int(place);
                 place += 4;
-                if (size < 0 || size > end - place) { throw Error(place, "a compressed chunk is longer than its block"); }
+                if (size < 0 || size > end - place)
+                {
+                    throw Error(place, "a compressed chunk is longer than its block");
+                }
                 written = Lz4(place, place + size, written, most);
                 place += size;
             }
@@ -194,7 +209,10 @@ namespace Garage.Usd
                     while (more == 255 && length < limit);
                 }
                 length += 4;
-                if (back == 0 || back > written - first || length > limit - written) { throw Error(at, "a compressed block is damaged"); }
+                if (back == 0 || back > written - first || length > limit - written)
+                {
+                    throw Error(at, "a compressed block is damaged");
+                }
                 int match = written - back;
                 if (back >= length && length > 32)
                 {

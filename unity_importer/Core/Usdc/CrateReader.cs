@@ -11,9 +11,9 @@ namespace Garage.Usd
 
         enum Field
         {
-            Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes, VariantSetNames,
-            VariantSelection, ApiSchemas, PrimChildren, PrimOrder, PropertyOrder, Default, Samples, Custom, Variability,
-            Targets, SubLayers, SubLayerOffsets, Relocates, Ignored,
+            Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes,
+            VariantSetNames, VariantSelection, ApiSchemas, PrimChildren, PrimOrder, PropertyOrder, Default, Samples,
+            Custom, Variability, Targets, SubLayers, SubLayerOffsets, Relocates, Ignored,
         }
 
         static readonly Dictionary<string, Field> Fields = new Dictionary<string, Field>
@@ -22,7 +22,8 @@ namespace Garage.Usd
             { "instanceable", Field.Instanceable }, { "references", Field.References }, { "payload", Field.Payload },
             { "inheritPaths", Field.Inherits }, { "specializes", Field.Specializes },
             { "variantSetNames", Field.VariantSetNames }, { "variantSelection", Field.VariantSelection },
-            { "apiSchemas", Field.ApiSchemas }, { "primChildren", Field.PrimChildren }, { "primOrder", Field.PrimOrder },
+            { "apiSchemas", Field.ApiSchemas }, { "primChildren", Field.PrimChildren },
+            { "primOrder", Field.PrimOrder },
             { "propertyOrder", Field.PropertyOrder }, { "default", Field.Default }, { "timeSamples", Field.Samples },
             { "custom", Field.Custom }, { "variability", Field.Variability }, { "targetPaths", Field.Targets },
             { "connectionPaths", Field.Targets }, { "subLayers", Field.SubLayers },
@@ -35,7 +36,8 @@ namespace Garage.Usd
         readonly CrateBytes bytes;
         readonly string file;
         readonly Layer layer;
-        readonly Dictionary<string, KeyValuePair<long, long>> sections = new Dictionary<string, KeyValuePair<long, long>>();
+        readonly Dictionary<string, KeyValuePair<long, long>> sections
+            = new Dictionary<string, KeyValuePair<long, long>>();
         string[] tokens;
         int[] strings;
         Field[] fieldKinds;
@@ -77,7 +79,8 @@ namespace Garage.Usd
             int major = bytes.Byte(8), version = bytes.Byte(9);
             if (major != 0 || version < 4)
             {
-                throw new UsdFormatException(file, "byte 8", "version " + major + "." + version + " of the format is not supported");
+                throw new UsdFormatException(file, "byte 8",
+                    "version " + major + "." + version + " of the format is not supported");
             }
             ReadSections();
             ReadTokens();
@@ -99,7 +102,8 @@ namespace Garage.Usd
             {
                 var name = new StringBuilder();
                 for (int k = 0; k < 16 && bytes.Byte(place + k) != 0; k++) { name.Append((char)bytes.Byte(place + k)); }
-                sections[name.ToString()] = new KeyValuePair<long, long>(bytes.Long(place + 16), bytes.Long(place + 24));
+                long start = bytes.Long(place + 16), size = bytes.Long(place + 24);
+                sections[name.ToString()] = new KeyValuePair<long, long>(start, size);
             }
         }
 
@@ -117,7 +121,10 @@ namespace Garage.Usd
         int CountOf(string section, long place, long most)
         {
             long count = bytes.Long(place);
-            if (count < 0 || count > most) { throw Error(section, "a count of " + count + " is more than the file holds"); }
+            if (count < 0 || count > most)
+            {
+                throw Error(section, "a count of " + count + " is more than the file holds");
+            }
             return (int)count;
         }
 
@@ -198,15 +205,24 @@ namespace Garage.Usd
             {
                 if ((uint)at >= (uint)encoded) { throw Error("PATHS", "a jump leads out of the table"); }
                 int path = indices[at];
-                if ((uint)path >= (uint)count || pathParents[path] != -2) { throw Error("PATHS", "a path is missing or twice in the table"); }
+                if ((uint)path >= (uint)count || pathParents[path] != -2)
+                {
+                    throw Error("PATHS", "a path is missing or twice in the table");
+                }
                 int token = elements[at];
                 pathIsProperty[path] = token < 0;
                 // the number of a property's name is negative
                 pathTokens[path] = token < 0 ? -token : token;
-                if (parent >= 0 && (uint)pathTokens[path] >= (uint)tokens.Length) { throw Error("PATHS", "there is no token " + token); }
+                if (parent >= 0 && (uint)pathTokens[path] >= (uint)tokens.Length)
+                {
+                    throw Error("PATHS", "there is no token " + token);
+                }
                 pathParents[path] = parent;
                 depths[path] = parent < 0 ? 0 : depths[parent] + 1;
-                if (depths[path] > DeepestPath) { throw Error("PATHS", "paths are nested more than " + DeepestPath + " deep"); }
+                if (depths[path] > DeepestPath)
+                {
+                    throw Error("PATHS", "paths are nested more than " + DeepestPath + " deep");
+                }
                 pathOrder[read++] = path;
                 int jump = jumps[at];
                 bool hasChild = jump > 0 || jump == -1, hasSibling = jump >= 0;
@@ -246,7 +262,8 @@ namespace Garage.Usd
             if (pathParents[index] == -1) { return "/"; }
             string above = PathText(pathParents[index]);
             string element = tokens[pathTokens[index]];
-            string text = pathIsProperty[index] ? above + "." + element : element.Length > 0 && element[0] == '{' ? above
+            bool isVariant = element.Length > 0 && element[0] == '{';
+            string text = pathIsProperty[index] ? above + "." + element : isVariant ? above
                 : UsdPaths.Child(above, element);
             bytes.Charge(0, 2L * text.Length + 32);
             pathTexts[index] = text;
@@ -267,9 +284,14 @@ namespace Garage.Usd
             var specs = new int[pathParents.Length];
             for (int i = 0; i < count; i++)
             {
-                if ((uint)paths[i] >= (uint)specs.Length || specs[paths[i]] != 0) { throw Error("SPECS", "a path is missing or has two specs"); }
+                if ((uint)paths[i] >= (uint)specs.Length || specs[paths[i]] != 0)
+                {
+                    throw Error("SPECS", "a path is missing or has two specs");
+                }
                 specs[paths[i]] = i + 1;
             }
+            CountChildren(specs, types);
+            propertyOfSet = new PropertySpec[fieldSets.Length];
             var prims = new PrimSpec[pathParents.Length];
             foreach (int path in pathOrder)
             {
@@ -282,11 +304,13 @@ namespace Garage.Usd
                     case 7:
                         if (pathParents[path] != -1) { throw Error("SPECS", "a root that is no root"); }
                         prims[path] = layer.Root;
+                        Reserve(layer.Root, path);
                         ReadPrimFields(layer.Root, sets[spec]);
                         break;
                     case 6: case 10:
                         if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
                         prims[path] = MakePrim(parent, path, types[spec] == 10);
+                        Reserve(prims[path], path);
                         ReadPrimFields(prims[path], sets[spec]);
                         break;
                     case 1: case 8:
@@ -302,11 +326,32 @@ namespace Garage.Usd
                     layer.SubLayers[i] = new SubLayer(layer.SubLayers[i].Asset, layerOffsets[i]);
                 }
             }
-            foreach (KeyValuePair<PrimSpec, List<string>> order in childOrders) { order.Key.OrderChildren(order.Value); }
+            foreach (KeyValuePair<PrimSpec, string[]> order in childOrders) { order.Key.Children.Order(order.Value); }
+        }
+
+        // by the number of a path: how many prims and properties are below it
+        int[] childCounts, propertyCounts;
+
+        void CountChildren(int[] specs, int[] types)
+        {
+            childCounts = new int[specs.Length];
+            propertyCounts = new int[specs.Length];
+            for (int path = 0; path < specs.Length; path++)
+            {
+                if (specs[path] == 0 || pathParents[path] < 0) { continue; }
+                if (pathIsProperty[path]) { propertyCounts[pathParents[path]]++; }
+                else if (types[specs[path] - 1] == 6) { childCounts[pathParents[path]]++; }
+            }
+        }
+
+        void Reserve(PrimSpec prim, int path)
+        {
+            prim.Children.Reserve(childCounts[path]);
+            prim.Properties.Reserve(propertyCounts[path]);
         }
 
         LayerOffset[] layerOffsets;
-        readonly List<KeyValuePair<PrimSpec, List<string>>> childOrders = new List<KeyValuePair<PrimSpec, List<string>>>();
+        readonly List<KeyValuePair<PrimSpec, string[]>> childOrders = new List<KeyValuePair<PrimSpec, string[]>>();
 
         PrimSpec MakePrim(PrimSpec parent, int path, bool isVariant)
         {
@@ -315,7 +360,10 @@ namespace Garage.Usd
             if (!isVariant)
             {
                 var prim = new PrimSpec(element);
-                if (element.Length == 0 || !parent.AddChild(prim)) { throw Error("SPECS", "a second prim <" + PathText(path) + ">"); }
+                if (element.Length == 0 || !parent.AddChild(prim))
+                {
+                    throw Error("SPECS", "a second prim <" + PathText(path) + ">");
+                }
                 return prim;
             }
             int equals = element.IndexOf('=');
@@ -336,11 +384,14 @@ namespace Garage.Usd
             return variant;
         }
 
+        // the last property that was made of a set of fields: others of the same name share it
+        PropertySpec[] propertyOfSet;
+
         object FieldValue(int field)
         {
             if (!fieldIsRead[field])
             {
-                fieldValues[field] = values.Read(fieldReps[field], Section("FIELDS"), 0);
+                fieldValues[field] = values.Read(fieldReps[field], 0, 0);
                 fieldIsRead[field] = true;
             }
             return fieldValues[field];
@@ -356,7 +407,10 @@ namespace Garage.Usd
         int FieldAt(int place)
         {
             if (place >= fieldSets.Length || fieldSets[place] == -1) { return -1; }
-            if ((uint)fieldSets[place] >= (uint)fieldReps.Length) { throw Error("FIELDSETS", "there is no field " + fieldSets[place]); }
+            if ((uint)fieldSets[place] >= (uint)fieldReps.Length)
+            {
+                throw Error("FIELDSETS", "there is no field " + fieldSets[place]);
+            }
             bytes.Charge(0, 8);
             return fieldSets[place];
         }
@@ -378,6 +432,12 @@ namespace Garage.Usd
             return value == null ? 0 : value.Number(0);
         }
 
+        string TextOf(int field)
+        {
+            var value = ValueOf<UsdValue>(field);
+            return value == null ? "" : value.Text ?? "";
+        }
+
         List<string> TextsOf(int field)
         {
             var value = ValueOf<UsdValue>(field);
@@ -388,7 +448,8 @@ namespace Garage.Usd
         {
             // a bare list stands for a whole one
             var value = FieldValue(field) as UsdValue;
-            return value != null && value.Data is string[] ? ListOp<string>.Whole(new List<string>(value.Texts)) : ValueOf<ListOp<string>>(field);
+            return value != null && value.Data is string[] ? ListOp<string>.Whole(new List<string>(value.Texts))
+                : ValueOf<ListOp<string>>(field);
         }
 
         void ReadPrimFields(PrimSpec prim, int set)
@@ -399,7 +460,7 @@ namespace Garage.Usd
                 switch (fieldKinds[field])
                 {
                     case Field.Specifier: prim.Specifier = (Specifier)((int)NumberOf(field) % 3 & 3); break;
-                    case Field.TypeName: prim.TypeName = (ValueOf<UsdValue>(field) ?? UsdValue.Blocked).Text ?? ""; break;
+                    case Field.TypeName: prim.TypeName = TextOf(field); break;
                     case Field.Active: prim.IsActive = NumberOf(field) != 0; break;
                     case Field.Instanceable: prim.IsInstanceable = NumberOf(field) != 0; break;
                     case Field.References: prim.References = ValueOf<ListOp<ReferenceArc>>(field); break;
@@ -407,18 +468,23 @@ namespace Garage.Usd
                     case Field.Inherits: prim.Inherits = NamesOf(field); break;
                     case Field.Specializes: prim.Specializes = NamesOf(field); break;
                     case Field.VariantSetNames: prim.VariantSetNames = NamesOf(field); break;
-                    case Field.VariantSelection: prim.VariantSelections = ValueOf<Dictionary<string, string>>(field); break;
+                    case Field.VariantSelection:
+                        prim.VariantSelections = ValueOf<Dictionary<string, string>>(field);
+                        break;
                     case Field.ApiSchemas: prim.ApiSchemas = NamesOf(field); break;
                     case Field.PrimChildren:
-                        List<string> names = TextsOf(field);
-                        if (names != null) { childOrders.Add(new KeyValuePair<PrimSpec, List<string>>(prim, names)); }
+                        var names = ValueOf<UsdValue>(field);
+                        if (names != null) { childOrders.Add(new KeyValuePair<PrimSpec, string[]>(prim, names.Texts)); }
                         break;
                     case Field.PrimOrder: prim.ChildOrder = TextsOf(field); break;
                     case Field.PropertyOrder: prim.PropertyOrder = TextsOf(field); break;
                     case Field.SubLayers:
                         foreach (string asset in TextsOf(field) ?? new List<string>())
                         {
-                            if (ReferenceEquals(prim, layer.Root)) { layer.SubLayers.Add(new SubLayer(asset, LayerOffset.Identity)); }
+                            if (ReferenceEquals(prim, layer.Root))
+                            {
+                                layer.SubLayers.Add(new SubLayer(asset, LayerOffset.Identity));
+                            }
                         }
                         break;
                     case Field.SubLayerOffsets: layerOffsets = ValueOf<LayerOffset[]>(field); break;
@@ -430,15 +496,22 @@ namespace Garage.Usd
 
         void ReadProperty(PrimSpec prim, string name, bool isRelationship, int set)
         {
-            var property = new PropertySpec(name) { IsRelationship = isRelationship };
-            if (prim.FindProperty(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
-            prim.AddProperty(property);
+            if (prim.Properties.Find(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
+            PropertySpec property = propertyOfSet[FirstField(set)];
+            if (property != null && property.Name == name && property.IsRelationship == isRelationship)
+            {
+                prim.Properties.Add(property);
+                return;
+            }
+            property = new PropertySpec(name) { IsRelationship = isRelationship };
+            propertyOfSet[set] = property;
+            prim.Properties.Add(property);
             int field;
             for (int place = FirstField(set); (field = FieldAt(place)) >= 0; place++)
             {
                 switch (fieldKinds[field])
                 {
-                    case Field.TypeName: property.TypeName = (ValueOf<UsdValue>(field) ?? UsdValue.Blocked).Text ?? ""; break;
+                    case Field.TypeName: property.TypeName = TextOf(field); break;
                     case Field.Default:
                         property.Default = FieldValue(field) as UsdValue;
                         break;

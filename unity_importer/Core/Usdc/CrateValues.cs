@@ -38,8 +38,8 @@ namespace Garage.Usd
                 UsdType.Bool, UsdType.UChar, UsdType.Int, UsdType.UInt, UsdType.Int64, UsdType.UInt64, UsdType.Half,
                 UsdType.Float, UsdType.Double, UsdType.String, UsdType.Token, UsdType.Asset, UsdType.Matrix2d,
                 UsdType.Matrix3d, UsdType.Matrix4d, UsdType.Quatd, UsdType.Quatf, UsdType.Quath, UsdType.Double2,
-                UsdType.Float2, UsdType.Half2, UsdType.Int2, UsdType.Double3, UsdType.Float3, UsdType.Half3, UsdType.Int3,
-                UsdType.Double4, UsdType.Float4, UsdType.Half4, UsdType.Int4,
+                UsdType.Float2, UsdType.Half2, UsdType.Int2, UsdType.Double3, UsdType.Float3, UsdType.Half3,
+                UsdType.Int3, UsdType.Double4, UsdType.Float4, UsdType.Half4, UsdType.Int4,
             };
             ordered.CopyTo(types, 1);
             types[56] = UsdType.TimeCode;
@@ -60,12 +60,15 @@ namespace Garage.Usd
         }
 
         /// <summary>
-        /// A UsdValue, or what the field needs: ListOp, TimeSamples, UsdDictionary, Dictionary of strings, LayerOffset[]. Null
-        /// for splines and other things that this reader passes over.
+        /// A UsdValue, or what the field needs: ListOp, TimeSamples, UsdDictionary, Dictionary of strings,
+        /// LayerOffset[]. Null for splines and other things that this reader passes over.
         /// </summary>
         public object Read(ulong rep, long place, int depth)
         {
-            if (depth > DeepestValue) { throw bytes.Error(place, "values are nested more than " + DeepestValue + " deep"); }
+            if (depth > DeepestValue)
+            {
+                throw bytes.Error(place, "values are nested more than " + DeepestValue + " deep");
+            }
             int type = (int)(rep >> 48 & 0xFF);
             bool isArray = rep >> 63 != 0, isInlined = (rep >> 62 & 1) != 0;
             long payload = (long)(rep & 0xFFFFFFFFFFFF);
@@ -76,8 +79,8 @@ namespace Garage.Usd
                 UsdValue value;
                 if (!isInlined && shared.TryGetValue(rep, out value)) { return value; }
                 bytes.Charge(place, 64);
-                value = isArray ? ReadArray(plain, payload, (rep >> 61 & 1) != 0) : isInlined ? Inlined(plain, (uint)payload, place)
-                    : ReadScalar(plain, payload);
+                value = isArray ? ReadArray(plain, payload, (rep >> 61 & 1) != 0)
+                    : isInlined ? Inlined(plain, (uint)payload, place) : ReadScalar(plain, payload);
                 if (!isInlined) { shared.Add(rep, value); }
                 return value;
             }
@@ -116,7 +119,8 @@ namespace Garage.Usd
             switch (type)
             {
                 case UsdType.Token: case UsdType.Asset: return UsdValue.OfString(type, Token(place, (int)payload));
-                case UsdType.String: case UsdType.PathExpression: return UsdValue.OfString(type, String(place, (int)payload));
+                case UsdType.String: case UsdType.PathExpression:
+                    return UsdValue.OfString(type, String(place, (int)payload));
                 case UsdType.Bool: return new UsdValue(type, false, new[] { (byte)(payload != 0 ? 1 : 0) });
                 case UsdType.UChar: return new UsdValue(type, false, new[] { (byte)payload });
                 case UsdType.Int: return new UsdValue(type, false, new[] { (int)payload });
@@ -125,9 +129,12 @@ namespace Garage.Usd
                 case UsdType.UInt64: return new UsdValue(type, false, new[] { (ulong)payload });
                 case UsdType.Half: return new UsdValue(type, false, new[] { HalfNumber.OfBits((int)payload & 0xFFFF) });
                 case UsdType.Float: return new UsdValue(type, false, new[] { FloatOf(payload) });
-                case UsdType.Double: case UsdType.TimeCode: return new UsdValue(type, false, new[] { (double)FloatOf(payload) });
+                case UsdType.Double: case UsdType.TimeCode:
+                    return new UsdValue(type, false, new[] { (double)FloatOf(payload) });
                 case UsdType.Half2:
-                    return new UsdValue(type, false, new[] { HalfNumber.OfBits((int)(payload & 0xFFFF)), HalfNumber.OfBits((int)(payload >> 16)) });
+                    float first = HalfNumber.OfBits((int)(payload & 0xFFFF));
+                    float second = HalfNumber.OfBits((int)(payload >> 16));
+                    return new UsdValue(type, false, new[] { first, second });
                 case UsdType.Matrix2d: case UsdType.Matrix3d: case UsdType.Matrix4d:
                     int size = UsdTypes.Rows(type);
                     var matrix = new double[components];
@@ -235,8 +242,12 @@ namespace Garage.Usd
             long count = version < 7 ? (uint)bytes.Int(place) : bytes.Long(place);
             place += version < 7 ? 4 : 8;
             // the densest compression takes a byte for a thousand integers
-            long limit = isPacked ? 1024L * bytes.Length : bytes.Length / ((long)SizeOf(type) * UsdTypes.Components(type));
-            if (count < 0 || count > limit || count > int.MaxValue / 32) { throw bytes.Error(start, "an array of " + count + " is more than the file holds"); }
+            long limit = isPacked ? 1024L * bytes.Length
+                : bytes.Length / ((long)SizeOf(type) * UsdTypes.Components(type));
+            if (count < 0 || count > limit || count > int.MaxValue / 32)
+            {
+                throw bytes.Error(start, "an array of " + count + " is more than the file holds");
+            }
             if (UsdTypes.StorageOf(type) == Storage.Strings)
             {
                 var texts = new string[(int)count];
@@ -301,14 +312,20 @@ namespace Garage.Usd
             if (code != (byte)'t') { throw bytes.Error(place, "unknown compression of floating point numbers"); }
             int size = bytes.Int(place);
             place += 4;
-            if (size < 0 || size > bytes.Length) { throw bytes.Error(place, "a table of " + size + " is more than the file holds"); }
+            if (size < 0 || size > bytes.Length)
+            {
+                throw bytes.Error(place, "a table of " + size + " is more than the file holds");
+            }
             Array table = Plain(type, place, size);
             place += (long)size * SizeOf(type);
             int[] indices = bytes.PackedInts(ref place, count);
             bytes.Charge(place, 8L * count);
             for (int i = 0; i < count; i++)
             {
-                if ((uint)indices[i] >= (uint)size) { throw bytes.Error(place, "an index leads out of a table of numbers"); }
+                if ((uint)indices[i] >= (uint)size)
+                {
+                    throw bytes.Error(place, "an index leads out of a table of numbers");
+                }
             }
             return isDouble ? (Array)Picked((double[])table, indices) : Picked((float[])table, indices);
         }
@@ -437,7 +454,8 @@ namespace Garage.Usd
             for (int i = 0; i < count; i++)
             {
                 int index = bytes.Int(place + 8 + 4L * i);
-                texts[i] = type == UsdType.Path ? path(index) : type == UsdType.Token ? Token(place, index) : String(place, index);
+                texts[i] = type == UsdType.Path ? path(index) : type == UsdType.Token ? Token(place, index)
+                    : String(place, index);
             }
             return new UsdValue(type, true, texts);
         }
@@ -466,7 +484,8 @@ namespace Garage.Usd
             var selections = new Dictionary<string, string>();
             for (int i = 0; i < count; i++)
             {
-                selections[String(place, bytes.Int(place + 8 + 8L * i))] = String(place, bytes.Int(place + 12 + 8L * i));
+                selections[String(place, bytes.Int(place + 8 + 8L * i))] = String(place,
+                    bytes.Int(place + 12 + 8L * i));
             }
             return selections;
         }

@@ -68,7 +68,7 @@ namespace Garage.Usd.Dump
             Metadata(json, prim.Metadata);
             json.Key("properties");
             json.Open('[');
-            foreach (PropertySpec property in prim.Properties) { Property(json, property); }
+            for (int i = 0; i < prim.Properties.Count; i++) { Property(json, prim.Properties[i]); }
             json.Close(']');
             json.Key("sets");
             json.Open('{');
@@ -82,7 +82,7 @@ namespace Garage.Usd.Dump
             json.Close('}');
             json.Key("children");
             json.Open('[');
-            foreach (PrimSpec child in prim.Children) { Prim(json, child); }
+            for (int i = 0; i < prim.Children.Count; i++) { Prim(json, prim.Children[i]); }
             json.Close(']');
             json.Close('}');
         }

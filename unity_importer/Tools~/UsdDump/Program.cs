@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
 using System.Globalization;
 using System.IO;
@@ -8,9 +9,10 @@ namespace Garage.Usd.Dump
 {
     /// <summary>
     /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
-    /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time FILE COUNT</c> reads it several
-    /// times, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c> takes a quaternion and its
-    /// vector to the axes of Unity; <c>batch</c> takes such commands from lines of the standard input, parts separated by tabs.
+    /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time SECONDS FILE...</c> how
+    /// long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
+    /// takes a quaternion and its vector to the axes of Unity; <c>batch</c> takes such commands from lines of the
+    /// standard input, parts separated by tabs.
     /// </summary>
     static class Program
     {
@@ -32,7 +34,7 @@ namespace Garage.Usd.Dump
             }
             if (arguments.Length < 2)
             {
-                Console.Error.WriteLine("usage: UsdDump layer|stage|scene FILE | time FILE COUNT | batch");
+                Console.Error.WriteLine("usage: UsdDump layer|stage|scene FILE | time SECONDS FILE... | batch");
                 return 2;
             }
             output.WriteLine(Answer(arguments));
@@ -50,8 +52,9 @@ namespace Garage.Usd.Dump
                     case "stage": return StageDump.Of(UsdStage.Open(command[1]));
                     case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
                     case "fuzz": return Survival(command[1]);
-                    case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]), Number(command[4]), Number(command[5]));
-                    case "time": return Time(command[1], int.Parse(command[2]));
+                    case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]),
+                        Number(command[4]), Number(command[5]));
+                    case "time": return Time(Number(command[1]), Rest(command, 2));
                     default: return "{\"error\":\"unknown command\"}";
                 }
             }
@@ -102,6 +105,13 @@ namespace Garage.Usd.Dump
             return json.ToString();
         }
 
+        static string[] Rest(string[] command, int first)
+        {
+            var rest = new string[command.Length - first];
+            Array.Copy(command, first, rest, 0, rest.Length);
+            return rest;
+        }
+
         static double Number(string text)
         {
             return double.Parse(text, CultureInfo.InvariantCulture);
@@ -132,22 +142,41 @@ namespace Garage.Usd.Dump
             json.Close(']');
         }
 
-        static string Time(string path, int count)
+        /// <summary>
+        /// Processor seconds that reading all files takes, in rounds until the given seconds are over; the first is not
+        /// counted.
+        /// </summary>
+        static string Time(double seconds, string[] paths)
         {
-            byte[] bytes = File.ReadAllBytes(path);
+            var files = new List<byte[]>();
+            long size = 0;
+            foreach (string path in paths)
+            {
+                files.Add(File.ReadAllBytes(path));
+                size += files[files.Count - 1].Length;
+            }
+            int rounds = -1;
+            double spent = 0;
+            while (spent < seconds)
+            {
+                GC.Collect();
+                double before = ProcessorSeconds();
+                for (int i = 0; i < paths.Length; i++) { LayerReader.Read(files[i], paths[i]); }
+                if (rounds++ >= 0) { spent += ProcessorSeconds() - before; }
+            }
             var json = new JsonText();
             json.Open('{');
-            json.Key("megabytes_per_s");
-            json.Open('[');
-            for (int i = 0; i < count; i++)
-            {
-                TimeSpan before = Process.GetCurrentProcess().UserProcessorTime;
-                LayerReader.Read(bytes, path);
-                json.Number(Math.Round(bytes.Length / 1e6 / (Process.GetCurrentProcess().UserProcessorTime - before).TotalSeconds, 1));
-            }
-            json.Close(']');
+            json.Key("bytes");
+            json.Number(size);
+            json.Key("seconds");
+            json.Number(spent / rounds);
             json.Close('}');
             return json.ToString();
+        }
+
+        static double ProcessorSeconds()
+        {
+            return Process.GetCurrentProcess().TotalProcessorTime.TotalSeconds;
         }
     }
 }

@@ -26,7 +26,10 @@ namespace Garage.Usd.Dump
             json.Key("nodes");
             json.Open('{');
             var none = new MaterialBinding(null, false);
-            foreach (SceneNode node in scene.Roots) { Node(node, node.Prim.Path, Matrix4.Identity(), none, none, "", ""); }
+            foreach (SceneNode node in scene.Roots)
+            {
+                Node(node, node.Prim.Path, Matrix4.Identity(), none, none, "", "");
+            }
             json.Close('}');
             json.Key("materials");
             json.Open('{');
@@ -43,10 +46,12 @@ namespace Garage.Usd.Dump
         // within instances, paths of the prototype stand for those of the instance
         static string Shown(string path, string prototype, string instance)
         {
-            return path != null && prototype.Length > 0 && UsdPaths.HasPrefix(path, prototype) ? instance + path.Substring(prototype.Length) : path;
+            return path != null && prototype.Length > 0 && UsdPaths.HasPrefix(path, prototype)
+                ? instance + path.Substring(prototype.Length) : path;
         }
 
-        void Node(SceneNode node, string path, double[] above, MaterialBinding material, MaterialBinding physics, string prototype, string instance)
+        void Node(SceneNode node, string path, double[] above, MaterialBinding material, MaterialBinding physics,
+            string prototype, string instance)
         {
             double[] world = node.ResetsTransform ? node.Local : Matrix4.Multiply(node.Local, above);
             material = Rebased(node.Material, prototype, instance).Under(material);
@@ -167,7 +172,8 @@ namespace Garage.Usd.Dump
                     {
                         int u = (k + 1) % 3, v = (k + 2) % 3;
                         float[] p = mesh.Points;
-                        cross[k] = ((double)p[b + u] - p[a + u]) * ((double)p[c + v] - p[a + v]) - ((double)p[b + v] - p[a + v]) * ((double)p[c + u] - p[a + u]);
+                        cross[k] = ((double)p[b + u] - p[a + u]) * ((double)p[c + v] - p[a + v]) - (
+                            (double)p[b + v] - p[a + v]) * ((double)p[c + u] - p[a + u]);
                         sum[k] += cross[k] / 2;
                     }
                     area += Math.Sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]) / 2;

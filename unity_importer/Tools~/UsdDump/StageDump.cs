@@ -19,7 +19,10 @@ namespace Garage.Usd.Dump
             foreach (UsdPrim child in stage.Root.Children) { Prim(json, child, Matrix4.Identity(), none, none); }
             for (int i = 0; i < stage.Prototypes.Count; i++)
             {
-                foreach (UsdPrim child in stage.Prototypes[i].Children) { Prim(json, child, Matrix4.Identity(), none, none); }
+                foreach (UsdPrim child in stage.Prototypes[i].Children)
+                {
+                    Prim(json, child, Matrix4.Identity(), none, none);
+                }
             }
             json.Close('}');
             json.Key("warnings");

@@ -1,0 +1,501 @@
+"""Faults that the tests must find: each replaces one text that is in the sources once."""
+
+from typing import NamedTuple
+
+
+class Mutant(NamedTuple):
+    """A fault: what it is, the source below ``unity_importer``, what is there and what takes its place."""
+
+    name: str
+    source: str
+    old: str
+    new: str
+
+
+USDA, USDC, DATA, PACKAGE = "Core/Usda/", "Core/Usdc/", "Core/Data/", "Core/Package/"
+COMPOSE, SCENE = "Core/Compose/", "Core/Scene/"
+
+MUTANTS = (
+    # ---- texts
+    Mutant(
+        "decimal-rounding",
+        DATA + "DecimalNumber.cs",
+        "mantissa += mantissa & 1;",
+        "",
+    ),
+    Mutant(
+        "decimal-digits-beyond-nineteen",
+        USDA + "UsdaScanner.cs",
+        "double size = count <= 19 ?",
+        "double size = count <= 20 ?",
+    ),
+    Mutant(
+        "half-ties",
+        DATA + "DecimalNumber.cs",
+        "Math.Round(size / step, MidpointRounding.ToEven)",
+        "Math.Round(size / step, MidpointRounding.AwayFromZero)",
+    ),
+    Mutant(
+        "escaped-quotes",
+        USDA + "UsdaScanner.cs",
+        "if (escaped) { return Unescaped(start, i); }",
+        "",
+    ),
+    Mutant(
+        "relative-paths",
+        DATA + "UsdPaths.cs",
+        "if (path[0] != '/') { AddParts(parts, prim); }",
+        "",
+    ),
+    Mutant(
+        "samples-unsorted",
+        DATA + "UsdValue.cs",
+        "ascending &= times[i - 1] < times[i];",
+        "ascending &= times[i - 1] < times[i] || i > 0;",
+    ),
+    # ---- crates
+    Mutant(
+        "lz4-overlapping-copies",
+        USDC + "CrateBytes.cs",
+        "if (back >= length && length > 32)",
+        "if (length > 32)",
+    ),
+    Mutant(
+        "lz4-least-match",
+        USDC + "CrateBytes.cs",
+        "length += 4;",
+        "length += 3;",
+    ),
+    Mutant(
+        "lz4-chunks",
+        USDC + "CrateBytes.cs",
+        "written = Lz4(place, place + size, written, most);",
+        "written = Lz4(place, place + size, 0, most);",
+    ),
+    Mutant(
+        "integer-differences",
+        USDC + "CrateBytes.cs",
+        "case 0: number += common; break;",
+        "case 0: number = common; break;",
+    ),
+    Mutant(
+        "integer-width-sixteen",
+        USDC + "CrateBytes.cs",
+        "number += (short)(from[at] | from[at + 1] << 8);",
+        "number += from[at] | from[at + 1] << 8;",
+    ),
+    Mutant(
+        "integer-width-of-longs",
+        USDC + "CrateBytes.cs",
+        "code == 1 ? BitConverter.ToInt16(from, at)",
+        "code == 1 ? BitConverter.ToUInt16(from, at)",
+    ),
+    Mutant(
+        "half-bits",
+        DATA + "DecimalNumber.cs",
+        "(mantissa + 1024) * Math.Pow(2, exponent - 25)",
+        "(mantissa + 1024) * Math.Pow(2, exponent - 24)",
+    ),
+    Mutant(
+        "half-subnormal",
+        DATA + "DecimalNumber.cs",
+        "exponent == 0 ? mantissa * 5.9604644775390625e-08",
+        "exponent == 0 ? mantissa * 0.0",
+    ),
+    Mutant(
+        "quaternion-order",
+        USDC + "CrateValues.cs",
+        "if (UsdTypes.IsQuaternion(type)) { RealFirst(numbers); }",
+        "",
+    ),
+    Mutant(
+        "path-map-jumps",
+        USDC + "CrateReader.cs",
+        "bool hasChild = jump > 0 || jump == -1",
+        "bool hasChild = jump > 0",
+    ),
+    Mutant(
+        "crate-child-order",
+        USDC + "CrateReader.cs",
+        "order.Key.Children.Order(order.Value);",
+        "",
+    ),
+    Mutant(
+        "crate-payload-offset",
+        USDC + "CrateValues.cs",
+        "if (version >= 8)",
+        "if (version >= 99)",
+    ),
+    Mutant(
+        "crate-inlined-double",
+        USDC + "CrateValues.cs",
+        "new[] { (double)FloatOf(payload) }",
+        "new[] { (double)payload }",
+    ),
+    # ---- packages
+    Mutant(
+        "zip-local-extra",
+        PACKAGE + "UsdzPackage.cs",
+        "long start = header + 30 + nameLength + UShort(local + 28);",
+        "long start = header + 30 + nameLength;",
+    ),
+    Mutant(
+        "zip-first-layer",
+        PACKAGE + "UsdzPackage.cs",
+        "if (header < firstPlace)",
+        "if (header < long.MaxValue)",
+    ),
+    Mutant(
+        "escape-of-the-folder",
+        PACKAGE + "AssetResolver.cs",
+        "if (parts.Count == 0) { return null; }",
+        "if (parts.Count == 0) { continue; }",
+    ),
+    # ---- composition
+    Mutant(
+        "list-edit-prepend",
+        DATA + "ListOp.cs",
+        "list.InsertRange(0, Unique(Prepended));",
+        "list.AddRange(Unique(Prepended));",
+    ),
+    Mutant(
+        "list-edit-delete",
+        DATA + "ListOp.cs",
+        "Remove(list, Deleted);",
+        "",
+    ),
+    Mutant(
+        "list-edit-append-moves",
+        DATA + "ListOp.cs",
+        "Remove(list, Appended);",
+        "",
+    ),
+    Mutant(
+        "list-edit-reorder",
+        DATA + "ListOp.cs",
+        "if (Ordered != null && Ordered.Count > 0) { Reorder(list, Ordered); }",
+        "",
+    ),
+    Mutant(
+        "strength-inherits-and-variants",
+        COMPOSE + "ArcNode.cs",
+        "Root, Inherit, Variant, Reference, Payload, Specialize,",
+        "Root, Variant, Inherit, Reference, Payload, Specialize,",
+    ),
+    Mutant(
+        "strength-references-and-payloads",
+        COMPOSE + "ArcNode.cs",
+        "Root, Inherit, Variant, Reference, Payload, Specialize,",
+        "Root, Inherit, Variant, Payload, Reference, Specialize,",
+    ),
+    Mutant(
+        "strength-of-depth",
+        COMPOSE + "ArcNode.cs",
+        "one.Depth > other.Depth;",
+        "one.Depth < other.Depth;",
+    ),
+    Mutant(
+        "specializes-last",
+        COMPOSE + "ArcNode.cs",
+        "if (child.Arc != Arc.Specialize)",
+        "if (child.Arc >= Arc.Root)",
+    ),
+    Mutant(
+        "sublayer-order",
+        COMPOSE + "LayerStack.cs",
+        "foreach (SubLayer sub in layer.SubLayers)",
+        "foreach (SubLayer sub in System.Linq.Enumerable.Reverse(layer.SubLayers))",
+    ),
+    Mutant(
+        "sublayer-offsets",
+        COMPOSE + "LayerStack.cs",
+        "offset.After(Rated(sub.Offset, layer, inner))",
+        "Rated(sub.Offset, layer, inner).After(offset)",
+    ),
+    Mutant(
+        "offsets-of-samples",
+        COMPOSE + "UsdProperty.cs",
+        "times[k] = offset.Scale * samples.Times[k] + offset.Offset;",
+        "times[k] = samples.Times[k] + offset.Offset;",
+    ),
+    Mutant(
+        "first-sample",
+        COMPOSE + "UsdProperty.cs",
+        "UsdValue value = samples.Values[0];",
+        "UsdValue value = samples.Values[samples.Values.Length - 1];",
+    ),
+    Mutant(
+        "blocked-values",
+        COMPOSE + "UsdPrim.cs",
+        "if (ReferenceEquals(spec.Default, UsdValue.Blocked)) { return null; }",
+        "if (ReferenceEquals(spec.Default, UsdValue.Blocked)) { continue; }",
+    ),
+    Mutant(
+        "variant-of-the-strongest",
+        COMPOSE + "Composer.cs",
+        "static string SelectionOf(List<ArcNode> order, string set)\n        {",
+        "static string SelectionOf(List<ArcNode> order, string set)\n        {\n"
+        "order = new List<ArcNode>(order); order.Reverse();",
+    ),
+    Mutant(
+        "variants-of-a-target",
+        COMPOSE + "Composer.cs",
+        "ArcNode template = Template(stack, path, false, withAncestors,",
+        "ArcNode template = Template(stack, path, true, withAncestors,",
+    ),
+    Mutant(
+        "ancestral-references",
+        COMPOSE + "Composer.cs",
+        'if (parentPath == "/" || parentPath == null || !withAncestors)',
+        "if (true)",
+    ),
+    Mutant(
+        "implied-classes",
+        COMPOSE + "Composer.cs",
+        "if (added != null) { Imply(added); }",
+        "",
+    ),
+    Mutant(
+        "prefix-of-a-longer-name",
+        DATA + "UsdPaths.cs",
+        "return path.Length == prefix.Length || path[prefix.Length] == '/' || path[prefix.Length] == '.';",
+        "return true;",
+    ),
+    Mutant(
+        "targets-outside-of-a-reference",
+        COMPOSE + "ArcNode.cs",
+        "return KeepsOtherPaths && !UsdPaths.HasPrefix(path, To) ? path : null;",
+        "return path;",
+    ),
+    Mutant(
+        "inactive-prims",
+        COMPOSE + "UsdPrim.cs",
+        "if (!child.IsActive) { continue; }",
+        "",
+    ),
+    Mutant(
+        "instance-sharing-of-variants",
+        COMPOSE + "UsdPrim.cs",
+        "key.Append(node.Path).Append(' ').Append(node.Variant)",
+        "key.Append(node.Path)",
+    ),
+    Mutant(
+        "instance-sharing-of-offsets",
+        COMPOSE + "UsdPrim.cs",
+        "key.Append(offset.Offset).Append(' ').Append(offset.Scale);",
+        "",
+    ),
+    Mutant(
+        "instance-local-opinions",
+        COMPOSE + "UsdPrim.cs",
+        "if (node.Arc == Arc.Root || node.IsAncestral) { shared.Specs = new LayerSpec[0]; }",
+        "",
+    ),
+    Mutant(
+        "class-specifiers",
+        COMPOSE + "UsdPrim.cs",
+        "if (spec.Specifier == Specifier.Class && opinion.Node.IsInheritedDirectly)",
+        "if (spec.Specifier == Specifier.Class && opinion.Node.IsClass && opinion.Node.IsAncestral)",
+    ),
+    Mutant(
+        "dictionary-merge",
+        COMPOSE + "UsdPrim.cs",
+        "if (strong[key] == null) { strong[key] = weak[key]; }",
+        "strong[key] = weak[key];",
+    ),
+    Mutant(
+        "units-fallback",
+        COMPOSE + "UsdStage.cs",
+        'rootLayer.Number("metersPerUnit", 0.01);',
+        'rootLayer.Number("metersPerUnit", 1);',
+    ),
+    # ---- places
+    Mutant(
+        "rotation-order",
+        SCENE + "Xform.cs",
+        "turned = Matrix4.Multiply(turned, Matrix4.Rotation(axis, v[axis]));",
+        "turned = Matrix4.Multiply(Matrix4.Rotation(axis, v[axis]), turned);",
+    ),
+    Mutant(
+        "rotation-sense",
+        SCENE + "Matrix4.cs",
+        "matrix[4 * a + b] = sin;",
+        "matrix[4 * a + b] = -sin;",
+    ),
+    Mutant(
+        "operation-order",
+        SCENE + "Xform.cs",
+        "Matrix4.Multiply(local, matrix);",
+        "Matrix4.Multiply(matrix, local);",
+    ),
+    Mutant(
+        "inverse-operations",
+        SCENE + "Xform.cs",
+        "if (inverts) { matrix = Matrix4.Inverse(matrix) ?? Matrix4.Identity(); }",
+        "",
+    ),
+    Mutant(
+        "reset-of-the-stack",
+        SCENE + "Xform.cs",
+        "resets = true;",
+        "resets = false;",
+    ),
+    Mutant(
+        "quaternion-sense",
+        SCENE + "Matrix4.cs",
+        "1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (z * x - y * w), 0,",
+        "1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (z * x + y * w), 0,",
+    ),
+    Mutant(
+        "axis-of-vectors",
+        SCENE + "Matrix4.cs",
+        "(isZUp ? vectors[i + 1] : -vectors[i + 2])",
+        "(isZUp ? vectors[i + 1] : vectors[i + 2])",
+    ),
+    Mutant(
+        "axis-of-directions",
+        SCENE + "Matrix4.cs",
+        "into[1] = isZUp ? z : y;",
+        "into[1] = isZUp ? -z : y;",
+    ),
+    Mutant(
+        "axis-of-rotations",
+        SCENE + "Matrix4.cs",
+        "new[] { w, -x, -z, -y }",
+        "new[] { w, x, z, y }",
+    ),
+    Mutant(
+        "units-of-matrices",
+        SCENE + "Matrix4.cs",
+        "turned[i] *= MetersPerUnit;",
+        "turned[i] *= 1;",
+    ),
+    Mutant(
+        "hidden-instances",
+        SCENE + "SceneParts.cs",
+        "hidden.Contains(ids == null ? i : (long)ids[i])",
+        "hidden.Contains(i)",
+    ),
+    # ---- meshes
+    Mutant(
+        "winding",
+        SCENE + "TriangleMesh.cs",
+        'leftHanded = prim.Text("orientation", "rightHanded") == "leftHanded";',
+        'leftHanded = prim.Text("orientation", "rightHanded") != "leftHanded";',
+    ),
+    Mutant(
+        "left-handed-meshes",
+        SCENE + "TriangleMesh.cs",
+        'leftHanded = prim.Text("orientation", "rightHanded") == "leftHanded";',
+        "leftHanded = false;",
+    ),
+    Mutant(
+        "holes",
+        SCENE + "TriangleMesh.cs",
+        "if (isHole[face] || counts[face] < 3) { continue; }",
+        "if (counts[face] < 3) { continue; }",
+    ),
+    Mutant(
+        "concave-faces",
+        SCENE + "TriangleMesh.cs",
+        "if (count == 3 || count > LargestEarCut)",
+        "if (count > 2)",
+    ),
+    Mutant(
+        "ears-with-corners-in-them",
+        SCENE + "TriangleMesh.cs",
+        "if (!atCorner && Area(",
+        "if (atCorner && Area(",
+    ),
+    Mutant(
+        "face-varying-values",
+        SCENE + "TriangleMesh.cs",
+        'int element = channel.Interpolation == "faceVarying" ? corner',
+        'int element = channel.Interpolation == "faceVarying" ? point',
+    ),
+    Mutant(
+        "uniform-values",
+        SCENE + "TriangleMesh.cs",
+        'channel.Interpolation == "uniform" ? face\n                    : channel.Interpolation',
+        'channel.Interpolation == "uniform" ? corner\n                    : channel.Interpolation',
+    ),
+    Mutant(
+        "indexed-values",
+        SCENE + "TriangleMesh.cs",
+        "return channel.Indices == null ? element : channel.Indices[element];",
+        "return element;",
+    ),
+    Mutant(
+        "vertices-shared-by-unlike-corners",
+        SCENE + "TriangleMesh.cs",
+        "Others = others };",
+        "Others = 0 };",
+    ),
+    Mutant(
+        "normals-of-faces",
+        SCENE + "TriangleMesh.cs",
+        'ReadChannel("primvars:normals", 3) ?? ReadChannel("normals", 3) ?? MadeNormals();',
+        "MadeNormals();",
+    ),
+    Mutant(
+        "normals-made-smooth",
+        SCENE + "TriangleMesh.cs",
+        'bool smooth = prim.Text("subdivisionScheme", "catmullClark") != "none";',
+        "bool smooth = true;",
+    ),
+    Mutant(
+        "subset-faces",
+        SCENE + "TriangleMesh.cs",
+        "partOfFace[face] = parts.Count - 1;",
+        "partOfFace[face] = 0;",
+    ),
+    # ---- materials and lights
+    Mutant(
+        "binding-purposes",
+        SCENE + "MaterialBinding.cs",
+        '"material:binding:" + purpose',
+        '"material:binding:preview"',
+    ),
+    Mutant(
+        "binding-strength",
+        SCENE + "MaterialBinding.cs",
+        "keepsGeneral = general != null && !above.isGeneralStrong;",
+        "keepsGeneral = general != null;",
+    ),
+    Mutant(
+        "texture-channel",
+        SCENE + "MaterialData.cs",
+        "input.Texture = TextureOf(stage, shader, output.Substring(8));",
+        'input.Texture = TextureOf(stage, shader, "rgb");',
+    ),
+    Mutant(
+        "texture-coordinates-behind-a-transform",
+        SCENE + "MaterialData.cs",
+        'Source(stage, transform, "inputs:in", out reader, out output);',
+        "",
+    ),
+    Mutant(
+        "light-normalize",
+        SCENE + "SceneParts.cs",
+        "if (!IsNormalized) { return luminance; }",
+        "if (IsNormalized) { return luminance; }",
+    ),
+    Mutant(
+        "light-exposure",
+        SCENE + "SceneParts.cs",
+        "Intensity * Math.Pow(2, Exposure)",
+        "Intensity * Math.Exp(Exposure)",
+    ),
+    Mutant(
+        "light-units",
+        SCENE + "SceneParts.cs",
+        "case LightKind.Rect: return Width * Height * square;",
+        "case LightKind.Rect: return Width * Height;",
+    ),
+    Mutant(
+        "light-of-a-cylinder",
+        SCENE + "SceneParts.cs",
+        "return luminance * 2 * Radius * Length * square;",
+        "return luminance * Math.PI * Radius * Length * square;",
+    ),
+)
