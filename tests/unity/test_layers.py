@@ -101,10 +101,10 @@ def test_crates_of_every_version(usd_dump, tmp_path, minor):
 
 
 def test_crates_of_many_chunks(usd_dump, tmp_path):
-    """Blocks of more than two gigabytes come in chunks: here each of a few hundred bytes."""
+    """Blocks of more than two gigabytes come in chunks: here each of a kilobyte."""
     Sdf.Layer.FindOrOpen(str(STAGES / "scene.usda")).Export(str(tmp_path / "scene.usdc"))
     chunked = tmp_path / "chunked.usdc"
-    chunked.write_bytes(unpacked((tmp_path / "scene.usdc").read_bytes()).packed(300))
+    chunked.write_bytes(unpacked((tmp_path / "scene.usdc").read_bytes()).packed(1000))
     same(usd_dump, chunked)
 
 

@@ -245,7 +245,7 @@ def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, e
             path = item["path"].partition("/")[2]
             # points are below their instancer and named after it
             path = re.sub(r"(\w+)/\1\[", r"\1[", path)
-            found[f"/{path}"] = item["instance"], item["labels"]["class"][0]
+            found[f"/{path}"] = item["instance"], item["labels"].get("class", [None])[0]
     assert {path: found[path] for path in expected} == expected
     others = [instance for path, (instance, _) in found.items() if path not in expected]
     assert sorted(others) == list(range(len(expected) + 1, len(found) + 1))
