@@ -150,10 +150,12 @@ def test_panels_that_nothing_beside_them_glows_for_glow_and_look_where_they_shin
     corners = np.array([[x, y, 0, 1] for x in (-100, 100) for y in (-25, 25)]) @ world
     expected = corners[:, :3] @ TO_UNITY[axis].T / 100
     assert np.allclose(np.unique(np.round(vertices, 4), axis=0), np.unique(np.round(expected, 4), axis=0), atol=2e-4)
-    a, b, c = vertices[np.array(prefab.assets[glow["mesh"]]["parts"][0][:3])]
-    normal = np.cross(b - a, c - a)
-    assert np.allclose(normal / np.linalg.norm(normal), forward, atol=1e-5)
     around = world_vertices(prefab, disk)
+    # the disk is not turned, and has nothing below it that would keep its object from turning
+    for item, points, looks in ((glow, vertices, forward), (disk, around, -TO_UNITY[axis][:, 2])):
+        a, b, c = points[np.array(prefab.assets[item["mesh"]]["parts"][0][:3])]
+        normal = np.cross(b - a, c - a)
+        assert np.allclose(normal / np.linalg.norm(normal), looks, atol=1e-5)
     assert np.allclose(np.linalg.norm(around - place_of(disk), axis=1), 0.5)
     material = prefab.assets[glow["materials"][0]]
     assert material["keywords"] == ["_EMISSION"]

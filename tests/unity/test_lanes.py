@@ -182,6 +182,55 @@ def Xform "Lanes"
     assert "nodes" not in back
 
 
+def test_ways_over_lanes_of_all_lengths(prefab_dump, tmp_path):
+    """A random graph, where the way over the fewest lanes is seldom the shortest."""
+    random = np.random.default_rng(3)
+    count = 40
+    lanes = nx.gnp_random_graph(count, 0.12, seed=4, directed=True)
+    for edge in lanes.edges.values():
+        edge["length_m"] = round(float(random.uniform(1, 50)), 2)
+    starts, ends, lengths = zip(*lanes.edges(data="length_m"), strict=True)
+    corners = "(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), " * count
+    (tmp_path / "lanes.usda").write_text(f"""#usda 1.0
+( metersPerUnit = 1 )
+def Xform "Lanes"
+{{
+    def BasisCurves "Nodes"
+    {{
+        int[] curveVertexCounts = {[1] * count}
+        point3f[] points = [{"(0, 0, 0), " * count}]
+        token[] garage:lane:kind = {str(["straight"] * count).replace("'", '"')}
+    }}
+    def BasisCurves "Edges"
+    {{
+        int[] curveVertexCounts = {[2] * len(starts)}
+        point3f[] points = [{"(0, 0, 0), (0, 0, 0), " * len(starts)}]
+        int[] garage:lane:from = {list(starts)}
+        int[] garage:lane:to = {list(ends)}
+        float[] garage:lane:length = {list(lengths)}
+        token[] garage:lane:direction = {str(["forward"] * len(starts)).replace("'", '"')}
+    }}
+    def BasisCurves "Stalls"
+    {{
+        int[] curveVertexCounts = {[4] * count}
+        point3f[] points = [{corners}]
+        token[] garage:stall:id = {str([f"S{node}" for node in range(count)]).replace("'", '"')}
+        int[] garage:stall:accessNode = {list(range(count))}
+    }}
+}}
+""")
+    pairs = list(itertools.permutations(range(0, count, 3), 2))
+    ends_of_ways = [f"S{node}" for pair in pairs for node in pair]
+    answers = prefab_dump.ask("ways", tmp_path / "lanes.usda", *ends_of_ways)
+    expected = dict(nx.all_pairs_dijkstra_path_length(lanes, weight="length_m"))
+    for (start, end), answer in zip(pairs, answers, strict=True):
+        way = answer.get("nodes")
+        assert (way is None) == (end not in expected[start])
+        if way is not None:
+            found = sum(lanes.edges[step]["length_m"] for step in itertools.pairwise(way))
+            assert found == pytest.approx(expected[start][end], abs=1e-3)
+
+
 def test_the_sample_drives_along_the_lanes(prefabs, prefab_dump):
     """For four minutes, always on a lane square or a portal, at its speed, looking where it goes."""
     stage = PACKAGE / "Samples~" / "SmallGarage" / "SmallGarage.usdz"

@@ -155,7 +155,9 @@ def test_maps(prefabs, tmp_path, pipeline):
     surface = look.material("Floor")
     look.texture(surface, {"diffuseColor": "rgb"}, look.image("colour.png", colour), space="sRGB", scale=(0.5, 1, 1, 1))
     channels = {"occlusion": "r", "roughness": "g", "metallic": "b"}
-    look.texture(surface, channels, look.image("packed.png", packed), space="raw", wrap="mirror")
+    # which a reader shows without its file alone
+    fallback = (0.1, 0.2, 0.3, 1)
+    look.texture(surface, channels, look.image("packed.png", packed), space="raw", wrap="mirror", fallback=fallback)
     usual = {"scale": (2, 2, 2, 1), "bias": (-1, -1, -1, 0), "space": "raw", "wrap": "clamp"}
     look.texture(surface, {"normal": "rgb"}, look.image("normal.png", normal), **usual)
     look.stage.Save()
