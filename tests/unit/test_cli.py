@@ -11,8 +11,8 @@ from click.testing import CliRunner
 from PIL import Image
 from sample_files import REPOSITORY
 
-from garage2usd import cli
-from garage2usd.cli import main
+from garage2usd.cli import bars, main
+from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema
 
 QUICK = "[plan]\nepisodes = 200\n"
@@ -188,11 +188,12 @@ def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
 
 
 def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
-    monkeypatch.setattr(cli, "_termination", cli._Termination())
-    with cli._Bars(io.StringIO()) as progress:
+    termination = Termination()
+    monkeypatch.setattr(bars, "TERMINATION", termination)
+    with bars.Bars(io.StringIO()) as progress:
         progress("plan", 1, 3)
         with pytest.raises(SystemExit) as first:
-            cli._termination(signal.SIGTERM, None)
+            termination(signal.SIGTERM, None)
         with pytest.raises(SystemExit) as second:
             progress("plan", 2, 3)
     assert first.value.code == second.value.code == 128 + signal.SIGTERM

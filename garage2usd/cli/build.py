@@ -1,0 +1,87 @@
+"""``garage2usd build``."""
+
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garage2usd.cli.bars import Bars
+
+if TYPE_CHECKING:
+    from garage2usd.pipeline import Build
+
+__all__ = ["build"]
+
+
+@click.command()
+@click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
+@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well.")
+@click.option("--best-plans", type=click.IntRange(0, 200), default=0, help="Draw so many of the best plans as well.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(path_type=Path),
+    default=Path("garage.usdz"),
+    show_default=True,
+    help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
+)
+def build(
+    *, config: Path | None, seed: int | None, tape: str | None, learning_curve: bool, best_plans: int, output: Path
+) -> None:
+    """Build the garage that CONFIG (TOML) describes, or a good default one.
+
+    \b
+    Examples:
+      garage2usd build --seed 7 --output garage.usdz
+      garage2usd build samples/paper_7x9.toml -o out/paper.usda
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
+
+    with Bars(sys.stderr) as progress:
+        made = build_garage(
+            load_config(config) if config else None,
+            output,
+            seed=seed,
+            tape=tape,
+            learning_curve=learning_curve,
+            best_plans=best_plans,
+            progress=progress,
+        )
+    _describe(made)
+
+
+def _describe(made: "Build") -> None:
+    from garage2usd.planning import area_per_stall_m2  # noqa: PLC0415 - keeps --help instant
+
+    garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
+    rows, cols = layout.structure.shape
+    counts = layout.counts()
+    uses = ", ".join(f"{count} {use}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
+    figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
+    lines = [
+        ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
+        ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
+        ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
+        ("score", f"{score.value:.2f} ({figures})"),
+        ("reachable", "every stall, from an entrance and to an exit"),
+        ("seed", str(garage.config.seed)),
+        ("stage", str(made.stage)),
+        *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
+        *(("picture", str(picture)) for picture in made.pictures),
+        ("report", str(made.report)),
+        ("labels", str(made.labels)),
+        ("Unity", f"add the package unity_importer, then drop {_dropped(made)} into Assets"),
+        ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
+    ]
+    for name, value in lines:
+        click.echo(f"{name:>10}  {value}")
+
+
+def _dropped(made: "Build") -> str:
+    """What a Unity project needs of a build."""
+    return made.stage.name if made.asset_folder is None else f"{made.stage.name} and {made.asset_folder.name}/"
