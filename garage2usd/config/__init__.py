@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, Field, ValidationError
 
-from garage2usd.config.base import Settings
+from garage2usd.settings import Settings
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig

@@ -2,7 +2,7 @@
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from garage2usd.config.base import Settings
+from garage2usd.settings import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
 
