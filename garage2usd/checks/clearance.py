@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.solids import Solid
 from garage2usd.checks.stall import standing_in
 from garage2usd.checks.subject import StallOutline, Subject
 from garage2usd.profiles import Length, Profile
@@ -92,8 +93,8 @@ def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterat
         yield _ParkedCar(stall, length.amount, width.amount)
 
 
-def _closest(car: _ParkedCar, near: list, required: float, what: str, subject: Subject) -> Iterator[Miss]:  # type: ignore[type-arg]
-    """The least distance of a car to some pieces, apart from those that stand in its stall, which have rules of their own."""
+def _closest(car: _ParkedCar, near: list[Solid], required: float, what: str, subject: Subject) -> Iterator[Miss]:
+    """The least distance of a car to some pieces; those that stand in its stall have rules of their own."""
     inside = {solid.name for solid in standing_in(car.stall, subject)}
     distances = [(car.polygon.distance(solid.footprint), solid.name) for solid in near if solid.name not in inside]
     if distances:

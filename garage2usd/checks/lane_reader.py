@@ -67,9 +67,9 @@ class _Curves:
 
     def __init__(self, stage: Usd.Stage, prim: Usd.Prim | None) -> None:
         self._prim = prim
-        self.exists = bool(prim) and prim.IsA(UsdGeom.BasisCurves)
+        self.exists = prim is not None and bool(prim) and prim.IsA(UsdGeom.BasisCurves)
         self.path = str(prim.GetPath()) if prim else ""
-        if not self.exists:
+        if prim is None or not self.exists:
             return
         basis = UsdGeom.BasisCurves(prim)
         counts = np.asarray(basis.GetCurveVertexCountsAttr().Get() or (), dtype=np.int64)
@@ -141,7 +141,7 @@ def _read_stalls(curves: _Curves, ground: DrivenGround) -> None:
         else:
             left, right, rear_right, rear_left = (_point(corner) for corner in line)
             outline = (left, right, rear_right, rear_left)
-            ground.stalls.append(StallOutline(place, outline, StallUse(use), int(access)))  # type: ignore[arg-type,call-overload]
+            ground.stalls.append(StallOutline(place, outline, StallUse(use), int(access)))  # type: ignore[call-overload]
 
 
 def _compare_prims(stage: Usd.Stage, root: Usd.Prim, ground: DrivenGround) -> None:

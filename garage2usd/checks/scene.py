@@ -118,7 +118,7 @@ class _Reader:
                 yield _moved(entry, matrix, str(prim.GetPath()), thing, label)
             return
         if prim.IsA(UsdGeom.PointInstancer):
-            yield from self._points(UsdGeom.PointInstancer(prim), matrix, thing, label)
+            yield from self._points(UsdGeom.PointInstancer(prim), matrix, label)
             return
         if prim.IsA(UsdGeom.Gprim):
             shape = _shape(prim)
@@ -140,7 +140,7 @@ class _Reader:
             ]
         return self._prototypes[path]
 
-    def _points(self, instancer: UsdGeom.PointInstancer, matrix: Array, thing: str, label: str) -> Iterator[_Entry]:
+    def _points(self, instancer: UsdGeom.PointInstancer, matrix: Array, label: str) -> Iterator[_Entry]:
         """What a point instancer draws; each point is an object of its own."""
         stage, path = instancer.GetPrim().GetStage(), str(instancer.GetPath())
         numbers = instancer.GetProtoIndicesAttr().Get() or ()

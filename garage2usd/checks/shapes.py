@@ -128,7 +128,8 @@ class Body(NamedTuple):
 
     def world_points(self) -> Array:
         """Its points in the world; float64, shape (n, 3)."""
-        return self.shape.points @ self.matrix[:3, :3] + self.matrix[3, :3]
+        world: Array = self.shape.points @ self.matrix[:3, :3] + self.matrix[3, :3]
+        return world
 
     def low_m(self) -> float:
         """Its least height in the world."""

@@ -41,10 +41,6 @@ class GarageConfig(Settings):
 
     seed: int = Field(0, ge=0, lt=2**63)
     """Seed of every random step."""
-    profile: str | Profile = DEFAULT_PROFILE
-    """The standard that the garage is designed to: 'cn-jgj100', 'uk-istructe', 'us-ada', a TOML file with a profile of
-    one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes the place
-    of defaults that do not satisfy it; settings that are given stay."""
     site: SiteConfig = SiteConfig()
     """Contour, portals and obstacles."""
     bay: BayConfig = BayConfig()
@@ -57,6 +53,10 @@ class GarageConfig(Settings):
     """Parked cars."""
     stage: StageConfig = StageConfig()
     """The stage's files."""
+    profile: str | Profile = DEFAULT_PROFILE
+    """The standard that the garage is designed to: 'cn-jgj100', 'uk-istructe', 'us-ada', a TOML file with a profile of
+    one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes the place
+    of defaults that do not satisfy it; settings that are given stay."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.

@@ -59,7 +59,7 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
     )
     clear_m = max(
         _at_least(profile.clear_height, FittingsConfig, "clear_height_m"),
-        _rounded_up(profile.van_clear_height.amount) if profile.van_clear_height else 0.0,
+        _at_least(profile.van_clear_height, FittingsConfig, "clear_height_m"),
     )
     chosen = {
         ("bay", "stall_width_m"): width_m,
@@ -69,7 +69,7 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
         ("fittings", "clear_height_m"): clear_m,
         ("fittings", "ceiling_height_m"): max(
             _default(FittingsConfig, "ceiling_height_m"),
-            _rounded_up(_given(settings, "fittings", "clear_height_m", FittingsConfig, clear_m) + CEILING_ROOM_M),
+            _rounded_up(clear_m + CEILING_ROOM_M),
         ),
         ("fittings", "lane_lux"): max(
             _default(FittingsConfig, "lane_lux"), profile.lane_illuminance.amount if profile.lane_illuminance else 0.0

@@ -83,7 +83,8 @@ class ParkingConfig(Settings):
     """Share of the stalls that have a charger."""
     accessible_share: float | None = Field(None, ge=0, le=1)
     """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0. Left out,
-    as many as the profile asks for, or 0.02 where it asks for none. Each has a hatched access aisle beside it, that two of them share and that takes the place of a stall."""
+    as many as the profile asks for, or a share of 0.02 where it asks for none. Each has a hatched access aisle beside
+    it, that two of them share and that takes the place of a stall."""
     reversed_share: float = Field(0.3, ge=0, le=1)
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)

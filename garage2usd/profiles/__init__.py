@@ -102,7 +102,7 @@ def _config_error(error: ValidationError) -> ConfigError:
     if finding["type"] == "extra_forbidden":
         keys = list(Profile.model_fields)
         if len(location) > 1:
-            clause = error.title and Profile.model_fields[location[0]].annotation
+            clause = Profile.model_fields[location[0]].annotation
             models = [model for model in getattr(clause, "__args__", ()) if hasattr(model, "model_fields")]
             keys = list(models[0].model_fields) if models else keys
         return ConfigError(field, finding["input"], f"one of the keys {', '.join(keys)}")

@@ -126,7 +126,9 @@ class LengthRange(Clause):
     """A length between two values."""
 
     least: float = Field(gt=0, le=1e6)
+    """The least, in `unit`."""
     most: float = Field(gt=0, le=1e6)
+    """The most, in `unit`."""
     unit: LengthUnit
     """'m', 'mm', 'cm', 'ft' or 'in'."""
 
