@@ -109,7 +109,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     if config.plan.dead_ends is DeadEnds.STANDARD:
         long_ends = [end for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
+    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking, config.standard)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
