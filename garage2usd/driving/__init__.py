@@ -1,7 +1,7 @@
 """Driving: the proof that the design car gets into each stall and out of it, and the ways that do it.
 
-Plain geometry, for any program: `find_way` takes a `DesignCar`, a parked `Pose`, `Obstacles` and `LanePose`s. For a whole
-garage `prove_stalls` takes its layout and lane graph.
+Plain geometry, for any program: `find_way` takes a `DesignCar`, a parked `Pose`, `Obstacles` and `LanePose`s. For a
+whole garage `prove_stalls` takes its layout and lane graph.
 """
 
 from garage2usd.driving.car import DesignCar, Pose

@@ -5,6 +5,7 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import networkx as nx
 
@@ -61,7 +62,7 @@ class LaneDirections:
                 towards = [*reversed(end.squares)]
                 outside = [square for square in self.graph.graph[towards[0]] if square not in end.squares]
                 backed.update((square, towards[0]) for square in outside)
-                backed.update(zip(towards, towards[1:], strict=False))
+                backed.update(pairwise(towards))
         return frozenset(backed)
 
     def near(self, square: Square) -> list[DirectedEdge]:

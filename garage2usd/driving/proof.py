@@ -10,7 +10,7 @@ from garage2usd.driving.car import DesignCar, Point, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.search import HEADINGS, least_clearance, search
-from garage2usd.driving.sweep import Floats, bulge
+from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
 from garage2usd.errors import ConfigError
 
 __all__ = ["LanePose", "Limits", "Search", "find_way", "least_clearance_m"]
@@ -54,14 +54,11 @@ class Limits:
         Most of them, between lane and stall.
     reach_m
         How far from the stall the rear axle goes along either axis of the lanes.
-    effort
-        Most places looked at before the search is given up.
     """
 
     margin_m: float = 0.05
     gear_changes: int = 4
-    reach_m: float = 14.0
-    effort: int = 400_000
+    reach_m: float = 12.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +80,8 @@ class Search:
     is_exhausted: bool = False
 
 
-_FIRST_EFFORT = 16_384
+_PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 524_288))
+"""Length of a straight step in metres and most places looked at: coarse first, then fine."""
 
 
 def find_way(
@@ -120,15 +118,16 @@ def find_way(
     frame = lanes[0].yaw_rad
     goals = np.array([_goal(car, parked, lane, frame) for lane in lanes])
     start = np.array([0.0, 0.0, math.remainder(parked.yaw_rad - frame, math.tau)])
-    near = obstacles.near((parked.x_m, parked.z_m), 1.5 * (limits.reach_m + car.length_m))
-    local = near.seen_from(parked.x_m, parked.z_m, frame)
+    reach = limits.reach_m + car.length_m
+    near = obstacles.near((parked.x_m, parked.z_m), math.sqrt(2) * reach)
+    local = near.seen_from(parked.x_m, parked.z_m, frame).near((0.0, 0.0), reach)
     body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
     touched = np.zeros(len(local.pieces), np.int64)
     standing = _standing(start, local, body, limits.margin_m)
     if standing:
         return Search(None, standing, is_exhausted=True)
     found, steps = 0, np.empty((0, 3))
-    for effort in sorted({min(_FIRST_EFFORT, limits.effort), limits.effort}):
+    for straight_m, effort in _PASSES:
         touched[:] = 0
         found, steps = search(
             start,
@@ -139,11 +138,12 @@ def find_way(
             car.rear_axle_radius_m,
             limits.margin_m,
             limits.reach_m,
+            straight_m,
             limits.gear_changes,
             effort,
             touched,
         )
-        if found >= 0:
+        if found > 0:
             break
     if found <= 0:
         order = np.argsort(-touched, kind="stable")
@@ -160,11 +160,11 @@ def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, m
     poses = np.array([(at.pose.x_m, at.pose.z_m, at.pose.yaw_rad) for at in waypoints])
     if not len(poses):
         poses = np.array([[way.start.x_m, way.start.z_m, way.start.yaw_rad]] * 2)
-        return float(least_clearance(poses, np.zeros(1), obstacles.pieces, body, most_m))
+        return float(least_clearance(poses, np.zeros(1), obstacles.pieces, obstacles.boxes, body, most_m))
     turns = np.abs(np.diff(poses[:, 2]))
     radii = np.array([1 / abs(at.curvature_per_m) if at.curvature_per_m else 0.0 for at in waypoints[:-1]])
     bulges = np.array([bulge(radius, turn, body) for radius, turn in zip(radii, turns, strict=True)])
-    return float(least_clearance(poses, bulges, obstacles.pieces, body, most_m))
+    return float(least_clearance(poses, bulges, obstacles.pieces, obstacles.boxes, body, most_m))
 
 
 def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:
@@ -186,13 +186,12 @@ def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[f
 
 def _standing(start: Floats, local: Obstacles, body: Floats, margin_m: float) -> tuple[str, ...]:
     """Names of what a car touches where it is parked."""
-    pose = np.stack([start, start])
-    touched = [
-        piece
-        for piece in range(len(local.pieces))
-        if least_clearance(pose, np.zeros(1), local.pieces[piece : piece + 1], body, 1.0) < margin_m
-    ]
-    return local.named(touched)
+    corners = np.empty((8, 2))
+    x, z, yaw = start.tolist()
+    corners_at(x, z, yaw, body, corners, 0)
+    corners_at(x, z, yaw, body, corners, 4)
+    gaps = [clearance(corners, piece, margin_m) for piece in local.pieces]
+    return local.named(piece for piece, gap in enumerate(gaps) if gap < margin_m)
 
 
 def _moves(steps: Floats, radius_m: float) -> tuple[Move, ...]:

@@ -1,9 +1,10 @@
-"""A* over arcs at full lock and straights, from a parked pose to a lane: compiled.
+"""Weighted A* over arcs at full lock and straights, from a parked pose to a lane: compiled.
 
-The car's place is exact; only what counts as the same place is rounded, to 0.1 m and a heading. Headings are whole
-multiples of 3 degrees of the lanes' own, so that a lane's heading is met exactly; a car parked askew comes onto one of
-them with its first arc.
+The car's place is exact; only what counts as the same place is rounded, to two thirds of a straight step and a heading.
+Headings are whole multiples of 3 degrees off the lanes' own, so that a lane's heading is met exactly; a car parked
+askew comes onto one of them with its first arc.
 """
+# ruff: noqa: C901, PLR0912, PLR0915 - the search is one loop that numba flattens
 
 import heapq
 import math
@@ -19,12 +20,13 @@ __all__ = ["HEADINGS", "first_touch", "least_clearance", "search"]
 HEADINGS = 120
 """How many headings there are in a full turn."""
 _TURN = math.tau / HEADINGS
-_STRAIGHT_M = 0.12
-_CELL_M = 0.1
+_CELL_PER_STEP = 2 / 3
 _GEAR_CHANGE_M = 3.0
 """What a change of gear costs, as metres of way."""
-_STEERING_M = 0.1
+_STEERING_M = 0.3
 """What a turn of the steering wheel costs, as metres of way."""
+_GREED = 2.0
+"""Weight of the way that is left: the way found costs at most so many times the least."""
 _NEAR = 1e-7
 
 
@@ -42,15 +44,20 @@ def first_touch(corners: Floats, shapes: Floats, boxes: Floats, need: float) -> 
 
 
 @compiled
-def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, body: Floats, most: float) -> float:
+def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, boxes: Floats, body: Floats, most: float) -> float:
     """Least distance, or less, to any shape along poses (x, z, yaw), `bulges` a step; `most` where all is farther."""
     corners = np.empty((8, 2))
     least = most
     for step in range(len(poses) - 1):
         for end in range(2):
             corners_at(poses[step + end, 0], poses[step + end, 1], poses[step + end, 2], body, corners, 4 * end)
+        reach = least + bulges[step]
+        left, right = corners[:, 0].min() - reach, corners[:, 0].max() + reach
+        low, high = corners[:, 1].min() - reach, corners[:, 1].max() + reach
         for number in range(shapes.shape[0]):
-            least = min(least, clearance(corners, shapes[number], least + bulges[step]) - bulges[step])
+            if boxes[number, 0] > right or boxes[number, 2] < left or boxes[number, 1] > high or boxes[number, 3] < low:
+                continue
+            least = min(least, clearance(corners, shapes[number], reach) - bulges[step])
     return least
 
 
@@ -78,10 +85,10 @@ def _reaches(x: float, z: float, yaw: float, goals: Floats) -> bool:
 
 
 @compiled
-def _cell(x: float, z: float, yaw: float, gear: int) -> int:
-    """A number for a place, a heading and a gear; places lie within 100 m of the origin."""
-    column, row = int(math.floor(x / _CELL_M)) + 1000, int(math.floor(z / _CELL_M)) + 1000
-    heading = int(round(yaw / _TURN)) % HEADINGS
+def _cell(x: float, z: float, yaw: float, gear: int, cell_m: float) -> int:
+    """A number for a place, a heading and a gear; places lie within 40 m of the origin."""
+    column, row = math.floor(x / cell_m) + 1024, math.floor(z / cell_m) + 1024
+    heading = round(yaw / _TURN) % HEADINGS
     return ((column * 2048 + row) * HEADINGS + heading) * 2 + (1 if gear > 0 else 0)
 
 
@@ -105,11 +112,12 @@ def search(
     radius: float,
     margin: float,
     reach: float,
+    straight_m: float,
     max_changes: int,
     max_nodes: int,
     touched: NDArray[np.int64],
 ) -> tuple[int, Floats]:
-    """Look for the way of least cost from a pose to a goal.
+    """Look for a way of little cost from a pose to a goal.
 
     Parameters
     ----------
@@ -127,6 +135,8 @@ def search(
         What is kept clear all the way.
     reach
         How far from the start the rear axle may come along either axis.
+    straight_m
+        Length of a straight step.
     max_changes, max_nodes
         Of gear, and of places looked at.
     touched
@@ -150,12 +160,13 @@ def search(
     corners = np.empty((8, 2))
     place[0], cost[0], count = start, 0.0, 1
     open_ = [(0.0, 0)]
+    cell_m = _CELL_PER_STEP * straight_m
     full = bulge(radius, _TURN, body)
     while open_:
         _, node = heapq.heappop(open_)
         x, z, yaw = place[node, 0], place[node, 1], place[node, 2]
         if node > 0:
-            slot = _slot(keys, _cell(x, z, yaw, code[node, 0]))
+            slot = _slot(keys, _cell(x, z, yaw, code[node, 0], cell_m))
             if cost[node] > best[slot]:
                 continue
             if _reaches(x, z, yaw, goals):
@@ -168,7 +179,7 @@ def search(
                 continue
             for steering in (0, 1, -1):
                 if steering == 0:
-                    length, to = _STRAIGHT_M, yaw
+                    length, to = straight_m, yaw
                     to_x, to_z = x - math.sin(yaw) * gear * length, z - math.cos(yaw) * gear * length
                     need = margin
                 else:
@@ -189,7 +200,7 @@ def search(
                     paid += _GEAR_CHANGE_M
                 if steering != code[node, 1]:
                     paid += _STEERING_M
-                key = _cell(to_x, to_z, to, gear)
+                key = _cell(to_x, to_z, to, gear, cell_m)
                 slot = _slot(keys, key)
                 if keys[slot] == key and best[slot] <= paid:
                     continue
@@ -204,7 +215,7 @@ def search(
                 place[count, 0], place[count, 1], place[count, 2] = to_x, to_z, to
                 cost[count], parent[count], step_m[count] = paid, node, length
                 code[count, 0], code[count, 1], code[count, 2] = gear, steering, changes
-                heapq.heappush(open_, (paid + _left_of_way(to_x, to_z, to, goals, radius), count))
+                heapq.heappush(open_, (paid + _GREED * _left_of_way(to_x, to_z, to, goals, radius), count))
                 count += 1
     return 0, np.empty((0, 3))
 

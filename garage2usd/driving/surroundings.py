@@ -43,8 +43,8 @@ def fixed_objects(layout: Layout) -> Obstacles:
 
     Notes
     -----
-    Wheel stops count, as no tyre goes over them; the arms of all gates are down; speed bumps do not count, nor does what
-    hangs over the cars or is painted.
+    Wheel stops count, as no tyre goes over them; the arms of all gates are down; speed bumps do not count, nor does
+    what hangs over the cars or is painted.
     """
     placements = layout.placements
     return _named_shapes(placements.at(placements.rows_of(*_TOUCHABLE)))
@@ -102,7 +102,7 @@ def _named_shapes(placements: tuple[Placement, ...] | list[Placement]) -> Obstac
     )
 
 
-def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901, PLR0912 - a case for each kind of object
+def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901 - a case for each kind of object
     """Convex outlines on the floor, in the coordinates of a spec, that hold all of it that a car could touch."""
     match spec:
         case s.WallSpec():

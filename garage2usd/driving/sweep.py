@@ -1,10 +1,11 @@
 """Whether a rectangle that drives a short arc or straight keeps off convex shapes: compiled, never optimistic.
 
-The ground swept between two poses lies within the convex hull of the two footprints, but for how far an arc bulges over
-its chord. The distance between that hull and a convex shape is at least the gap between them along any axis; the axes
-tried are the normals of the shape's edges, of both footprints' edges and of the four ways of the corners. What bulges is
-taken off the gap. So the clearance is a lower bound, and what is said to be clear is clear.
+The ground swept between two poses lies within the convex hull of the two footprints, but for how far an arc bulges
+over its chord. The distance between that hull and a convex shape is at least the gap between them along any axis; the
+axes tried are the normals of the shape's edges, of both footprints' edges and of the ways of the four corners. What
+bulges is taken off the gap. So the clearance is a lower bound, and what is said to be clear is clear.
 """
+# ruff: noqa: PLR2004 - the four corners of two rectangles
 
 import math
 
@@ -75,7 +76,7 @@ def clearance(corners: Floats, shape: Floats, enough: float) -> float:
         for corner in range(count):
             along = shape[corner, 0] * ax + shape[corner, 1] * az
             shape_low, shape_high = min(shape_low, along), max(shape_high, along)
-        widest = max(widest, max(shape_low - high, low - shape_high))
+        widest = max(widest, shape_low - high, low - shape_high)
         if widest >= enough:
             break
     return widest
