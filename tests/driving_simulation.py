@@ -5,7 +5,8 @@
 
 import math
 import sys
-from functools import lru_cache
+from functools import cache
+from itertools import pairwise
 
 import networkx as nx
 import numpy as np
@@ -79,7 +80,7 @@ def outlines(track):
     return shapely.polygons(corners)
 
 
-@lru_cache(maxsize=None)
+@cache
 def _hulls(spec):
     """Convex hulls on the floor of the parts of a shape that are between a kerb's height and 2 m."""
     hulls = []
@@ -163,7 +164,10 @@ class World:
         edges = []
         for one, other in self.lines:
             if (other[0] - one[0], other[1] - one[1]) == step:
-                ends = [(self.garage.graph.graph.nodes[s]["x_m"], self.garage.graph.graph.nodes[s]["z_m"]) for s in (one, other)]
+                ends = [
+                    (self.garage.graph.graph.nodes[s]["x_m"], self.garage.graph.graph.nodes[s]["z_m"])
+                    for s in (one, other)
+                ]
                 if shapely.LineString(ends).distance(body.centroid) < 4.1:
                     edges.append((one, other))
         return edges
@@ -185,7 +189,7 @@ class World:
             start = (way.start.x_m, way.start.z_m, way.start.yaw_rad)
             moves = [(str(move.gear), move.curvature_per_m, move.length_m) for move in way.moves]
             gears = [gear for gear, _, _ in moves]
-            if sum(a != b for a, b in zip(gears, gears[1:], strict=False)) > 4:
+            if sum(a != b for a, b in pairwise(gears)) > 4:
                 faults.append(f"{name}: more than four changes of gear")
             track = simulate(start, moves)
             if proof.is_full and (touched := self.touched(track, stall)):
