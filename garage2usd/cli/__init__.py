@@ -5,6 +5,7 @@ import click
 from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
+from garage2usd.cli.drive import drive
 from garage2usd.cli.schema import schema
 from garage2usd.cli.textures import textures
 from garage2usd.version import VERSION
@@ -18,5 +19,5 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, schema, textures):
+for _command in (build, check, drive, schema, textures):
     main.add_command(_command)
