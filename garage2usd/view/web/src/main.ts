@@ -49,6 +49,9 @@ class Viewer {
   private dirty = true;
   private cut: boolean | null = null;
   private last = performance.now();
+  private fence: WebGLSync | null = null;
+  private submitted = 0;
+  private measured = false;
   private pressedAt: [number, number] | null = null;
   private lookedAt: [number, number] | null = null;
   private readonly cars: number[] = [];
@@ -84,8 +87,8 @@ class Viewer {
     this.map = new PlanMap(element("plan"), scene, this.boxes, (x, z) => this.goTo(x, z));
     this.showPanels();
     this.listen();
-    this.overview();
     this.resize();
+    this.overview();
   }
 
   static async open(): Promise<Viewer> {
@@ -104,7 +107,7 @@ class Viewer {
 
   /** Draw until the page goes. */
   run(): void {
-    this.draw(performance.now());
+    this.draw();
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
     this.ready = true;
@@ -120,37 +123,51 @@ class Viewer {
 
   private tick(now: number): void {
     const seconds = Math.min(0.1, (now - this.last) / 1000);
-    if (this.quality.moving && this.dirty) {
-      this.quality.took(now - this.last);
-      this.frameTimes.push(now - this.last);
-      if (this.frameTimes.length > 120) this.frameTimes.shift();
-    }
     this.last = now;
     if (this.mode === "walk" && this.walker.advance(seconds)) this.touch();
+    if (this.isBusy(now)) return;
     if (this.quality.rests(now)) {
       this.dirty = true;
       this.sharpen();
     }
-    if (this.dirty) this.draw(now);
+    if (!this.dirty) return;
+    const { quality } = this;
+    if (quality.moving) this.renderer.setPixelRatio(window.devicePixelRatio / quality.coarse);
+    this.draw();
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.submitted = now;
+    this.measured = quality.moving;
+    gl.flush();
+  }
+
+  /** Whether the latest picture is still being drawn; another one begun now would only come later. */
+  private isBusy(now: number): boolean {
+    if (!this.fence) return false;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (gl.clientWaitSync(this.fence, 0, 0) === gl.TIMEOUT_EXPIRED) return true;
+    gl.deleteSync(this.fence);
+    this.fence = null;
+    if (this.measured) {
+      this.quality.took(now - this.submitted);
+      this.frameTimes.push(now - this.submitted);
+      if (this.frameTimes.length > 120) this.frameTimes.shift();
+    }
+    return false;
   }
 
   /** Note that the picture is to be drawn anew. */
   touch(): void {
-    if (!this.quality.moving) this.blurFor();
     this.quality.move(performance.now());
     this.dirty = true;
-  }
-
-  private blurFor(): void {
-    this.renderer.setPixelRatio(window.devicePixelRatio / this.quality.coarse);
   }
 
   private sharpen(): void {
     this.renderer.setPixelRatio(window.devicePixelRatio);
   }
 
-  private draw(now: number): void {
-    this.dirty = this.quality.moving && this.mode === "walk" ? false : false;
+  private draw(): void {
+    this.dirty = false;
     const { camera } = this;
     if (this.mode === "walk") this.walker.place(camera);
     camera.near = this.mode === "walk" ? 0.06 : Math.max(0.1, 0.02 * this.orbit.getDistance());
@@ -162,10 +179,10 @@ class Viewer {
     this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse ** 0.5 : 1);
     this.renderer.render(this.world, camera);
     this.map.draw(this.eye(), this.selected < 0 ? null : footprint(this.scene, this.boxes, this.selected));
-    this.showFigures(now);
+    this.showFigures();
   }
 
-  private showFigures(_now: number): void {
+  private showFigures(): void {
     const { objects, triangles, calls } = this.instances.drawn;
     element("figures").textContent = `${objects.toLocaleString("en")} objects · ${(triangles / 1000).toFixed(0)}k triangles · ${calls} calls`;
     const { x, z } = this.camera.position;
@@ -285,12 +302,48 @@ class Viewer {
   overview(): void {
     this.setMode("orbit");
     const [x0, z0, x1, z1] = this.inside();
-    const middle = new THREE.Vector3((x0 + x1) / 2, this.floor, (z0 + z1) / 2);
-    const size = Math.max((x1 - x0) / 1.5, z1 - z0);
-    this.orbit.target.copy(middle);
-    this.camera.position.set(middle.x + 0.12 * size, this.floor + 0.95 * size, middle.z + 0.82 * size);
-    this.orbit.update();
+    const corners = [[x0, z0], [x1, z0], [x1, z1], [x0, z1]].map(([x, z]) => new THREE.Vector3(x, this.floor, z));
+    this.orbit.target.set((x0 + x1) / 2, this.floor, (z0 + z1) / 2);
+    const away = new THREE.Vector3(0.1, 1, 0.62).normalize();
+    // as near as all corners stay clear of the panels
+    const free = this.freeView();
+    for (let distance = 10; distance < 1e4; distance *= 1.04) {
+      this.camera.position.copy(this.orbit.target).addScaledVector(away, distance);
+      this.orbit.update();
+      this.camera.updateMatrixWorld();
+      this.camera.updateProjectionMatrix();
+      const seen = corners.map((corner) => corner.clone().project(this.camera));
+      const [xs, ys] = [seen.map(({ x }) => x), seen.map(({ y }) => y)];
+      const wide = Math.max(...xs) - Math.min(...xs) < free.right - free.left;
+      if (!wide || Math.max(...ys) - Math.min(...ys) > free.top - free.bottom || seen.some(({ z }) => z > 1)) continue;
+      this.shift((free.left + free.right - Math.max(...xs) - Math.min(...xs)) / 2, (free.bottom + free.top - Math.max(...ys) - Math.min(...ys)) / 2);
+      break;
+    }
     this.touch();
+  }
+
+  /** What no panel covers, from -1 to 1 as a camera has it. */
+  private freeView(): { left: number; right: number; bottom: number; top: number } {
+    const [width, height] = [window.innerWidth, window.innerHeight];
+    const [bar, layers, map] = ["bar", "layers", "map"].map((id) => element(id).getBoundingClientRect());
+    return {
+      left: (2 * layers.right) / width - 1 + 0.03,
+      right: (2 * (width > 1000 ? map.left : width)) / width - 1 - 0.03,
+      bottom: -0.9,
+      top: 1 - (2 * bar.bottom) / height - 0.03,
+    };
+  }
+
+  /** Move the camera along the floor, so that what is in the middle is seen elsewhere. */
+  private shift(x: number, y: number): void {
+    const across = new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    const far = this.orbit.getDistance() * Math.tan((this.camera.fov * Math.PI) / 360);
+    const along = new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1).setY(0).normalize();
+    const slope = Math.max(0.2, this.camera.getWorldDirection(new THREE.Vector3()).y * -1);
+    const move = across.multiplyScalar(-x * far * this.camera.aspect).addScaledVector(along, (-y * far) / slope);
+    this.orbit.target.add(move);
+    this.camera.position.add(move);
+    this.orbit.update();
   }
 
   /** The floor's extent: least x and z, greatest x and z. */

@@ -68,10 +68,11 @@ void main() {
   float roughness = vFinish.x;
   float opacity = vFinish.z;
   if (vColour.a > -0.5) {
-    float layer = floor(vColour.a * 0.5);
-    vec4 texel = texture(layers, vec3(vCoordinate, layer));
+    // rounded, as some renderers interpolate even what is flat where they clip
+    int code = int(vColour.a + 0.5);
+    vec4 texel = texture(layers, vec3(vCoordinate, float(code >> 1)));
     colour *= texel.rgb;
-    if (mod(vColour.a, 2.0) > 0.5) opacity *= texel.a; else roughness *= texel.a;
+    if ((code & 1) == 1) opacity *= texel.a; else roughness *= texel.a;
   }
   vec3 shown;
   if (byLabel > 0.5) {
@@ -80,8 +81,9 @@ void main() {
     float lit = heights.z;
     vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
     vec4 here = texture2D(plan, at);
-    float direct = mix(0.9, lightOf(here.r), lit);
     float bounce = mix(0.9, lightOf(textureLod(plan, at, 5.0).r), lit);
+    // as on a photograph, pools of light and what lies between them are nearer to each other than they are
+    float direct = mix(0.9, 0.62 * lightOf(here.r) + 0.38 * bounce, lit);
     float above = vPlace.y - heights.y;
     float shade = mix(here.b, 1.0, smoothstep(0.0, 0.7, above));
     float low = mix(0.62, 1.0, smoothstep(-0.2, 1.4, above));
@@ -94,13 +96,13 @@ void main() {
     // what it mirrors: the tubes and the ceiling between them, or the floor
     vec3 away = reflect(-view, normal);
     float rise = away.y;
-    float mirrored = 0.3 * bounce;
+    float mirrored = 0.24 * bounce;
     float clear = mirrored;
     if (rise > 0.02 && heights.x > vPlace.y) {
       float far = min((heights.x - vPlace.y) / rise, 80.0);
       vec2 there = (vPlace.xz + away.xz * far - frame.xy) * frame.zw;
       float spread = log2(1.0 + roughness * roughness * far * 24.0);
-      float ceiling = 0.28 * bounce;
+      float ceiling = 0.24 * bounce;
       mirrored = ceiling + 9.0 * texture2D(plan, there, spread).g;
       clear = ceiling + 9.0 * texture2D(plan, there, 0.5).g;
     }
@@ -109,7 +111,7 @@ void main() {
     vec3 base = mix(vec3(0.04), colour, metallic);
     vec3 fresnel = base + (max(vec3(1.0 - roughness), base) - base) * grazing;
     float coat = vFinish.w * (0.04 + 0.96 * grazing) * gloss;
-    shown = colour * (1.0 - metallic) * light * 1.25 + fresnel * mirrored * shade * gloss + coat * clear + vGlow;
+    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + vGlow;
     shown = filmic(0.82 * shown);
   }
   if (abs(vLabel.a - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);

@@ -44,7 +44,7 @@ export async function layersOf(scene: SceneFile): Promise<Layers> {
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
   texture.minFilter = THREE.LinearMipmapLinearFilter;
   texture.magFilter = THREE.LinearFilter;
-  texture.anisotropy = 4;
+  texture.anisotropy = 1;
   texture.generateMipmaps = true;
   texture.needsUpdate = true;
   return { texture, layerOf, metallicOf };
