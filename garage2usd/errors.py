@@ -7,6 +7,7 @@ __all__ = [
     "Garage2UsdError",
     "GenerationError",
     "OutputError",
+    "StageReadError",
     "UnreachableStallError",
 ]
 
@@ -95,6 +96,23 @@ class OutputError(Garage2UsdError, OSError):
     def __str__(self) -> str:
         """Path and reason, without OSError's errno form."""
         return f"{self.path}: {self.reason}"
+
+
+class StageReadError(Garage2UsdError):
+    """A stage that cannot be read.
+
+    Parameters
+    ----------
+    path
+        Its file.
+    reason
+        What is wrong with it.
+    """
+
+    def __init__(self, path: object, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"{path}: {reason}")
 
 
 _BRIEF_CHARACTERS = 80

@@ -8,6 +8,7 @@ from garage2usd.cli.commands import Commands
 from garage2usd.cli.drive import drive
 from garage2usd.cli.schema import schema
 from garage2usd.cli.textures import textures
+from garage2usd.cli.view import view
 from garage2usd.version import VERSION
 
 __all__ = ["main"]
@@ -19,5 +20,5 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, drive, schema, textures):
+for _command in (build, check, drive, schema, textures, view):
     main.add_command(_command)
