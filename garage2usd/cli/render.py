@@ -14,14 +14,12 @@ _SIZE = re.compile(r"(\d{1,5})x(\d{1,5})")
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 
 
-class _Size(click.ParamType):
+class _Size(click.ParamType[tuple[int, int]]):
     """Width and height in pixels, as ``1280x720``."""
 
     name = "WIDTHxHEIGHT"
 
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, int]:
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
         """Read the two numbers."""
         if isinstance(value, tuple):
             return value
@@ -31,14 +29,12 @@ class _Size(click.ParamType):
         return int(found[1]), int(found[2])
 
 
-class _Pictures(click.ParamType):
+class _Pictures(click.ParamType[tuple[str, ...]]):
     """Kinds of pictures, with commas."""
 
     name = "KIND,..."
 
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, ...]:
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
         """Split at commas."""
         if isinstance(value, tuple):
             return value
@@ -100,7 +96,10 @@ def render(
             progress=progress,
         )
     for name, value in (
-        ("frames", f"{len(made.names)} ({made.names[0]} to {made.names[-1]})" if len(made.names) > 1 else made.names[0]),
+        (
+            "frames",
+            f"{len(made.names)} ({made.names[0]} to {made.names[-1]})" if len(made.names) > 1 else made.names[0],
+        ),
         ("pictures", ", ".join(made.pictures)),
         ("folder", f"{made.folder}/"),
         ("table", str(made.frames)),

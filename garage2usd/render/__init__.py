@@ -1,6 +1,5 @@
 """Pictures of a stage by Blender's Cycles, with depth, normals, instances and classes: a data set."""
 
-import json
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +18,7 @@ from garage2usd.render.cameras import View, find_views
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.labels import Labels, read_labels
 from garage2usd.render.pictures import INDEX_LIMIT, Picture, Surfaces, read_surfaces, visible_instances, write_picture
-from garage2usd.render.scene import SHAPE_PROPERTY, Scene, read_scene, write_shapes
+from garage2usd.render.scene import SHAPE_PROPERTY, read_scene, write_shapes
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.variants import SWITCHES
 
@@ -125,7 +124,9 @@ def render_stage(
         np.savez(staging / "places.npz", shape=scene.shape, instance=scene.instance, to_world=scene.to_world)
         axes = _BLENDER_FROM[UsdGeom.GetStageUpAxis(opened)]
         digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
-        jobs = [_frame_job(view, hide, finished, staging, kinds, digits) for view, hide in zip(views, hidden, strict=True)]
+        jobs = [
+            _frame_job(view, hide, finished, staging, kinds, digits) for view, hide in zip(views, hidden, strict=True)
+        ]
         total = sum(samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
         job = {
             "shapes": str(staging / "shapes.usda"),
@@ -162,7 +163,7 @@ def _open(path: Path) -> Usd.Stage:
 
 
 def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[list[int]]:
-    """For each view the ids of what hangs overhead, if its camera stands over the ceiling and would see nothing else."""
+    """For each view the ids of what hangs overhead, if its camera stands over the ceiling and would see only that."""
     boxes = UsdGeom.BBoxCache(Usd.TimeCode.EarliestTime(), [UsdGeom.Tokens.default_])
     up = 1 if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else 2
     ceilings = [stage.GetPrimAtPath(path) for path in labels.paths_of(_CEILING)]
@@ -191,9 +192,7 @@ def _frame_job(
     }
 
 
-def _write_pictures(
-    view: View, surfaces: Surfaces, labels: Labels, kinds: Collection[Picture], finished: Path
-) -> None:
+def _write_pictures(view: View, surfaces: Surfaces, labels: Labels, kinds: Collection[Picture], finished: Path) -> None:
     for kind in kinds:
         if kind is not Picture.COLOUR:
             write_picture(kind, finished / kind / f"{view.name}{kind.extension}", surfaces, labels.class_ids)

@@ -25,6 +25,7 @@ _INDEX_LIMIT = 32768
 _POINT_FILTER_PX = 0.01
 _BOUNCES = 6
 _TRANSPARENT_BOUNCES = 64
+_OPAQUE = 0.5
 _SAMPLE = re.compile(r"Sample (\d+)/\d+")
 
 
@@ -85,7 +86,7 @@ class _Report:
             print(self._done + min(int(found[1]), self._most), file=self._file)
 
 
-def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[Any, list[Any], list[int]]:
+def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, list[bpy.types.Object], list[int]]:
     """Import each shape once and put copies of it, which share its mesh, at all of its places."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(
@@ -123,7 +124,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[Any, list[Any], lis
     return scene, objects, ids
 
 
-def _aim(scene: Any, frame: dict[str, Any], size_px: list[int], to_blender: Matrix) -> None:
+def _aim(scene: bpy.types.Scene, frame: dict[str, Any], size_px: list[int], to_blender: Matrix) -> None:
     """Take the camera of a frame."""
     lens = frame["lens"]
     if scene.camera is None:
@@ -140,14 +141,14 @@ def _aim(scene: Any, frame: dict[str, Any], size_px: list[int], to_blender: Matr
     scene.render.resolution_percentage = 100
 
 
-def _hide(objects: list[Any], ids: list[int], hidden: list[int], *, is_dark: bool) -> None:
+def _hide(objects: list[bpy.types.Object], ids: list[int], hidden: list[int], *, is_dark: bool) -> None:
     """Hide what a camera looks through, and in the dark the lights."""
     looked_through = set(hidden)
     for item, number in zip(objects, ids, strict=True):
         item.hide_render = number in looked_through or (is_dark and item.type == "LIGHT")
 
 
-def _set_up_colour(scene: Any, job: dict[str, Any]) -> None:
+def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = job["samples"]
@@ -164,7 +165,7 @@ def _set_up_colour(scene: Any, job: dict[str, Any]) -> None:
     scene.render.image_settings.color_depth = "8"
 
 
-def _set_up_data(scene: Any, objects: list[Any]) -> None:
+def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:
     """One ray through the middle of each pixel, without light, so that nothing is ever a mixture of two objects."""
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
@@ -180,23 +181,31 @@ def _set_up_data(scene: Any, objects: list[Any]) -> None:
     layer = scene.view_layers[0]
     layer.use_pass_combined = True
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True
-    layer.pass_alpha_threshold = 0.5
+    layer.pass_alpha_threshold = _OPAQUE
     settings = scene.render.image_settings
     settings.media_type = "MULTI_LAYER_IMAGE"
     settings.file_format = "OPEN_EXR_MULTILAYER"
     settings.color_depth = "32"
     settings.exr_codec = "ZIP"
     for material in {slot.material for item in objects for slot in item.material_slots if slot.material}:
-        _flatten_bumps(material)
+        if material.node_tree is not None:
+            _simplify(material.node_tree)
 
 
-def _flatten_bumps(material: Any) -> None:
-    """Normals are those of the surface, without what a texture presses into it."""
-    if material.node_tree is None:
-        return
-    links = material.node_tree.links
-    for link in [link for link in links if link.to_socket.name == "Normal" and link.to_node.type.startswith("BSDF")]:
-        links.remove(link)
+def _simplify(tree: bpy.types.NodeTree) -> None:
+    """Take what textures press into normals away, and make each point opaque or not there: Cycles would draw lots."""
+    for node in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]:
+        for link in node.inputs["Normal"].links:
+            tree.links.remove(link)
+        alpha = node.inputs["Alpha"]
+        if alpha.is_linked:
+            step = tree.nodes.new("ShaderNodeMath")
+            step.operation = "GREATER_THAN"
+            step.inputs[1].default_value = _OPAQUE
+            tree.links.new(alpha.links[0].from_socket, step.inputs[0])
+            tree.links.new(step.outputs[0], alpha)
+        else:
+            alpha.default_value = float(alpha.default_value > _OPAQUE)
 
 
 if __name__ == "__main__":

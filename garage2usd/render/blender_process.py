@@ -52,7 +52,7 @@ def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None
     path.write_text(json.dumps({**job, "report_fd": writer}), encoding="utf-8")
     with os.fdopen(reader, encoding="ascii") as reports, log.open("wb") as output:
         try:
-            # nothing of the user's environment or folder may take the place of a module
+            # no file beside the script may take the place of a module
             process = subprocess.Popen(  # noqa: S603 - our own script
                 [sys.executable, "-P", str(_SCRIPT), str(path)],
                 stdin=subprocess.DEVNULL,
@@ -60,6 +60,7 @@ def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None
                 stderr=subprocess.STDOUT,
                 pass_fds=[writer],
                 cwd=folder,
+                env={**os.environ, "TMPDIR": str(folder)},
             )
         finally:
             os.close(writer)

@@ -1,11 +1,12 @@
 """The cameras of a stage: where they stand in which frame, and what their lenses see."""
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Tf, Usd, UsdGeom, UsdUtils
+from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
 
@@ -13,6 +14,10 @@ __all__ = ["Lens", "View", "find_views"]
 
 _EVERY = 48
 _MOST_FRAMES = 100_000
+_LEAST_STRIDE = 0.001
+_ROUNDING = 1e-6
+_NUMBER = r"(-?\d{1,9}(?:\.\d{1,6})?)"
+_SPAN = re.compile(rf"{_NUMBER}(?::{_NUMBER}(?:x{_NUMBER})?)?")
 _MM_PER_TENTH = 100.0
 _OPENCV_FROM_USD = np.diag([1.0, -1.0, -1.0, 1.0])
 
@@ -121,15 +126,13 @@ def _times(stage: Usd.Stage, frames: str | None) -> list[float]:
         frames = f"{stage.GetStartTimeCode():g}:{stage.GetEndTimeCode():g}x{_EVERY}"
     times: list[float] = []
     for part in frames.split(","):
-        try:
-            span = UsdUtils.TimeCodeRange.CreateFromFrameSpec(part.strip())
-        except Tf.ErrorException:
-            span = None
-        if span is None or not span.IsValid():
+        found = _SPAN.fullmatch(part.strip())
+        if found is None:
             raise ConfigError("frames", frames, "frames as 0, 0:96 or 0:960x24, several with commas")
-        if (span.endTimeCode.GetValue() - span.startTimeCode.GetValue()) / span.stride > _MOST_FRAMES:
-            raise ConfigError("frames", frames, f"at most {_MOST_FRAMES} frames")
-        times += [time.GetValue() for time in span]
+        start, end, stride = float(found[1]), float(found[2] or found[1]), float(found[3] or 1)
+        if end < start or stride < _LEAST_STRIDE or (end - start) / stride + len(times) >= _MOST_FRAMES:
+            raise ConfigError("frames", frames, f"a first frame, a last one and a step, {_MOST_FRAMES} frames at most")
+        times += [start + step * stride for step in range(int((end - start) / stride + _ROUNDING) + 1)]
     return list(dict.fromkeys(times))
 
 

@@ -11,7 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-__all__ = ["Picture", "Surfaces", "VisibleInstance", "class_colour", "read_surfaces", "visible_instances", "write_picture"]
+__all__ = [
+    "Picture",
+    "Surfaces",
+    "VisibleInstance",
+    "class_colour",
+    "read_surfaces",
+    "visible_instances",
+    "write_picture",
+]
 
 INDEX_LIMIT = 32768
 """Blender's object indices are below this; larger ids come as several digits."""

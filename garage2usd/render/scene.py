@@ -107,7 +107,7 @@ class _Reader:
 
 
 def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
-    """Find everything that a stage draws: visible meshes, other geometry and lights, of the purposes default and render.
+    """Find everything that a stage draws: visible geometry and lights of the purposes default and render.
 
     Parameters
     ----------
@@ -143,7 +143,9 @@ def write_shapes(stage: Usd.Stage, scene: Scene, path: Path) -> None:
                 if stage.GetPrimAtPath(parent).IsInstance() or stage.GetPrimAtPath(parent).IsInstanceable():
                     Sdf.CreatePrimInLayer(layer, parent).SetInfo("instanceable", False)
             spec = Sdf.CreatePrimInLayer(layer, shape)
-            mark = Sdf.AttributeSpec(spec, f"userProperties:{SHAPE_PROPERTY}", Sdf.ValueTypeNames.Int, declaresCustom=True)
+            mark = Sdf.AttributeSpec(
+                spec, f"userProperties:{SHAPE_PROPERTY}", Sdf.ValueTypeNames.Int, declaresCustom=True
+            )
             mark.default = number
     layer.Export(str(path))
 
@@ -153,13 +155,13 @@ def _drawn_range(root: Usd.Prim) -> Usd.PrimRange:
 
 
 def _is_drawable(prim: Usd.Prim) -> bool:
-    return prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI)
+    return bool(prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI))
 
 
 def _is_shown(prim: Usd.Prim) -> bool:
     imageable = UsdGeom.Imageable(prim)
     drawn = imageable.ComputePurpose() in {UsdGeom.Tokens.default_, UsdGeom.Tokens.render}
-    return drawn and imageable.ComputeVisibility(Usd.TimeCode.EarliestTime()) != UsdGeom.Tokens.invisible
+    return bool(drawn and imageable.ComputeVisibility(Usd.TimeCode.EarliestTime()) != UsdGeom.Tokens.invisible)
 
 
 def _materials(prim: Usd.Prim) -> Iterator[Sdf.Path]:
