@@ -75,7 +75,7 @@ def write_garage_layer(
         prototypes,
         f"./{asset_folder}",
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
-        describe_stalls=True,
+        describe_stalls=not arrangement.nested,
     )
     folder = path.parent / asset_folder
     labels = _tile_labels(graph, arrangement.squares)
