@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Tf, Usd, UsdGeom
 
-from garage2usd.errors import StageReadError
+from garage2usd.errors import StageError
 from garage2usd.view.viewer.guides import lane_curves
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
 from garage2usd.view.viewer.walk import StageWalk
@@ -25,18 +25,18 @@ def open_stage(path: Path) -> Usd.Stage:
 
     Raises
     ------
-    StageReadError
+    StageError
         If there is no such file, or USD cannot read it.
     """
     if path.suffix not in _SUFFIXES:
-        raise StageReadError(path, f"no stage; a stage ends in {', '.join(_SUFFIXES)}")
+        raise StageError(path, f"no stage; a stage ends in {', '.join(_SUFFIXES)}")
     if not path.is_file():
-        raise StageReadError(path, "no such file")
+        raise StageError(path, "no such file")
     try:
         return Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
         reason = " ".join(str(error).split())
-        raise StageReadError(path, f"USD cannot read it ({reason[:300]})") from None
+        raise StageError(path, f"USD cannot read it ({reason[:300]})") from None
 
 
 def read_scene(stage: Usd.Stage, path: Path) -> Scene:
@@ -51,14 +51,14 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
 
     Raises
     ------
-    StageReadError
+    StageError
         If nothing in the stage can be drawn.
     """
     to_metres = _to_metres(stage)
     walk = StageWalk(stage)
     objects = [replace(placed, matrix=placed.matrix @ to_metres) for placed in walk.objects()]
     if not objects:
-        raise StageReadError(path, "nothing in it can be drawn")
+        raise StageError(path, "nothing in it can be drawn")
     remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(walk.undrawn.items())]
     return Scene(
         name=path.name,
@@ -109,9 +109,9 @@ def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]
 
 def _corners(shape: Shape) -> NDArray[np.float64]:
     """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
-    points = [
-        moved(part.positions_m, matrix) for part, matrix in zip(shape.parts, shape.matrices, strict=True)
-    ] or [light.matrix[3:, :3] for light in shape.lights]
+    points = [moved(part.positions_m, matrix) for part, matrix in zip(shape.parts, shape.matrices, strict=True)] or [
+        light.matrix[3:, :3] for light in shape.lights
+    ]
     every = np.concatenate(points)
     pair = np.stack([every.min(axis=0), every.max(axis=0)])
     return np.array([[pair[c >> axis & 1, axis] for axis in range(3)] for c in range(8)], dtype=np.float64)

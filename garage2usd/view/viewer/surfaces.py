@@ -106,9 +106,7 @@ def _number(
     return number, None, 0
 
 
-def _input(
-    shader: UsdShade.Shader, name: str, time: Usd.TimeCode
-) -> tuple[object | None, UsdShade.Shader | None, int]:
+def _input(shader: UsdShade.Shader, name: str, time: Usd.TimeCode) -> tuple[object | None, UsdShade.Shader | None, int]:
     """Value of an input, or the texture reader that it comes from and which channel of it."""
     given = shader.GetInput(name)
     if not given:

@@ -94,9 +94,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
     vertices = triangles = segments = 0
     for shape in shapes:
         opaque, blended, first = [], [], 0
-        for part, matrix, slot, is_blended in zip(
-            shape.parts, shape.matrices, shape.slots, shape.blended, strict=True
-        ):
+        for part, matrix, slot, is_blended in zip(shape.parts, shape.matrices, shape.slots, shape.blended, strict=True):
             turn = np.linalg.inv(matrix[:3, :3]).T if np.linalg.det(matrix[:3, :3]) else np.eye(3)
             directions = part.normals @ turn
             directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-12)
