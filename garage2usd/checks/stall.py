@@ -42,7 +42,7 @@ def _short(subject: Subject, clause: Length | None, side: str, word: str) -> Ite
 def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
     stalls = subject.stalls
     shrunk = [stall.polygon.buffer(-_TOUCH_M) for stall in stalls]
-    first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
+    first, second = shapely.STRtree(shrunk).query(np.array(shrunk, dtype=object), predicate="intersects")
     for one, other in zip(first.tolist(), second.tolist(), strict=True):
         if one < other:
             yield Miss(stalls[one].name, stalls[one].centre, f"the stall overlaps {stalls[other].name}")
