@@ -9,12 +9,12 @@ import resource
 
 __all__ = ["allow_seconds", "enforce", "lift_seconds"]
 
-_MAX_MEMORY_BYTES = 16 * 1024**3
+_MAX_MEMORY_BYTES = 8 * 1024**3
 _enforced = False
 
 
 def enforce() -> None:
-    """Let this process take 16 GB of memory, leave no core file, and heed `allow_seconds` from now on."""
+    """Let this process take 8 GB of memory, leave no core file, and heed `allow_seconds` from now on."""
     global _enforced  # noqa: PLW0603 - limits are the process's own
     _enforced = True
     most = resource.getrlimit(resource.RLIMIT_DATA)[1]

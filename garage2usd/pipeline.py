@@ -25,7 +25,7 @@ from garage2usd.view.plan_picture import draw_plan
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
-_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f]")
+_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 """What USD cannot say of a file that a layer refers to."""
 
 
@@ -150,7 +150,7 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     if _UNSPEAKABLE.search(path.name):
-        raise ConfigError("output", str(output), "a file name without '@', '\\' and control characters")
+        raise ConfigError("output", str(output), "a file name in UTF-8 without '@', '\\' and control characters")
     check_writable(path.parent)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
