@@ -15,7 +15,7 @@ from garage2usd.layout import ObjectKind, Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.layout.specs import TubeLightSpec
 
-__all__ = ["profile_name", "stage_subject"]
+__all__ = ["profile_name", "stage_subject", "subject_of_stage"]
 
 _LANE_MARGIN_M = 0.7
 """What the sides of a square have over the carriageway between its columns, where no structure tells."""
@@ -33,11 +33,16 @@ def stage_subject(path: Path) -> Subject:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
         raise ConfigError("PATH", str(path), f"a stage that opens ({_first_line(error)})") from None
+    return subject_of_stage(stage, source=str(path))
+
+
+def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
+    """Read a stage that is open, as it is composed now."""
     ground, scene = read_lanes(stage), read_scene(stage)
     structure = _structure(stage)
     lane_lux, stall_lux = _illuminances(ground, scene.lights, structure)
     return Subject(
-        source=str(path),
+        source=source,
         kind="stage",
         stalls=tuple(ground.stalls),
         nodes=tuple(ground.nodes),

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from garage2usd.settings import Settings
 
 __all__ = [
+    "Area",
     "Amount",
     "Clause",
     "Confidence",
