@@ -9,8 +9,8 @@ from pydantic import Field, model_validator
 from garage2usd.settings import Settings
 
 __all__ = [
-    "Area",
     "Amount",
+    "Area",
     "Clause",
     "Confidence",
     "Count",
