@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Tf, Usd
 
 from garage2usd.checks.lane_reader import DrivenGround, read_lanes
@@ -33,7 +34,10 @@ def stage_subject(path: Path) -> Subject:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
         raise ConfigError("PATH", str(path), f"a stage that opens ({_first_line(error)})") from None
-    return subject_of_stage(stage, source=str(path))
+    try:
+        return subject_of_stage(stage, source=str(path))
+    except RecursionError:
+        raise ConfigError("PATH", str(path), "a stage whose prims are nested less deeply") from None
 
 
 def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
@@ -103,7 +107,7 @@ def _illuminances(
     )
 
 
-def _mean_lux(points: np.ndarray, tubes: list[Placement]) -> float | None:  # type: ignore[type-arg]
+def _mean_lux(points: NDArray[np.float64], tubes: list[Placement]) -> float | None:
     if not len(points):
         return None
     total = np.zeros(len(points))

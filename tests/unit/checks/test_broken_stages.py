@@ -1,5 +1,7 @@
 """A good stage with one thing edited, as another tool might: exactly the rule meant for it reports it."""
 
+import math
+
 import numpy as np
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSemantics, Vt
@@ -144,6 +146,8 @@ BROKEN = {
     "a stall that opens onto nothing": ("lane-graph", changed("Stalls", "garage:stall:accessNode", 0, -1)),
     "an unknown use": ("lane-graph", changed("Stalls", "garage:stall:use", 0, "bicycles")),
     "an edge to nowhere": ("lane-graph", changed("Edges", "garage:lane:to", 1, 99)),
+    "a lane without a width": ("lane-graph", changed("Edges", "garage:lane:width", 1, math.nan)),
+    "a node without widths": ("lane-graph", changed("Nodes", "garage:lane:widths", 3, Gf.Vec2f(math.inf, 1.0))),
     "a node of an unknown kind": ("lane-graph", changed("Nodes", "garage:lane:kind", 1, "roundabout")),
     "no lane graph": ("lane-graph", without_lane_graph),
     "no exit": ("exit-missing", changed("Nodes", "garage:lane:kind", 3, "entrance")),

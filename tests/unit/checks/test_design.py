@@ -91,6 +91,7 @@ def test_sections_may_be_models():
         ({"width_cells": 30, "height_cells": 20}, 2),
         ({"width_cells": 30, "height_cells": 20, "entrances": 2}, 1),
         ({"width_cells": 30, "height_cells": 20, "exits": 1}, 1),
+        ({"contour": ("." * 30 + "\n") * 20}, 2),
     ],
 )
 def test_large_garages_get_the_portals_that_their_stalls_need(site, exits):
