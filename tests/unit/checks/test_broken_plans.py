@@ -136,6 +136,17 @@ def test_a_narrow_aisle_is_reported():
     assert found_in(settings) - FOUND_IN_GOOD_ONE - {"column-spacing"} == {"aisle-width"}
 
 
+def test_what_build_would_refuse_is_reported_in_its_words(tmp_path):
+    (tmp_path / "narrow.toml").write_text(f'[site]\nstructure = """{PLAN}"""\n[bay]\nrow_depths_m = [8.1, 3.1, 8.1]\n')
+    findings, _ = check_file(tmp_path / "narrow.toml")
+    assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == {"aisle-width", "plan-refused"}
+    assert "bay.row_depths_m: got 3.1; allowed: at least 3.20 m" in next(
+        f.message for f in findings if f.rule == "plan-refused"
+    )
+    (tmp_path / "empty.txt").write_text("E=X")
+    assert {f.rule for f in check_file(tmp_path / "empty.txt")[0]} - FOUND_IN_GOOD_ONE == {"plan-refused"}
+
+
 def test_a_narrow_door_is_reported():
     drawing = "...E...\n...=...\n.=====.\n.=...=.\n.=====X\n......."
     settings = settings_with(
@@ -207,7 +218,7 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
         ("a.json", '{"S": 3}', "rows of symbols"),
         ("a.json", '{"config": {}, "S": ["E=X"]}', "a report with config, S, R and C"),
         ("a.json", '{"config": {"sed": 1}, "S": ["E=X"], "R": 8.1, "C": 8.1}', "sed"),
-        ("a.json", '{"S": ["E=X"], "R": NaN, "C": 8.1}', "finite"),
+        ("a.json", '{"S": ["E=X"], "R": NaN, "C": 8.1}', "NaN"),
         ("a.usda", "#usda 2.0", "USD cannot read it"),
         ("a.usdz", "PK", "no package"),
     ],

@@ -23,6 +23,7 @@ BROKEN_ELSEWHERE = {
     "personnel-exits",
     "dead-end",
     "report-stalls",
+    "plan-refused",
 }
 
 
