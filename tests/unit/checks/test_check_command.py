@@ -79,7 +79,7 @@ def test_a_stage_says_what_it_was_designed_to(tmp_path):
     [
         (["none.usda"], 2, "does not exist"),
         (["."], 2, "is a directory"),
-        (["plan.txt", "--profile", "iso"], 1, "one of cn-jgj100, uk-istructe, us-ada"),
+        (["plan.txt", "--profile", "iso"], 2, "one of cn-jgj100, uk-istructe, us-ada"),
         (["empty.txt"], 1, "rows of equal length"),
         (["--rules"], 2, "No such option"),
     ],
