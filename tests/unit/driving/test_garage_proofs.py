@@ -83,7 +83,6 @@ def test_what_a_car_could_touch_is_held_by_its_outline():
     for place in garage.layout.placements:
         if object_name(place) in outline:
             beyond = ground(place).difference(outline[object_name(place)].buffer(0.001, join_style="mitre"))
-            # the spokes of charger cables and door frames stay within a millimetre
             assert beyond.area < 1e-6, (place.name, beyond.bounds)
             kinds.add(place.kind)
     world = {place.kind for place, _ in World(garage).items if hasattr(place, "kind")}
@@ -91,7 +90,7 @@ def test_what_a_car_could_touch_is_held_by_its_outline():
 
 
 def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
-    for seed in range(6):
+    for seed in range(3):
         made = garage2usd.generate(seed=seed)
         cells, graph = made.plan.structure.cells, made.graph.graph
         lines = nx.line_graph(nx.DiGraph(graph))
@@ -138,11 +137,11 @@ def test_lane_poses_keep_the_whole_car_on_the_carriageway(garage):
 
 
 def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
-    narrow = drawn(bay={"row_depths_m": [8.1, 3.3, 5.4, 3.3, 5.4, 5.4, 8.1], "column_widths_m": 8.1})
+    narrow = drawn(bay={"row_depths_m": [8.1, 8.1, 5.4, 3.3, 5.4, 5.4, 8.1], "column_widths_m": 8.1})
     by_name = {proof.stall: proof for proof in proofs_of(narrow)}
     failed = [proof for proof in by_name.values() if not proof.is_proven]
     assert failed
-    on_narrow_lane = {s.name for s in narrow.layout.stalls if s.access_square[0] in {1, 3} and s.square[0] in {2, 4}}
+    on_narrow_lane = {s.name for s in narrow.layout.stalls if s.access_square[0] == 3}
     assert {proof.stall for proof in failed} <= on_narrow_lane
     assert all(proof.touched and proof.nose is None for proof in failed)
 
