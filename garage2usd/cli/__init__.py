@@ -3,10 +3,13 @@
 import click
 
 from garage2usd.cli.build import build
+from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
 from garage2usd.cli.drive import drive
+from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
 from garage2usd.cli.textures import textures
+from garage2usd.cli.view import view
 from garage2usd.version import VERSION
 
 __all__ = ["main"]
@@ -18,5 +21,5 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, drive, schema, textures):
+for _command in (build, check, drive, render, schema, textures, view):
     main.add_command(_command)

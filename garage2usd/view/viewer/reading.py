@@ -1,0 +1,117 @@
+"""A stage's file read as a scene."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Tf, Usd, UsdGeom
+
+from garage2usd.errors import StageError
+from garage2usd.view.viewer.guides import lane_curves
+from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
+from garage2usd.view.viewer.walk import StageWalk
+
+__all__ = ["open_stage", "read_scene"]
+
+_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+_FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
+_MOST_LABEL_BYTES = 1 << 30
+
+
+def open_stage(path: Path) -> Usd.Stage:
+    """Open a stage.
+
+    Raises
+    ------
+    StageError
+        If there is no such file, or USD cannot read it.
+    """
+    if path.suffix not in _SUFFIXES:
+        raise StageError(path, f"no stage; a stage ends in {', '.join(_SUFFIXES)}")
+    if not path.is_file():
+        raise StageError(path, "no such file")
+    try:
+        return Usd.Stage.Open(str(path))
+    except Tf.ErrorException as error:
+        reason = " ".join(str(error).split())
+        raise StageError(path, f"USD cannot read it ({reason[:300]})") from None
+
+
+def read_scene(stage: Usd.Stage, path: Path) -> Scene:
+    """Everything that the viewer shows of a stage.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    path
+        Its file; ``<stem>_labels.json`` beside it gives the instance ids.
+
+    Raises
+    ------
+    StageError
+        If nothing in the stage can be drawn.
+    """
+    to_metres = _to_metres(stage)
+    walk = StageWalk(stage)
+    objects = [replace(placed, matrix=placed.matrix @ to_metres) for placed in walk.objects()]
+    if not objects:
+        raise StageError(path, "nothing in it can be drawn")
+    remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(walk.undrawn.items())]
+    return Scene(
+        name=path.name,
+        facts=_facts(stage),
+        objects=objects,
+        shapes=walk.shapes,
+        palettes=walk.palettes,
+        surfaces=walk.surfaces,
+        lanes=lane_curves(stage, to_metres),
+        ids=_ids(path),
+        bounds_m=_bounds_m(objects, walk.shapes),
+        remarks=remarks,
+    )
+
+
+def _to_metres(stage: Usd.Stage) -> NDArray[np.float64]:
+    """From the stage's units and axes to metres, Y up."""
+    matrix = np.eye(4)
+    matrix[:3, :3] *= UsdGeom.GetStageMetersPerUnit(stage)
+    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
+        matrix = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=float) @ matrix
+    return matrix
+
+
+def _facts(stage: Usd.Stage) -> dict[str, str]:
+    root = stage.GetDefaultPrim()
+    data = root.GetCustomData() if root else {}
+    return {name: str(data[name]) for name in _FACTS if name in data}
+
+
+def _ids(path: Path) -> dict[str, int]:
+    """Instance id of each object by its path; empty without a table."""
+    table = path.with_name(f"{path.stem}_labels.json")
+    try:
+        if table.stat().st_size > _MOST_LABEL_BYTES:
+            return {}
+        objects = json.loads(table.read_text(encoding="utf-8"))["objects"]
+        return {str(entry["path"]): int(entry["id"]) for entry in objects}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:
+    boxes = [_corners(shape) for shape in shapes]
+    corners = np.concatenate([moved(boxes[placed.shape], placed.matrix) for placed in objects])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)]).astype(np.float64)
+
+
+def _corners(shape: Shape) -> NDArray[np.float64]:
+    """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
+    points = [moved(part.positions_m, matrix) for part, matrix in zip(shape.parts, shape.matrices, strict=True)] or [
+        light.matrix[3:, :3] for light in shape.lights
+    ]
+    every = np.concatenate(points)
+    pair = np.stack([every.min(axis=0), every.max(axis=0)])
+    return np.array([[pair[c >> axis & 1, axis] for axis in range(3)] for c in range(8)], dtype=np.float64)

@@ -1,0 +1,50 @@
+/** How fine a picture can be while it moves, so that it moves smoothly; at rest it is drawn in full. */
+
+const SLOW_MS = 42;
+const FAST_MS = 22;
+const COARSEST = 4;
+const REST_MS = 160;
+
+export class Quality {
+  /** 1 for the full picture; 2 for half as many pixels across, and so on. */
+  coarse: number;
+  private readonly times: number[] = [];
+  private moved = -Infinity;
+  private rested = true;
+
+  /** A renderer without a graphics card starts coarse. */
+  constructor(gl: WebGL2RenderingContext) {
+    const info = gl.getExtension("WEBGL_debug_renderer_info");
+    const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+    this.coarse = /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 2.5 : 1;
+  }
+
+  /** Note that the picture changes. */
+  move(now: number): void {
+    this.moved = now;
+    this.rested = false;
+  }
+
+  get moving(): boolean {
+    return !this.rested;
+  }
+
+  /** Whether the picture has stood still and is to be drawn once more, in full. */
+  rests(now: number): boolean {
+    if (this.rested || now - this.moved < REST_MS) return false;
+    this.rested = true;
+    this.times.length = 0;
+    return true;
+  }
+
+  /** Note how long a picture took while moving. */
+  took(milliseconds: number): void {
+    if (milliseconds > 1000) return;
+    this.times.push(milliseconds);
+    if (this.times.length < 6) return;
+    const middle = [...this.times].sort((a, b) => a - b)[this.times.length >> 1];
+    this.times.length = 0;
+    if (middle > SLOW_MS) this.coarse = Math.min(COARSEST, this.coarse * 1.25);
+    else if (middle < FAST_MS) this.coarse = Math.max(1, this.coarse / 1.12);
+  }
+}
