@@ -129,10 +129,9 @@ def find_way(
     standing = _standing(start, local, body, limits.margin_m)
     if standing:
         return Search(None, standing, is_exhausted=True)
-    found, steps = 0, np.empty((0, 3))
-    for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
-        touched[:] = 0
-        found, steps = search(
+
+    def look(goals: Floats, straight_m: float, effort: int) -> tuple[int, Floats]:
+        return search(
             start,
             goals,
             local.pieces,
@@ -146,6 +145,21 @@ def find_way(
             effort,
             touched,
         )
+
+    found, steps = 0, np.empty((0, 3))
+    for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
+        touched[:] = 0
+        found, steps = look(goals, straight_m, effort)
+        headings = np.unique(goals[:, 0])
+        if found < 0 and len(headings) > 1:
+            # a lane that is out of reach may draw the search away from another one: each direction for itself
+            outcomes = []
+            for heading in headings:
+                outcome, steps = look(goals[goals[:, 0] == heading], straight_m, effort)
+                outcomes.append(outcome)
+                if outcome > 0:
+                    break
+            found = 1 if 1 in outcomes else min(outcomes)
         if found > 0:
             break
     if found <= 0:
