@@ -141,23 +141,36 @@ export class Colliders {
   readonly count: number;
   private readonly material = new THREE.ShaderMaterial({ vertexShader: LINE_VERTEX, fragmentShader: LINE_FRAGMENT });
   private readonly members: number[][];
+  /** Ends of lines, by shape. */
+  private readonly points: Float32Array[] = [];
 
   constructor(private readonly scene: SceneFile) {
     this.members = scene.shapes.map(() => []);
     for (let object = 0; object < scene.count; object++) this.members[scene.shape[object]].push(object);
-    this.count = scene.shapes.reduce((sum, shape, k) => sum + (shape.colliders[1] ? this.members[k].length : 0), 0);
+    this.count = scene.shapes.reduce((sum, shape, k) => sum + (shape.colliders ? this.members[k].length : 0), 0);
     this.group.visible = false;
   }
 
+  /** Ask the server for the lines, once. */
+  async load(): Promise<void> {
+    if (this.points.length) return;
+    const data = await (await fetch("colliders.bin")).arrayBuffer();
+    const counts = new Uint32Array(data, 0, this.scene.shapes.length);
+    let at = counts.byteLength;
+    for (const count of counts) {
+      this.points.push(new Float32Array(data, at, 3 * count));
+      at += 12 * count;
+    }
+  }
+
+  /** Draw those of the visible objects. */
   show(visible: Uint8Array): void {
     for (const child of this.group.children as THREE.LineSegments[]) child.geometry.dispose();
     this.group.clear();
-    this.scene.shapes.forEach((shape, number) => {
+    this.points.forEach((points, number) => {
       const shown = this.members[number].filter((object) => visible[object]);
-      const [first, count] = shape.colliders;
-      if (!count || !shown.length) return;
+      if (!points.length || !shown.length) return;
       const geometry = new THREE.InstancedBufferGeometry();
-      const points = this.scene.lines.subarray(3 * first, 3 * (first + count));
       geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
       const rows = new Float32Array(12 * shown.length);
       shown.forEach((object, k) => rows.set(this.scene.matrix.subarray(12 * object, 12 * object + 12), 12 * k));
