@@ -5,10 +5,10 @@ import { NODE_COLOURS, USE_COLOURS } from "./classes";
 import type { Lanes, SceneFile } from "./scene_file";
 
 const LIFT_M = 0.06;
-const LANE_WIDTH_M = 0.22;
-const NODE_RADIUS_M = 0.5;
+const LANE_WIDTH_M = 0.36;
+const NODE_RADIUS_M = 0.75;
 const NODE_SIDES = 20;
-const ARROW_M = 1.1;
+const ARROW_M = 1.4;
 const LANE_COLOUR = "#ffd84d";
 const STALL_INSET_M = 0.12;
 
@@ -69,7 +69,7 @@ export function laneGraphOf(lanes: Lanes): THREE.Object3D {
     const arrow = (sign: number, centre: number) =>
       flat.triangle(
         y + 0.004,
-        [at(from, centre + sign * ARROW_M * 0.6, 0), at(from, centre - sign * ARROW_M * 0.4, -0.5), at(from, centre - sign * ARROW_M * 0.4, 0.5)],
+        [at(from, centre + sign * ARROW_M * 0.6, 0), at(from, centre - sign * ARROW_M * 0.4, -0.65), at(from, centre - sign * ARROW_M * 0.4, 0.65)],
         colour,
       );
     if (forward) arrow(1, middle);

@@ -423,8 +423,8 @@ class Viewer {
     if (object >= 0) {
       const [x, , z] = this.boxes.centre(object);
       const stall = this.stallAt(x, z, this.boxes.world[6 * object + 1]);
-      const car = stall && this.cars.find((number) => isInside(stall.corners, ...this.middle(number)));
-      showObject(this.scene, this.boxes, object, stall, car === undefined || car === null ? "" : this.scene.paths[car]);
+      const parked = stall !== null && this.cars.some((car) => isInside(stall.corners, ...this.middle(car)));
+      showObject(this.scene, this.boxes, object, stall, parked);
       this.frame.around(this.scene, this.boxes.local, object);
     }
     this.touch();

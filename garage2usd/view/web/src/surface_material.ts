@@ -74,9 +74,9 @@ void main() {
     float lit = heights.z;
     vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
     vec4 here = texture2D(plan, at);
-    float bounce = mix(0.9, lightOf(textureLod(plan, at, 5.0).r), lit);
+    float bounce = mix(0.9, max(lightOf(textureLod(plan, at, 5.0).r), 0.2), lit);
     // as on a photograph, pools of light and what lies between them are nearer to each other than they are
-    float direct = mix(0.9, 0.62 * lightOf(here.r) + 0.38 * bounce, lit);
+    float direct = mix(0.9, max(0.62 * lightOf(here.r) + 0.38 * bounce, 0.2), lit);
     float above = vPlace.y - heights.y;
     float shade = mix(here.b, 1.0, smoothstep(0.0, 0.7, above));
     float low = mix(0.62, 1.0, smoothstep(-0.2, 1.4, above));
