@@ -11,7 +11,7 @@ __all__ = ["collider_lines", "collider_of"]
 
 _BOXES = frozenset({"boundingCube"})
 _HULLS = frozenset({"convexHull", "convexDecomposition", "boundingSphere"})
-_CREASE_COS = 0.9995
+_CREASE_COS = 0.99999
 _BOX_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b).bit_count() == 1]
 
 

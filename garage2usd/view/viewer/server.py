@@ -1,6 +1,7 @@
 """The server of the viewer's page: this machine alone, fixed paths alone, nothing written."""
 
 import http.server
+import re
 import threading
 from collections.abc import Mapping, Sequence
 from http import HTTPStatus
@@ -22,6 +23,7 @@ _TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css":
 _SCENE, _COLLIDERS, _TEXTURES = "/scene.bin", "/colliders.bin", "/textures/"
 _BINARY = "application/octet-stream"
 _IMAGES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+_NUMBER = re.compile(r"[0-9]{1,6}")
 _MOST_TEXTURE_BYTES = 1 << 26
 _HEADERS = {
     # WebAssembly is what makes coarse meshes of fine ones
@@ -129,7 +131,7 @@ class ViewerServer:
 
     def _texture(self, number: str) -> _Answer | None:
         self._ready.wait()
-        if not (number.isascii() and number.isdecimal()) or int(number[:9]) >= len(self._textures):
+        if not _NUMBER.fullmatch(number) or int(number) >= len(self._textures):
             return None
         asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(self._textures[int(number)]))
         if not asset or asset.GetSize() > _MOST_TEXTURE_BYTES:
