@@ -6,8 +6,10 @@ __all__ = [
     "ConfigError",
     "Garage2UsdError",
     "GenerationError",
+    "MissingExtraError",
     "OutputError",
-    "StageReadError",
+    "RenderError",
+    "StageError",
     "UnreachableStallError",
 ]
 
@@ -98,13 +100,13 @@ class OutputError(Garage2UsdError, OSError):
         return f"{self.path}: {self.reason}"
 
 
-class StageReadError(Garage2UsdError):
-    """A stage that cannot be read.
+class StageError(Garage2UsdError):
+    """A stage, or a file that belongs to it, that cannot be read.
 
     Parameters
     ----------
     path
-        Its file.
+        The file.
     reason
         What is wrong with it.
     """
@@ -113,6 +115,42 @@ class StageReadError(Garage2UsdError):
         self.path = path
         self.reason = reason
         super().__init__(f"{path}: {reason}")
+
+
+class MissingExtraError(Garage2UsdError):
+    """A part of garage2usd that is not installed.
+
+    Parameters
+    ----------
+    command
+        What was asked for.
+    extra
+        Name of the extra that brings what is missing.
+    brings
+        What that is, in words.
+    """
+
+    def __init__(self, command: str, extra: str, brings: str) -> None:
+        self.command = command
+        self.extra = extra
+        super().__init__(f"{command} needs {brings}: pip install 'garage2usd[{extra}]'")
+
+
+class RenderError(Garage2UsdError):
+    """Blender ended without its pictures.
+
+    Parameters
+    ----------
+    code
+        Its exit code, or the negative number of the signal that ended it.
+    said
+        The last that it said.
+    """
+
+    def __init__(self, code: int, said: str) -> None:
+        self.code = code
+        self.said = said
+        super().__init__(f"Blender ended with {code}: {said}")
 
 
 _BRIEF_CHARACTERS = 80

@@ -254,4 +254,5 @@ def _metadata(garage: Garage) -> dict[str, str | int]:
         "seed": garage.config.seed,
         "configDigest": garage.config.digest(),
         "structureDigest": garage.plan.structure.digest(),
+        "profile": garage.config.standard.name,
     }

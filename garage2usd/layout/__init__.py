@@ -24,11 +24,22 @@ from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.specs import Point
 from garage2usd.layout.stains import floor_stains
+from garage2usd.layout.stall_table import StallTable
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
 
-__all__ = ["Illuminance", "Layout", "ObjectKind", "ObjectTable", "Placement", "Stall", "StallUse", "lay_out"]
+__all__ = [
+    "Illuminance",
+    "Layout",
+    "ObjectKind",
+    "ObjectTable",
+    "Placement",
+    "Stall",
+    "StallTable",
+    "StallUse",
+    "lay_out",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +62,7 @@ class Layout:
 
     structure: Structure
     placements: ObjectTable
-    stalls: tuple[Stall, ...]
+    stalls: StallTable
     ceiling_height_m: float
     illuminance: Illuminance
 
@@ -98,7 +109,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     if config.plan.dead_ends is DeadEnds.STANDARD:
         long_ends = [end for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking)
+    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking, config.standard)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
@@ -143,7 +154,7 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
 
-    return Layout(structure, ObjectTable(parts()), stalls, fittings.ceiling_height_m, illuminance)
+    return Layout(structure, ObjectTable(parts()), StallTable(stalls), fittings.ceiling_height_m, illuminance)
 
 
 def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:

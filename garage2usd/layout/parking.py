@@ -17,9 +17,9 @@ from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
+from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
 from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
-from garage2usd.layout.tiles import Tile, TileGrid, neighbour, stall_rectangle
+from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.randomness import Step
 
 __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
@@ -43,7 +43,6 @@ _HATCHES = {StallUse.TURNING: Surface.PAINT_YELLOW, StallUse.ACCESS_AISLE: Surfa
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     stalls: list[Stall] = []
-    squares = {square: square for square in grid.tiles}  # one tuple for each square
     for tile in grid:
         number = 0
         for row in grid.rows_by_square.get(tile.square, []):
@@ -51,13 +50,11 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
                 number += 1
                 stalls.append(
                     Stall(
-                        name=f"Stall_r{row.row:02d}_c{row.col:02d}_{number}",
                         square=tile.square,
+                        ordinal=number,
                         edge=row.edge,
                         stall_type=graph.stall_types[tile.square],
-                        access_square=squares[neighbour((row.row, row.col), row.edge)],
                         centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
-                        yaw_rad=edge_yaw_rad(row.edge),
                         width_m=bay.stall_width_m,
                         length_m=bay.stall_length_m,
                     )

@@ -4,11 +4,12 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
+from garage2usd.grid import NEIGHBOUR_STEPS
 from garage2usd.lanes import Square, StallType
 from garage2usd.layout.specs import Spec
 from garage2usd.stalls import Edge
 
-__all__ = ["ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "to_world"]
+__all__ = ["ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "stall_name", "to_world"]
 
 
 class ObjectKind(StrEnum):
@@ -96,20 +97,16 @@ class Stall:
 
     Attributes
     ----------
-    name
-        Deterministic id, ``Stall_r03_c07_2``.
     square
         (row, col) of the free square that it lies on.
+    ordinal
+        Its number on the square, from 1.
     edge
         Edge of the square that its mouth lies on.
     stall_type
         The paper's type of the square.
-    access_square
-        The lane square beyond the mouth.
     centre_m
         (x, z) of its middle.
-    yaw_rad
-        Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z.
     width_m, length_m
         Its size between the lines' middles.
     use
@@ -118,21 +115,35 @@ class Stall:
         As people read it, ``B2-07``: zone, and what is painted at its mouth; empty where nobody parks.
     """
 
-    name: str
     square: Square
+    ordinal: int
     edge: Edge
     stall_type: StallType
-    access_square: Square
     centre_m: tuple[float, float]
-    yaw_rad: float
     width_m: float
     length_m: float
     use: StallUse = StallUse.STANDARD
     number: str = ""
 
+    @property
+    def name(self) -> str:
+        """Deterministic id, ``Stall_r03_c07_2``."""
+        return stall_name(self.square, self.ordinal)
+
+    @property
+    def access_square(self) -> Square:
+        """(row, col) of the lane square beyond the mouth."""
+        step = NEIGHBOUR_STEPS[self.edge]
+        return self.square[0] + step[0], self.square[1] + step[1]
+
+    @property
+    def yaw_rad(self) -> float:
+        """Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z."""
+        return edge_yaw_rad(self.edge)
+
     def named(self, kind: str) -> str:
         """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""
-        return f"{kind}_{self.name.rpartition('_')[2]}"
+        return f"{kind}_{self.ordinal}"
 
     def corners_m(self) -> tuple[tuple[float, float], ...]:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
@@ -141,11 +152,17 @@ class Stall:
         return tuple(to_world(point, self.centre_m, self.yaw_rad) for point in (*local, (-half_width, -half_length)))
 
 
+def stall_name(square: Square, ordinal: int) -> str:
+    """Id of a stall by its square and its number there."""
+    return f"Stall_r{square[0]:02d}_c{square[1]:02d}_{ordinal}"
+
+
 def edge_yaw_rad(edge: Edge) -> float:
     """Yaw that turns +Z towards an edge of a square."""
-    return {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edge.RIGHT: math.pi / 2}[edge]
+    return _EDGE_YAWS_RAD[edge]
 
 
+_EDGE_YAWS_RAD = {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edge.RIGHT: math.pi / 2}
 _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
 
 

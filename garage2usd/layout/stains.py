@@ -141,7 +141,7 @@ def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64]
         if not stall.use.takes_cars or stall.use is StallUse.EV:
             continue
         rear = -stall.length_m / 2
-        number = stall.name.rpartition("_")[2]
+        number = stall.ordinal
         if driven < rate * _DRIVEN_IN_SHARE:
             room = max(stall.width_m / 2 - _HALF_GAUGE_M - 0.1, 0.0)
             tail = max(stall.length_m - _STALL_MARK_M - 1.2, 0.0)

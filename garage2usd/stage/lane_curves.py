@@ -1,17 +1,19 @@
 """The lane graph and the stalls as guide curves, so that a program can drive on the stage alone."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
-from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout, Stall
-from garage2usd.stage.authoring import attribute, define, set_units
-from garage2usd.stalls import Edge
+from garage2usd.grid import Structure
+from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.layout import Layout, StallTable
+from garage2usd.layout.placement import edge_yaw_rad
+from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
+from garage2usd.stage.authoring import attribute, define, save, set_units
 
 __all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
 
@@ -23,7 +25,6 @@ _NODE_RADIUS_M = 0.4
 _NODE_CORNERS = 8
 _LINE_WIDTH_M = 0.1
 _TYPES = Sdf.ValueTypeNames
-_EDGE_NAMES = {edge: edge.name.lower() for edge in Edge}
 
 
 def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m: float) -> None:
@@ -46,104 +47,121 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
         layer.defaultPrim = path.stem
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
-        squares = sorted(graph.graph.nodes)
-        number_of = {square: number for number, square in enumerate(squares)}
-        _author_nodes(layer, root.AppendChild("Nodes"), layout, graph, squares, setback_m)
-        _author_edges(layer, root.AppendChild("Edges"), layout, graph, number_of, setback_m)
+        squares = np.array(sorted(graph.graph.nodes), dtype=np.int32)
+        number_of = np.full(layout.structure.shape, -1, dtype=np.int32)
+        number_of[tuple(squares.T)] = np.arange(len(squares))
+        _author_nodes(layer, root.AppendChild("Nodes"), layout.structure, graph, squares, setback_m)
+        _author_edges(layer, root.AppendChild("Edges"), layout.structure, graph, number_of, setback_m)
         _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, number_of)
-    layer.Export(str(path))
+    save(layer, path)
 
 
 def _author_nodes(
-    layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, squares: Sequence[Square], setback_m: float
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    structure: Structure,
+    graph: LaneGraph,
+    squares: NDArray[np.int32],
+    setback_m: float,
 ) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    prim = _author_curves(layer, path, _middles(graph, squares)[:, None] + ring, closed=True)
-    kinds = [graph.kind(square).value for square in squares]
-    attribute(prim, "garage:lane:kind", _TYPES.TokenArray, Vt.TokenArray(kinds))
+    prim = _author_curves(layer, path, _middles_m(structure, squares)[:, None] + ring, closed=True)
+    _author_words(prim, "garage:lane:kind", (graph.kind((row, col)).value for row, col in squares.tolist()))
     _author_squares(prim, "garage:lane", squares)
-    widths = (_sides_m(layout, squares) - 2 * setback_m).astype(np.float32)
+    widths = (_sides_m(structure, squares) - 2 * setback_m).astype(np.float32)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths))
 
 
 def _author_edges(
     layer: Sdf.Layer,
     path: Sdf.Path,
-    layout: Layout,
+    structure: Structure,
     graph: LaneGraph,
-    number_of: Mapping[Square, int],
+    number_of: NDArray[np.int32],
     setback_m: float,
 ) -> None:
-    edges = [_directed(graph, *pair) for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges)]
-    starts, ends = [edge[0] for edge in edges], [edge[1] for edge in edges]
-    ways = np.stack([_middles(graph, starts), _middles(graph, ends)], axis=1)
+    pairs = sorted(tuple(sorted(edge)) for edge in graph.graph.edges)
+    directions = [_direction(graph, *pair) for pair in pairs]
+    ends = np.array(pairs, dtype=np.int32)
+    turned = [direction == "backward" for direction in directions]
+    ends[turned] = ends[turned, ::-1]
+    ways = np.stack([_middles_m(structure, squares) for squares in (ends[:, 0], ends[:, 1])], axis=1)
     prim = _author_curves(layer, path, ways, closed=False)
-    _author_numbers(prim, "garage:lane:from", [number_of[square] for square in starts])
-    _author_numbers(prim, "garage:lane:to", [number_of[square] for square in ends])
-    attribute(prim, "garage:lane:direction", _TYPES.TokenArray, Vt.TokenArray([edge[2] for edge in edges]))
+    for name, squares in (("from", ends[:, 0]), ("to", ends[:, 1])):
+        _author_numbers(prim, f"garage:lane:{name}", number_of[tuple(squares.T)])
+    _author_words(
+        prim,
+        "garage:lane:direction",
+        ("forward" if direction == "backward" else direction for direction in directions),
+    )
     lengths = np.linalg.norm(ways[:, 1] - ways[:, 0], axis=1).astype(np.float32)
     attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
-    across = np.array([int(start[1] == end[1]) for start, end in zip(starts, ends, strict=True)])
-    sides = np.minimum(_sides_m(layout, starts), _sides_m(layout, ends))
-    widths = (sides[np.arange(len(edges)), 1 - across] - 2 * setback_m).astype(np.float32)
+    along_z = ends[:, 0, 1] == ends[:, 1, 1]
+    sides = np.minimum(_sides_m(structure, ends[:, 0]), _sides_m(structure, ends[:, 1]))
+    widths = (np.where(along_z, sides[:, 0], sides[:, 1]) - 2 * setback_m).astype(np.float32)
     attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(widths))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: Sequence[Stall], number_of: Mapping[Square, int]) -> None:
-    prim = _author_curves(layer, path, _outlines(stalls), closed=True)
-    words = {
-        "id": [stall.name for stall in stalls],
-        "number": [stall.number for stall in stalls],
-        "type": [str(stall.stall_type) for stall in stalls],
-        "use": [str(stall.use) for stall in stalls],
-        "entryEdge": [_EDGE_NAMES[stall.edge] for stall in stalls],
-    }
-    for name, values in words.items():
-        attribute(prim, f"garage:stall:{name}", _TYPES.TokenArray, Vt.TokenArray(values))
-    _author_squares(prim, "garage:stall", [stall.square for stall in stalls])
-    _author_numbers(prim, "garage:stall:accessNode", [number_of[stall.access_square] for stall in stalls])
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, number_of: NDArray[np.int32]) -> None:
+    prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
+    _author_words(prim, "garage:stall:id", stalls.names())
+    _author_words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
+    for name, words, numbers in (
+        ("type", STALL_TYPES, stalls.stall_type),
+        ("use", STALL_USES, stalls.use),
+        ("entryEdge", [edge.name.lower() for edge in EDGES], stalls.edge),
+    ):
+        _author_words(prim, f"garage:stall:{name}", (str(words[number]) for number in numbers.tolist()))
+    _author_squares(prim, "garage:stall", stalls.square)
+    _author_numbers(prim, "garage:stall:accessNode", number_of[tuple(stalls.access_square.T)])
 
 
-def _outlines(stalls: Sequence[Stall]) -> NDArray[np.float64]:
+def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
     """Corners (x, z) of stalls as `Stall.corners_m` has them; float64, shape (stalls, 4, 2)."""
-    measures = np.array([(*s.centre_m, s.yaw_rad, s.width_m / 2, s.length_m / 2) for s in stalls]).T
-    x, z, yaw, half_width, half_length = measures[:, :, None]
+    x, z = stalls.centre_m.T[:, :, None]
+    half_width, half_length = stalls.size_m.T[:, :, None] / 2
+    yaw = np.array([edge_yaw_rad(edge) for edge in EDGES])[stalls.edge][:, None]
     across, along = np.array([-1, 1, 1, -1]) * half_width, np.array([1, 1, -1, -1]) * half_length
     cos, sin = np.cos(yaw), np.sin(yaw)
     return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
 
-def _directed(graph: LaneGraph, one: Square, other: Square) -> tuple[Square, Square, str]:
+def _direction(graph: LaneGraph, one: Square, other: Square) -> str:
     """From an entrance, into an exit, or both ways."""
-    kinds = graph.kind(one).value, graph.kind(other).value
-    if kinds[1] == "entrance" or kinds[0] == "exit":
-        return other, one, "forward"
-    return one, other, "forward" if "entrance" in kinds or "exit" in kinds else "both"
+    kinds = graph.kind(one), graph.kind(other)
+    if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
+        return "backward"
+    return "forward" if kinds[0] is LaneKind.ENTRANCE or kinds[1] is LaneKind.EXIT else "both"
 
 
-def _middles(graph: LaneGraph, squares: Sequence[Square]) -> NDArray[np.float64]:
-    nodes = graph.graph.nodes
-    return np.array([(nodes[square]["x_m"], nodes[square]["z_m"]) for square in squares])
+def _middles_m(structure: Structure, squares: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Middles (x, z) of squares; float64, shape (n, 2)."""
+    rows, cols = squares.T
+    x, z = ((edges[:-1] + edges[1:]) / 2 for edges in (structure.column_edges_m, structure.row_edges_m))
+    return np.stack([x[cols], z[rows]], axis=1)
 
 
-def _sides_m(layout: Layout, squares: Sequence[Square]) -> NDArray[np.float64]:
+def _sides_m(structure: Structure, squares: NDArray[np.int32]) -> NDArray[np.float64]:
     """Extent of squares along X and Z; float64, shape (n, 2)."""
-    rows, cols = np.array(squares).T
-    structure = layout.structure
+    rows, cols = squares.T
     sides: NDArray[np.float64] = (
         np.stack([structure.column_widths_mm[cols], structure.row_depths_mm[rows]], axis=1) / 1000
     )
     return sides
 
 
-def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: Sequence[Square]) -> None:
-    _author_numbers(prim, f"{namespace}:row", [row for row, _ in squares])
-    _author_numbers(prim, f"{namespace}:column", [col for _, col in squares])
+def _author_words(prim: Sdf.PrimSpec, name: str, words: Iterable[str]) -> None:
+    attribute(prim, name, _TYPES.TokenArray, Vt.TokenArray(list(words)))
 
 
-def _author_numbers(prim: Sdf.PrimSpec, name: str, numbers: Sequence[int]) -> None:
-    attribute(prim, name, _TYPES.IntArray, Vt.IntArray.FromNumpy(np.array(numbers, dtype=np.int32)))
+def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: NDArray[np.int32]) -> None:
+    _author_numbers(prim, f"{namespace}:row", squares[:, 0])
+    _author_numbers(prim, f"{namespace}:column", squares[:, 1])
+
+
+def _author_numbers(prim: Sdf.PrimSpec, name: str, numbers: NDArray[np.int32]) -> None:
+    attribute(prim, name, _TYPES.IntArray, Vt.IntArray.FromNumpy(np.ascontiguousarray(numbers, dtype=np.int32)))
 
 
 def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:

@@ -9,11 +9,12 @@ import pytest
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 
 import garage2usd
-from garage2usd.errors import StageReadError
+from garage2usd.errors import StageError
 from garage2usd.layout import ObjectKind
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.view.viewer import open_stage, read_scene
+from garage2usd.stage.reading import open_stage
+from garage2usd.view.viewer import read_scene
 from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import moved
 from garage2usd.view.viewer.wire import encode_colliders, encode_scene
@@ -321,7 +322,7 @@ def test_a_component_is_one_object_with_its_lights_and_colliders(tmp_path, read)
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("missing.usda", None, "no such file"),
+        ("missing.usda", None, "No such file"),
         ("stage.obj", "o box", "no stage"),
         ("broken.usda", "#usda 1.0\ndef {", "USD cannot read it"),
         ("broken.usdc", "PXR-USDC?", "USD cannot read it"),
@@ -332,6 +333,6 @@ def test_what_is_no_stage_is_refused_by_name(tmp_path, name, text, said):
     path = tmp_path / name
     if text is not None:
         path.write_text(text)
-    with pytest.raises(StageReadError, match=said) as refused:
+    with pytest.raises(StageError, match=said) as refused:
         read_scene(open_stage(path), path)
     assert str(path) in str(refused.value)

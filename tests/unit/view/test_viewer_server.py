@@ -16,7 +16,8 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 
 from garage2usd.cli import main
 from garage2usd.errors import OutputError
-from garage2usd.view.viewer import ViewerServer, open_stage, read_scene
+from garage2usd.stage.reading import open_stage
+from garage2usd.view.viewer import ViewerServer, read_scene
 
 
 @pytest.fixture
@@ -154,11 +155,14 @@ def test_a_signal_ends_it_and_frees_the_port(stage, stop, code):
     command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True
     ) as process:
         port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", process.stdout.readline())[1])
         assert "2 objects of 1 classes" in process.stdout.readline()
-        process.send_signal(stop)
+        if stop is signal.SIGINT:  # a terminal sends it to all of the group
+            os.killpg(process.pid, stop)
+        else:
+            process.send_signal(stop)
         _, said = process.communicate(timeout=20)
     assert process.returncode == code
     assert "Traceback" not in said
@@ -170,4 +174,4 @@ def test_a_signal_ends_it_and_frees_the_port(stage, stop, code):
 def test_what_is_no_stage_ends_in_one_line(tmp_path):
     result = CliRunner().invoke(main, ["view", str(tmp_path / "nothing.usda"), "--no-browser"])
     assert result.exit_code == 1
-    assert result.output == f"Error: {tmp_path / 'nothing.usda'}: no such file\n"
+    assert result.output == f"Error: {tmp_path / 'nothing.usda'}: No such file or directory\n"

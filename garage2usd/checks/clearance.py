@@ -1,0 +1,104 @@
+"""Rules of the room around a parked car: the design car in the middle of each stall, its nose at the mouth."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.solids import Solid
+from garage2usd.checks.stall import standing_in
+from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.profiles import Length, Profile
+
+__all__ = ["BOOK"]
+
+BOOK = RuleBook()
+_WALLS = {"wall", "obstacle"}
+
+
+@dataclass(frozen=True)
+class _ParkedCar:
+    """The design car in a stall."""
+
+    stall: StallOutline
+    length_m: float
+    width_m: float
+
+    @property
+    def polygon(self) -> shapely.Polygon:
+        """Its ground."""
+        return self.ground()
+
+    def ground(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> shapely.Polygon:
+        """Its ground, and as much more on both sides and behind."""
+        outwards = np.array(self.stall.outwards)
+        across = np.array([-outwards[1], outwards[0]]) * (self.width_m / 2 + beside_m)
+        nose = np.array(self.stall.mouth)
+        rear = nose - outwards * (self.length_m + behind_m)
+        return shapely.Polygon([nose + across, nose - across, rear - across, rear + across])
+
+
+@BOOK.rule(
+    "column-clearance",
+    "column_clearance",
+    "design_car_length",
+    "design_car_width",
+    asks="the design car in a stall keeps away from columns",
+)
+def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    clause = profile.column_clearance
+    for car in _parked(subject, profile, clause):
+        required = clause.amount if clause else 0.0
+        near = [solid for solid in subject.solids.at(car.polygon, within_m=required) if solid.label == "column"]
+        yield from _closest(car, near, required, "a column", subject)
+
+
+@BOOK.rule(
+    "wall-clearance",
+    "wall_clearance",
+    "design_car_length",
+    "design_car_width",
+    asks="the design car in a stall keeps away from the walls beside it",
+)
+def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    clause = profile.wall_clearance
+    for car in _parked(subject, profile, clause):
+        required = clause.amount if clause else 0.0
+        near = [solid for solid in subject.solids.at(car.ground(beside_m=required)) if solid.label in _WALLS]
+        yield from _closest(car, near, required, "the wall beside", subject)
+
+
+@BOOK.rule(
+    "end-clearance",
+    "end_clearance",
+    "design_car_length",
+    "design_car_width",
+    asks="the design car in a stall keeps away from what stands behind it",
+)
+def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    clause = profile.end_clearance
+    for car in _parked(subject, profile, clause):
+        required = clause.amount if clause else 0.0
+        near = [solid for solid in subject.solids.at(car.ground(behind_m=required)) if solid.label in _WALLS]
+        yield from _closest(car, near, required, "the wall behind", subject)
+
+
+def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterator[_ParkedCar]:
+    length, width = profile.design_car_length, profile.design_car_width
+    if clause is None or length is None or width is None:
+        return
+    for stall in subject.parking_stalls:
+        yield _ParkedCar(stall, length.amount, width.amount)
+
+
+def _closest(car: _ParkedCar, near: list[Solid], required: float, what: str, subject: Subject) -> Iterator[Miss]:
+    """The least distance of a car to some pieces; those that stand in its stall have rules of their own."""
+    inside = {solid.name for solid in standing_in(car.stall, subject)}
+    distances = [(car.polygon.distance(solid.footprint), solid.name) for solid in near if solid.name not in inside]
+    if distances:
+        measured, name = min(distances)
+        if measured < required - ROUNDING_M:
+            message = f"a car in the stall comes too close to {what}: {name}"
+            yield Miss(car.stall.name, car.stall.centre, message, measured, required)

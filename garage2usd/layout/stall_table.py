@@ -1,0 +1,108 @@
+"""All stalls of a garage in columns, as light as its objects."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.grid import NEIGHBOUR_STEPS
+from garage2usd.lanes import StallType
+from garage2usd.layout.placement import Stall, StallUse, stall_name
+from garage2usd.stalls import Edge
+
+__all__ = ["EDGES", "STALL_TYPES", "STALL_USES", "StallTable"]
+
+EDGES, STALL_TYPES, STALL_USES = tuple(Edge), tuple(StallType), tuple(StallUse)
+"""The edges, types and uses by the number that a table holds for each."""
+_TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TYPES)}
+_USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
+
+
+class StallTable(Sequence[Stall]):
+    """The stalls of a garage: a sequence of them, and their columns as arrays.
+
+    Attributes
+    ----------
+    square
+        (row, col) of the square that each lies on; int32, shape (n, 2).
+    ordinal
+        Number of each on its square, from 1; uint16, shape (n,).
+    edge, stall_type, use
+        Number of each in `EDGES`, `STALL_TYPES` and `STALL_USES`; uint8, shape (n,).
+    centre_m, size_m
+        (x, z) of the middle, and width and length; float64, shape (n, 2).
+    number
+        What people read, as ASCII; shape (n,).
+    """
+
+    def __init__(self, stalls: Iterable[Stall]) -> None:
+        stalls = tuple(stalls)
+        self.square = np.array([stall.square for stall in stalls], dtype=np.int32).reshape(-1, 2)
+        self.ordinal = np.array([stall.ordinal for stall in stalls], dtype=np.uint16)
+        self.edge = np.array([stall.edge for stall in stalls], dtype=np.uint8)
+        self.stall_type = np.array([_TYPE_NUMBERS[stall.stall_type] for stall in stalls], dtype=np.uint8)
+        self.use = np.array([_USE_NUMBERS[stall.use] for stall in stalls], dtype=np.uint8)
+        self.centre_m = np.array([stall.centre_m for stall in stalls], dtype=np.float64).reshape(-1, 2)
+        self.size_m = np.array([(stall.width_m, stall.length_m) for stall in stalls]).reshape(-1, 2)
+        self.number = np.array([stall.number for stall in stalls], dtype=np.bytes_)
+
+    def __len__(self) -> int:
+        """Number of stalls."""
+        return len(self.edge)
+
+    @overload
+    def __getitem__(self, index: int) -> Stall: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Stall]: ...
+
+    def __getitem__(self, index: int | slice) -> Stall | list[Stall]:
+        """One stall, or those of a slice."""
+        if isinstance(index, slice):
+            return list(self._at(index))
+        place = range(len(self))[index]
+        return next(self._at(slice(place, place + 1)))
+
+    def __iter__(self) -> Iterator[Stall]:
+        """All stalls in order."""
+        return self._at(slice(None))
+
+    @property
+    def access_square(self) -> NDArray[np.int32]:
+        """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
+        beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]
+        return beyond
+
+    def names(self) -> list[str]:
+        """Ids of all stalls."""
+        return [
+            stall_name((row, col), ordinal)
+            for (row, col), ordinal in zip(self.square.tolist(), self.ordinal.tolist(), strict=True)
+        ]
+
+    def _at(self, rows: slice) -> Iterator[Stall]:
+        columns = (
+            self.square,
+            self.ordinal,
+            self.edge,
+            self.stall_type,
+            self.centre_m,
+            self.size_m,
+            self.use,
+            self.number,
+        )
+        for (row, col), ordinal, edge, stall_type, (x, z), (width, length), use, number in zip(
+            *(column[rows].tolist() for column in columns), strict=True
+        ):
+            yield Stall(
+                square=(row, col),
+                ordinal=ordinal,
+                edge=EDGES[edge],
+                stall_type=STALL_TYPES[stall_type],
+                centre_m=(x, z),
+                width_m=width,
+                length_m=length,
+                use=STALL_USES[use],
+                number=number.decode("ascii"),
+            )

@@ -1,0 +1,85 @@
+"""Blender in a process of its own."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from garage2usd.errors import MissingExtraError, RenderError
+
+__all__ = ["check_blender", "run_blender"]
+
+_SCRIPT = Path(__file__).with_name("blender.py")
+_PATIENCE_S = 5.0
+_TOLD_LINES = 3
+
+
+def check_blender() -> None:
+    """Find out whether Blender's Python module is there.
+
+    Raises
+    ------
+    MissingExtraError
+        If not, or if what reads its pictures is not.
+    """
+    if find_spec("bpy") is None or find_spec("OpenEXR") is None:
+        raise MissingExtraError("render", "blender", "Blender's Python module, made for Python 3.11")
+
+
+def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None]) -> None:
+    """Draw the pictures of a job (see ``blender.py``).
+
+    Parameters
+    ----------
+    job
+        Plain values.
+    folder
+        Where the job and what Blender says are kept.
+    done
+        Told how many samples are done.
+
+    Raises
+    ------
+    RenderError
+        If Blender fails. However this function ends, Blender has ended before.
+    """
+    reader, writer = os.pipe()
+    path, log = folder / "job.json", folder / "blender.log"
+    path.write_text(json.dumps({**job, "report_fd": writer}), encoding="utf-8")
+    with os.fdopen(reader, encoding="ascii") as reports, log.open("wb") as output:
+        try:
+            # no file beside the script may take the place of a module
+            process = subprocess.Popen(  # noqa: S603 - our own script
+                [sys.executable, "-P", str(_SCRIPT), str(path)],
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                pass_fds=[writer],
+                cwd=folder,
+                env={**os.environ, "TMPDIR": str(folder)},
+            )
+        finally:
+            os.close(writer)
+        try:
+            for line in reports:
+                done(int(line))
+            code = process.wait()
+        finally:
+            _end(process)
+    if code != 0:
+        said = [line for line in log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
+        raise RenderError(code, " | ".join(said[-_TOLD_LINES:]))
+
+
+def _end(process: "subprocess.Popen[bytes]") -> None:
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(_PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()

@@ -1,0 +1,173 @@
+"""The cameras of a stage: where they stand in which frame, and what their lenses see."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.errors import ConfigError
+
+__all__ = ["Lens", "View", "find_views"]
+
+_EVERY = 48
+_MOST_FRAMES = 100_000
+_LEAST_STRIDE = 0.001
+_ROUNDING = 1e-6
+_NUMBER = r"(-?\d{1,9}(?:\.\d{1,6})?)"
+_SPAN = re.compile(rf"{_NUMBER}(?::{_NUMBER}(?:x{_NUMBER})?)?")
+_MM_PER_TENTH = 100.0
+_OPENCV_FROM_USD = np.diag([1.0, -1.0, -1.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Lens:
+    """What a camera sees, without its place. A picture's width takes the whole horizontal aperture.
+
+    Attributes
+    ----------
+    focal_mm, aperture_mm
+        Focal length and horizontal aperture.
+    shift
+        How far the aperture's middle lies to the right of and over the axis, as shares of its width.
+    clip_m
+        From where to where it sees, along its axis.
+    """
+
+    focal_mm: float
+    aperture_mm: float
+    shift: tuple[float, float]
+    clip_m: tuple[float, float]
+
+    def matrix(self, size_px: tuple[int, int]) -> NDArray[np.float64]:
+        """The intrinsic matrix K for pixels whose corners are whole numbers; float64, shape (3, 3)."""
+        width, height = size_px
+        focal_px = width * self.focal_mm / self.aperture_mm
+        right, up = self.shift
+        return np.array([[focal_px, 0, width * (0.5 - right)], [0, focal_px, height / 2 + width * up], [0, 0, 1]])
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """One picture to take.
+
+    Attributes
+    ----------
+    name
+        Camera, and frame where it moves: the stem of the picture's files.
+    camera
+        Path of the camera's prim.
+    frame
+        Time code, None for a camera that stands still.
+    lens
+        What it sees.
+    camera_to_world
+        From the camera, which looks along -Z with +Y up, to the stage's axes; metres; float64, shape (4, 4).
+    """
+
+    name: str
+    camera: str
+    frame: float | None
+    lens: Lens
+    camera_to_world: NDArray[np.float64]
+
+    def world_to_camera(self) -> NDArray[np.float64]:
+        """From the stage's axes to a camera that looks along +Z with +X right and +Y down; float64, shape (4, 4)."""
+        matrix: NDArray[np.float64] = _OPENCV_FROM_USD @ np.linalg.inv(self.camera_to_world)
+        return matrix
+
+
+def find_views(stage: Usd.Stage, *, cameras: Sequence[str] = (), frames: str | None = None) -> list[View]:
+    """The pictures that cameras of a stage take.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    cameras
+        Names or paths of cameras, in the order of the pictures; all of the stage's if empty.
+    frames
+        Frames of the cameras that move, as usdrecord has them: ``0``, ``0:96``, ``0:960x24``, several with commas; from
+        first to last every 48th if left out.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such camera or frame, or a camera is not in perspective.
+    """
+    found = {
+        prim.GetPath().pathString: UsdGeom.Camera(prim)
+        for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate))
+        if prim.IsA(UsdGeom.Camera)
+    }
+    chosen = [path for name in cameras for path in _named(name, found)] if cameras else list(found)
+    if not chosen:
+        raise ConfigError("camera", stage.GetRootLayer().realPath, "a stage with cameras")
+    times = _times(stage, frames)
+    names = [path.rpartition("/")[2] for path in chosen]
+    views: list[View] = []
+    for path, name in zip(chosen, names, strict=True):
+        own = name if names.count(name) == 1 else path.strip("/").replace("/", "_")
+        views += _views_of(found[path], path, own, times)
+    return views
+
+
+def _named(name: str, found: dict[str, UsdGeom.Camera]) -> list[str]:
+    matching = [path for path in found if name in {path, path.rpartition("/")[2]}]
+    if not matching:
+        raise ConfigError("camera", name, ", ".join(found) or "a stage with cameras")
+    return matching
+
+
+def _times(stage: Usd.Stage, frames: str | None) -> list[float]:
+    if frames is None:
+        frames = f"{stage.GetStartTimeCode():g}:{stage.GetEndTimeCode():g}x{_EVERY}"
+    times: list[float] = []
+    for part in frames.split(","):
+        found = _SPAN.fullmatch(part.strip())
+        if found is None:
+            raise ConfigError("frames", frames, "frames as 0, 0:96 or 0:960x24, several with commas")
+        start, end, stride = float(found[1]), float(found[2] or found[1]), float(found[3] or 1)
+        if end < start or stride < _LEAST_STRIDE or (end - start) / stride + len(times) >= _MOST_FRAMES:
+            raise ConfigError("frames", frames, f"a first frame, a last one and a step, {_MOST_FRAMES} frames at most")
+        times += [start + step * stride for step in range(int((end - start) / stride + _ROUNDING) + 1)]
+    return list(dict.fromkeys(times))
+
+
+def _views_of(camera: UsdGeom.Camera, path: str, name: str, times: Sequence[float]) -> Iterator[View]:
+    if not _moves(camera.GetPrim()):
+        yield _view(camera, path, name, None)
+        return
+    for time in times:
+        number = f"{time:04.0f}" if time == round(time) else f"{time:g}".replace(".", "_")
+        yield _view(camera, path, f"{name}_{number}", time)
+
+
+def _moves(prim: Usd.Prim) -> bool:
+    while prim:
+        if prim.IsA(UsdGeom.Xformable) and UsdGeom.Xformable(prim).TransformMightBeTimeVarying():
+            return True
+        prim = prim.GetParent()
+    return False
+
+
+def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None) -> View:
+    time = Usd.TimeCode.EarliestTime() if frame is None else Usd.TimeCode(frame)
+    if camera.GetProjectionAttr().Get(time) != UsdGeom.Tokens.perspective:
+        raise ConfigError("camera", path, "cameras in perspective")
+    metres = UsdGeom.GetStageMetersPerUnit(camera.GetPrim().GetStage())
+    width = float(camera.GetHorizontalApertureAttr().Get(time))
+    offsets = camera.GetHorizontalApertureOffsetAttr().Get(time), camera.GetVerticalApertureOffsetAttr().Get(time)
+    near, far = camera.GetClippingRangeAttr().Get(time)
+    lens = Lens(
+        # tenths of a unit, of which only the ratio counts
+        float(camera.GetFocalLengthAttr().Get(time)) * metres * _MM_PER_TENTH,
+        width * metres * _MM_PER_TENTH,
+        (float(offsets[0]) / width, float(offsets[1]) / width),
+        (float(near) * metres, float(far) * metres),
+    )
+    place = np.array(camera.ComputeLocalToWorldTransform(time).GetOrthonormalized()).T
+    place[:3, 3] = metres * np.array(camera.ComputeLocalToWorldTransform(time).ExtractTranslation())
+    return View(name, path, frame, lens, place)

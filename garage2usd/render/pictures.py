@@ -1,0 +1,190 @@
+"""The pictures of one view as files: depth, normals, instances, classes."""
+
+import colorsys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+__all__ = [
+    "Picture",
+    "Surfaces",
+    "VisibleInstance",
+    "class_colour",
+    "read_surfaces",
+    "visible_instances",
+    "write_picture",
+]
+
+INDEX_LIMIT = 32768
+"""Blender's object indices are below this; larger ids come as several digits."""
+_FARTHEST_M = 1e9
+_GOLDEN = 0.618034
+
+
+class Picture(StrEnum):
+    """The kinds of pictures, each in a folder of its name."""
+
+    COLOUR = "colour"
+    DEPTH = "depth"
+    NORMALS = "normals"
+    INSTANCE = "instance"
+    SEMANTIC = "semantic"
+    SEMANTIC_PREVIEW = "semantic_preview"
+
+    @property
+    def extension(self) -> str:
+        """Of its files."""
+        return ".exr" if self in {Picture.DEPTH, Picture.NORMALS} else ".png"
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """What the ray through the middle of each pixel meets first.
+
+    Attributes
+    ----------
+    depth_m
+        Distance along the camera's axis, infinite where there is nothing; float32, shape (rows, columns).
+    normal
+        Towards the camera's side, in the stage's axes, 0 where there is nothing; float32, shape (rows, columns, 3).
+    instance
+        Id of the object, 0 for none; int32, shape (rows, columns).
+    """
+
+    depth_m: NDArray[np.float32]
+    normal: NDArray[np.float32]
+    instance: NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class VisibleInstance:
+    """An object that can be seen in a picture.
+
+    Attributes
+    ----------
+    id
+        Its instance id.
+    box_px
+        Left, top, right and bottom; the last two are the first that it does not reach.
+    pixels
+        How many show it.
+    """
+
+    id: int
+    box_px: tuple[int, int, int, int]
+    pixels: int
+
+
+def read_surfaces(files: Iterable[Path], from_blender: NDArray[np.float64]) -> Surfaces:
+    """Read Blender's passes, one file for each digit of the ids.
+
+    Parameters
+    ----------
+    files
+        OpenEXR files of several layers, the least digit first.
+    from_blender
+        Turn from Blender's axes to the stage's; shape (3, 3).
+    """
+    passes = [_passes(path) for path in files]
+    first = passes[0]
+    depth = first["Depth"][..., 0].astype(np.float32)
+    nothing = depth > _FARTHEST_M
+    normal = np.stack([first["Normal"][..., axis] for axis in range(3)], axis=-1) @ from_blender.T
+    instance = sum(np.rint(each["IndexOB"][..., 0]).astype(np.int64) * INDEX_LIMIT**d for d, each in enumerate(passes))
+    return Surfaces(
+        np.where(nothing, np.float32(np.inf), depth),
+        np.where(nothing[..., None], 0.0, normal).astype(np.float32),
+        np.where(nothing, 0, instance).astype(np.int32),
+    )
+
+
+def _passes(path: Path) -> dict[str, NDArray[np.float32]]:
+    """Each pass of the file by its name; shape (rows, columns, channels), channels X, Y, Z as they are named."""
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    found: dict[str, dict[str, NDArray[np.float32]]] = {}
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        for part in file.parts:
+            for name, channel in part.channels.items():
+                *_, of, axis = name.split(".")
+                found.setdefault(_NAMES.get(of, of), {})[axis] = np.array(channel.pixels)
+    return {of: np.stack([axes[axis] for axis in sorted(axes)], axis=-1) for of, axes in found.items()}
+
+
+_NAMES = {"Object Index": "IndexOB"}
+
+
+def visible_instances(instance: NDArray[np.int32]) -> list[VisibleInstance]:
+    """The objects of an instance picture by their ids."""
+    rows, columns = np.nonzero(instance)
+    ids, which, counts = np.unique(instance[rows, columns], return_inverse=True, return_counts=True)
+    boxes = np.empty((len(ids), 4), dtype=np.int64)
+    boxes[:, :2], boxes[:, 2:] = np.iinfo(np.int64).max, 0
+    np.minimum.at(boxes[:, 0], which, columns)
+    np.minimum.at(boxes[:, 1], which, rows)
+    np.maximum.at(boxes[:, 2], which, columns + 1)
+    np.maximum.at(boxes[:, 3], which, rows + 1)
+    return [
+        VisibleInstance(number, (left, top, right, bottom), count)
+        for number, (left, top, right, bottom), count in zip(ids.tolist(), boxes.tolist(), counts.tolist(), strict=True)
+    ]
+
+
+def class_colour(number: int) -> tuple[int, int, int]:
+    """Colour of a class in previews: hues a golden cut apart; black for 0."""
+    if number == 0:
+        return 0, 0, 0
+    value = (0.95, 0.75, 0.55)[number % 3]
+    red, green, blue = colorsys.hsv_to_rgb(number * _GOLDEN % 1.0, 0.65, value)
+    return round(red * 255), round(green * 255), round(blue * 255)
+
+
+def write_picture(kind: Picture, path: Path, surfaces: Surfaces, class_ids: Mapping[int, int]) -> None:
+    """Write one kind of picture of what is seen.
+
+    Parameters
+    ----------
+    kind
+        Any but colour, which Blender writes.
+    path
+        The file.
+    surfaces
+        What is seen.
+    class_ids
+        Class id by instance id.
+    """
+    if kind is Picture.DEPTH:
+        _write_exr(path, {"Z": surfaces.depth_m})
+    elif kind is Picture.NORMALS:
+        _write_exr(path, {axis: surfaces.normal[..., number] for number, axis in enumerate("XYZ")})
+    elif kind is Picture.INSTANCE:
+        digits = [(surfaces.instance >> shift & 255).astype(np.uint8) for shift in (0, 8, 16)]
+        Image.fromarray(np.stack(digits, axis=-1)).save(path, optimize=True)
+    else:
+        classes = _classes(surfaces.instance, class_ids)
+        if kind is Picture.SEMANTIC_PREVIEW:
+            colours = np.array([class_colour(number) for number in range(256)], dtype=np.uint8)
+            Image.fromarray(colours[classes]).save(path, optimize=True)
+        else:
+            Image.fromarray(classes).save(path, optimize=True)
+
+
+def _classes(instance: NDArray[np.int32], class_ids: Mapping[int, int]) -> NDArray[np.uint8]:
+    ids, which = np.unique(instance, return_inverse=True)
+    classes: NDArray[np.uint8] = np.array([class_ids.get(number, 0) for number in ids.tolist()], dtype=np.uint8)
+    return classes[which].reshape(instance.shape)
+
+
+def _write_exr(path: Path, channels: Mapping[str, NDArray[np.float32]]) -> None:
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+    whole = {name: np.ascontiguousarray(values, dtype=np.float32) for name, values in channels.items()}
+    with OpenEXR.File(header, whole) as file:
+        file.write(str(path))

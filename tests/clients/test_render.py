@@ -1,0 +1,231 @@
+"""What ``render`` draws agrees with the table of labels, with rays through the meshes, and with itself."""
+
+import importlib.util
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from PIL import Image
+from pxr import Usd
+from rays import Rays
+from sample_files import REPOSITORY
+
+from garage2usd.render import Picture, render_stage
+
+pytestmark = [
+    pytest.mark.client,
+    pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only"),
+]
+
+SIZE = 160, 90
+HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
+MILLIMETRE = 0.001
+# Where flat sheets lie on each other, or tiles meet in a pixel's very middle, two renderers may choose differently.
+MOST_STRAY_PIXELS = 0.002
+
+
+@pytest.fixture(scope="module")
+def data_set(builds, tmp_path_factory):
+    """The frames of a form of a sample, with their pictures as arrays; colour for the instanced form alone."""
+    made = {}
+
+    def frames(form):
+        if form not in made:
+            stage = builds(HAND_DRAWN, "usdc", form).stage
+            folder = tmp_path_factory.mktemp(f"render_{form}")
+            kinds = tuple(Picture) if form == "instanced" else tuple(set(Picture) - {Picture.COLOUR})
+            cameras = {"cameras": ("Inside", "Drive"), "frames": "96"}
+            if form == "instanced":
+                cameras["cameras"] += ("Above",)
+            render_stage(stage, folder, size_px=SIZE, samples=4, pictures=kinds, **cameras)
+            table = json.loads((folder / "frames.json").read_text())
+            made[form] = SimpleNamespace(
+                table=table,
+                frames=[read_frame(folder, frame) for frame in table["frames"]],
+                labels=json.loads(stage.with_name(f"{stage.stem}_labels.json").read_text()),
+                stage=stage,
+                folder=folder,
+            )
+        return made[form]
+
+    return frames
+
+
+def read_frame(folder, frame):
+    """A frame with its pictures, by the conventions of ``frames.json`` alone."""
+    import OpenEXR
+
+    files = {kind: folder / name for kind, name in frame["files"].items()}
+    with OpenEXR.File(str(files["depth"]), separate_channels=True) as file:
+        depth = np.array(file.channels()["Z"].pixels)
+    with OpenEXR.File(str(files["normals"]), separate_channels=True) as file:
+        normal = np.stack([file.channels()[axis].pixels for axis in "XYZ"], axis=-1)
+    assert depth.dtype == np.float32
+    digits = np.asarray(Image.open(files["instance"])).astype(int)
+    rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+    middles = np.stack([columns + 0.5, rows + 0.5, np.ones_like(rows)], axis=-1)
+    to_world = np.linalg.inv(frame["world_to_camera"])
+    direction = middles @ np.linalg.inv(frame["intrinsics"]).T @ to_world[:3, :3].T  # for each metre of depth
+    return SimpleNamespace(
+        about=frame,
+        depth=depth,
+        normal=normal,
+        instance=digits @ [1, 256, 65536],
+        semantic=np.asarray(Image.open(files["semantic"])),
+        preview=np.asarray(Image.open(files["semantic_preview"])),
+        colour=np.asarray(Image.open(files["colour"])).astype(float) if "colour" in files else None,
+        eye=to_world[:3, 3],
+        direction=direction,
+    )
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested"])
+def test_each_pixel_lies_in_the_box_of_its_instance(data_set, form):
+    made = data_set(form)
+    boxes = {entry["id"]: (entry["min_m"], entry["max_m"]) for entry in made.labels["objects"]}
+    assert len(made.frames) == {"instanced": 3, "nested": 2}[form]
+    for frame in made.frames:
+        seen = frame.instance > 0
+        assert seen.mean() > 0.2
+        assert (np.isfinite(frame.depth) == seen).mean() > 1 - MOST_STRAY_PIXELS
+        place = frame.eye + frame.direction[seen] * frame.depth[seen][:, None]
+        low, high = (np.array([boxes[number][end] for number in frame.instance[seen].tolist()]) for end in (0, 1))
+        outside = np.maximum(low - place, place - high).max(axis=1)
+        assert outside.max() < MILLIMETRE + 2e-5 * frame.depth[seen].max()
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested"])
+def test_classes_are_those_of_the_table(data_set, form):
+    made = data_set(form)
+    class_ids = {entry["name"]: entry["id"] for entry in made.labels["classes"]}
+    class_of = {entry["id"]: class_ids[entry["class"]] for entry in made.labels["objects"]} | {0: 0}
+    colours = {entry["id"]: entry["colour"] for entry in made.table["classes"]} | {0: [0, 0, 0]}
+    assert {entry["name"]: entry["id"] for entry in made.table["classes"]} == class_ids
+    assert len({tuple(colour) for colour in colours.values()}) == len(colours)
+    for frame in made.frames:
+        expected = np.vectorize(class_of.get)(frame.instance)
+        assert (frame.semantic == expected).all()
+        assert (frame.preview == np.array([[colours[number] for number in row] for row in expected.tolist()])).all()
+
+
+def test_normals_face_the_camera(data_set):
+    for frame in data_set("instanced").frames:
+        seen = frame.instance > 0
+        assert np.linalg.norm(frame.normal[seen], axis=1) == pytest.approx(1.0, abs=1e-4)
+        assert not frame.normal[~np.isfinite(frame.depth)].any()
+        towards = -(frame.normal * frame.direction).sum(axis=-1) / np.linalg.norm(frame.direction, axis=-1)
+        assert towards[seen].min() > -1e-3
+
+
+def test_frames_list_what_can_be_seen(data_set):
+    made = data_set("instanced")
+    objects = {entry["id"]: entry for entry in made.labels["objects"]}
+    for frame in made.frames:
+        listed = {entry["id"]: entry for entry in frame.about["instances"]}
+        assert listed.keys() == set(np.unique(frame.instance).tolist()) - {0}
+        for number, entry in listed.items():
+            rows, columns = np.nonzero(frame.instance == number)
+            assert entry["pixels"] == len(rows)
+            box = columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
+            assert tuple(entry["box_px"]) == box
+            assert (entry["path"], entry["class"]) == (objects[number]["path"], objects[number]["class"])
+    inside, drive, above = made.frames
+    assert [frame.about["frame"] for frame in made.frames] == [None, 96.0, None]
+    assert sum(entry["class"] == "car" for entry in inside.about["instances"]) > 5
+    assert not np.allclose(inside.eye, drive.eye)
+    hidden = {"ceiling", "beam", "duct", "cable_tray", "sprinkler", "exit_sign"}
+    assert set(above.about["hidden_classes"]) == hidden
+    assert not hidden & {entry["class"] for entry in above.about["instances"]}
+    assert inside.about["hidden_classes"] == []
+    parked = sum(entry["class"] == "car" for entry in made.labels["objects"])
+    assert sum(entry["class"] == "car" for entry in above.about["instances"]) == parked
+
+
+def test_rays_through_the_meshes_meet_the_same(data_set):
+    """Depth to a tenth of a millimetre and 1e-5 of it, the instance, and of what is flat the normal."""
+    made = data_set("instanced")
+    classes = {entry["id"]: entry["class"] for entry in made.labels["objects"]}
+    stage = Usd.Stage.Open(str(made.stage))
+    stains = next(entry["id"] for entry in made.table["classes"] if entry["name"] == "floor_stain")
+    flat = {"floor", "ceiling", "wall", "beam", "column", "parking_stall", "duct", "zone_plate", "obstacle", "ramp"}
+    compared = 0
+    for frame in made.frames:
+        hidden = {"floor_stain", *frame.about["hidden_classes"]}
+        ids = {entry["path"]: entry["id"] for entry in made.labels["objects"] if entry["class"] not in hidden}
+        whole = frame.semantic != stains  # whose texture says where they are
+        directions = frame.direction[whole]
+        owner, place, normal = Rays(stage, ids).cast(np.broadcast_to(frame.eye, directions.shape), directions)
+        same = owner == frame.instance[whole]
+        assert (~same).mean() < MOST_STRAY_PIXELS
+        met = same & (owner > 0)
+        depth = frame.depth[whole][met]
+        along = np.array(frame.about["world_to_camera"])[2]
+        error = np.abs(place[met] @ along[:3] + along[3] - depth)
+        assert (error < 1e-4 + 1e-5 * depth).mean() > 1 - MOST_STRAY_PIXELS
+        is_flat = np.array([classes[number] in flat for number in owner[met].tolist()])
+        cosine = (normal[met] * frame.normal[whole][met]).sum(axis=1)[is_flat]
+        assert (np.abs(cosine) > 0.999).mean() > 1 - 5 * MOST_STRAY_PIXELS
+        compared += len(depth)
+    assert compared > SIZE[0] * SIZE[1]
+
+
+def test_colours_fit_the_masks_where_they_lie(data_set):
+    """Colours vary least within the instances when the mask is not moved."""
+    for frame in data_set("instanced").frames:
+        grey = frame.colour.mean(axis=-1)
+
+        def variance_within(mask, grey=grey):
+            core = grey[4:-4, 4:-4].ravel(), mask[4:-4, 4:-4].ravel()
+            _, which = np.unique(core[1], return_inverse=True)
+            means = np.bincount(which, core[0]) / np.bincount(which)
+            return ((core[0] - means[which]) ** 2).mean()
+
+        here = variance_within(frame.instance)
+        moved = [
+            variance_within(np.roll(frame.instance, (down, right), axis=(0, 1)))
+            for down, right in ((0, 2), (0, -2), (2, 0), (-2, 0), (3, 3), (-3, -3))
+        ]
+        assert here < min(moved)
+
+
+def test_ids_of_more_than_fifteen_bits_stay_exact(data_set, tmp_path):
+    made = data_set("instanced")
+    shutil.copytree(made.stage.parent, tmp_path / "stage")
+    stage = tmp_path / "stage" / made.stage.name
+    table = {**made.labels, "objects": [{**entry, "id": entry["id"] * 8191} for entry in made.labels["objects"]]}
+    stage.with_name(f"{stage.stem}_labels.json").write_text(json.dumps(table))
+    assert 2**15 < max(entry["id"] for entry in table["objects"]) < 2**24
+    render_stage(stage, tmp_path / "out", size_px=SIZE, cameras=("Inside",), pictures=[Picture.INSTANCE])
+    digits = np.asarray(Image.open(tmp_path / "out" / "instance" / "Inside.png")).astype(int)
+    assert (digits @ [1, 256, 65536] == made.frames[0].instance * 8191).all()
+
+
+def test_a_kill_in_mid_render_leaves_no_file_and_no_blender(builds, tmp_path):
+    stage, out, temporary = builds(HAND_DRAWN, "usdc", "instanced").stage, tmp_path / "out", tmp_path / "tmp"
+    temporary.mkdir()
+    command = [sys.executable, "-m", "garage2usd", "render", str(stage), "-o", str(out), "--samples", "4096"]
+    process = subprocess.Popen(
+        command, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    deadline = time.monotonic() + 60
+    while not (found := children(process.pid)) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    time.sleep(2.0)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=30) == 128 + signal.SIGTERM
+    assert found
+    assert not any(os.path.exists(f"/proc/{child}") for child in found)
+    assert list(temporary.iterdir()) == []
+    assert not out.exists()
+
+
+def children(parent):
+    with open(f"/proc/{parent}/task/{parent}/children") as file:
+        return file.read().split()

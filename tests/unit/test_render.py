@@ -1,0 +1,200 @@
+"""What ``render`` makes of a stage before Blender draws it."""
+
+import importlib.util
+import json
+import shutil
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from pxr import Gf, Usd, UsdGeom
+from sample_files import REPOSITORY
+
+from garage2usd.cli import main
+from garage2usd.errors import ConfigError, StageError
+from garage2usd.render import blender_process
+from garage2usd.render.cameras import find_views
+from garage2usd.render.labels import read_labels
+from garage2usd.render.pictures import visible_instances
+from garage2usd.render.scene import read_scene
+
+HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
+
+
+@pytest.fixture
+def build(builds):
+    return builds(HAND_DRAWN, "usdc", "instanced")
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, ["render", *(str(argument) for argument in arguments)])
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+def test_a_stage_without_a_table_tells_the_same_objects_and_classes(builds, tmp_path, form):
+    made = builds(HAND_DRAWN, "usdc", form)
+    stage = Usd.Stage.Open(str(made.stage))
+    listed, told = read_labels(stage, made.stage), read_labels(stage, tmp_path / "none.usdc")
+    assert {path: listed.class_ids[number] for path, number in listed.ids.items()} == {
+        path: told.class_ids[number] for path, number in told.ids.items()
+    }
+    assert listed.classes == told.classes
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+def test_every_object_is_drawn_once_with_all_of_its_parts(builds, form):
+    made = builds(HAND_DRAWN, "usdc", form)
+    stage = Usd.Stage.Open(str(made.stage))
+    labels = read_labels(stage, made.stage)
+    scene = read_scene(stage, labels.ids)
+    assert set(scene.instance.tolist()) == set(labels.ids.values())
+    table = json.loads(made.labels.read_text())["objects"]
+    low, high = (np.array([entry[end] for entry in table]) for end in ("min_m", "max_m"))
+    found = np.full((len(table), 3), np.inf), np.full((len(table), 3), -np.inf)
+    for shape, instance, place in zip(scene.shape.tolist(), scene.instance.tolist(), scene.to_world, strict=True):
+        points = local_points(stage.GetPrimAtPath(scene.shapes[shape])) @ place[:3, :3].T + place[:3, 3]
+        found[0][instance - 1] = np.minimum(found[0][instance - 1], points.min(axis=0))
+        found[1][instance - 1] = np.maximum(found[1][instance - 1], points.max(axis=0))
+    assert found[0] == pytest.approx(low, abs=1e-3)
+    assert found[1] == pytest.approx(high, abs=1e-3)
+
+
+def local_points(prim):
+    if prim.IsA(UsdGeom.Mesh):
+        return np.array(UsdGeom.Mesh(prim).GetPointsAttr().Get())
+    half = prim.GetAttribute("inputs:width").Get() / 2, prim.GetAttribute("inputs:height").Get() / 2
+    return np.array([(x * half[0], y * half[1], 0.0) for x in (-1, 1) for y in (-1, 1)])
+
+
+def test_shapes_are_shared(build):
+    stage = Usd.Stage.Open(str(build.stage))
+    scene = read_scene(stage, read_labels(stage, build.stage).ids)
+    assert len(scene.shapes) < len(scene.shape) / 2
+
+
+def test_centimetres_and_another_axis_become_metres():
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    cube = UsdGeom.Cube.Define(stage, "/Cube")
+    UsdGeom.XformCommonAPI(cube).SetTranslate((100, 200, 300))
+    camera = UsdGeom.Camera.Define(stage, "/Camera")
+    camera.AddTranslateOp().Set(Gf.Vec3d(0, 0, 1000))
+    scene = read_scene(stage, {"/Cube": 7})
+    assert scene.instance.tolist() == [7]
+    assert scene.to_world[0] @ [1, 1, 1, 1] == pytest.approx([1.01, 2.01, 3.01, 1])
+    (view,) = find_views(stage)
+    # straight down: what is right stays right, what is up in the picture has a smaller row
+    x, y, z = view.lens.matrix((200, 100)) @ (view.world_to_camera() @ [1.0, 2.0, 0.0, 1.0])[:3]
+    assert z == pytest.approx(10.0)
+    focal_px = 200 * camera.GetFocalLengthAttr().Get() / camera.GetHorizontalApertureAttr().Get()
+    assert (x / z, y / z) == pytest.approx((100 + focal_px * 0.1, 50 - focal_px * 0.2))
+
+
+@pytest.mark.parametrize(
+    ("frames", "names"),
+    [
+        ("0", ["Drive_0000"]),
+        ("0:96x48, 7", ["Drive_0000", "Drive_0048", "Drive_0096", "Drive_0007"]),
+        ("2.5", ["Drive_2_5"]),
+    ],
+)
+def test_frames_are_chosen_as_usdrecord_has_them(build, frames, names):
+    stage = Usd.Stage.Open(str(build.stage))
+    assert [view.name for view in find_views(stage, cameras=["/Garage/Cameras/Drive"], frames=frames)] == names
+
+
+def test_all_cameras_and_every_second_second_are_usual(build):
+    stage = Usd.Stage.Open(str(build.stage))
+    views = find_views(stage)
+    assert {view.camera.rpartition("/")[2] for view in views} == {"Inside", "Above", "Drive"}
+    times = [view.frame for view in views if view.frame is not None]
+    assert times == [48.0 * step for step in range(len(times))]
+    assert 0 <= stage.GetEndTimeCode() - times[-1] < 48
+
+
+@pytest.mark.parametrize("frames", ["", "x", "1:", "0:1e12", "5:1", "0:9x0", "nan", "0:inf", "0:9x1e-9"])
+def test_frames_that_are_none_are_refused(build, frames):
+    with pytest.raises(ConfigError, match="frames"):
+        find_views(Usd.Stage.Open(str(build.stage)), frames=frames)
+
+
+def test_a_camera_that_is_not_there_is_named_with_those_that_are(build):
+    with pytest.raises(ConfigError, match=r"Wrong.*/Garage/Cameras/Inside"):
+        find_views(Usd.Stage.Open(str(build.stage)), cameras=["Wrong"])
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda table: table["objects"][3].update(id=0), "greater than or equal to 1"),
+        (lambda table: table["objects"][3].update(id=2**24), "less than or equal"),
+        (lambda table: table["objects"][3].update(id=table["objects"][4]["id"]), "stands there twice"),
+        (lambda table: table["objects"][3].update({"class": "tree"}), "'tree'"),
+        (lambda table: table.pop("classes"), "classes"),
+    ],
+)
+def test_a_broken_table_is_refused(build, tmp_path, change, said):
+    table = json.loads(build.labels.read_text())
+    change(table)
+    (tmp_path / "g_labels.json").write_text(json.dumps(table))
+    with pytest.raises(StageError, match=said):
+        read_labels(Usd.Stage.Open(str(build.stage)), tmp_path / "g.usdc")
+
+
+def test_boxes_hold_all_pixels_of_an_instance():
+    instance = np.zeros((6, 8), dtype=np.int32)
+    instance[1:3, 2:7] = 5
+    instance[5, 0] = instance[0, 7] = 9
+    five, nine = visible_instances(instance)
+    assert (five.id, five.box_px, five.pixels) == (5, (2, 1, 7, 3), 10)
+    assert (nine.id, nine.box_px, nine.pixels) == (9, (0, 0, 8, 6), 2)
+
+
+def test_without_blender_one_line_names_the_extra(build, tmp_path, monkeypatch):
+    monkeypatch.setattr(blender_process, "find_spec", lambda _name: None)
+    result = run(build.stage, "-o", tmp_path / "out")
+    assert result.exit_code == 1
+    (line,) = result.output.strip().splitlines()
+    assert "pip install 'garage2usd[blender]'" in line
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--size", "1280"], ["--size", "axb"], ["--only", "colour,smell"], ["--samples", "0"], ["--seed", "-1"]],
+)
+def test_bad_usage_ends_in_two(build, tmp_path, arguments):
+    assert run(build.stage, "-o", tmp_path / "out", *arguments).exit_code == 2
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
+@pytest.mark.parametrize("content", [None, b"", b"#usda 1.0\n(", b"PXR-USDC" + bytes(80)])
+def test_what_is_no_stage_ends_in_one_line(tmp_path, content):
+    path = tmp_path / "g.usdc"
+    if content is not None:
+        path.write_bytes(content)
+    result = run(path, "-o", tmp_path / "out", "--size", "64x36")
+    assert result.exit_code == 1
+    assert len(result.output.strip().splitlines()) == 1
+    assert str(path) in result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_stage_is_left_as_it_is(build, tmp_path):
+    from garage2usd.render.scene import write_shapes
+
+    copy = tmp_path / build.stage.name
+    shutil.copyfile(build.stage, copy)
+    shutil.copytree(build.asset_folder, tmp_path / build.asset_folder.name)
+    stage = Usd.Stage.Open(str(copy))
+    scene = read_scene(stage, read_labels(stage, build.stage).ids)
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*.usd*")}
+    write_shapes(stage, scene, tmp_path / "shapes.usda")
+    assert {path: path.read_bytes() for path in before} == before
+    over = Usd.Stage.Open(str(tmp_path / "shapes.usda"))
+    for number, shape in enumerate(scene.shapes):
+        prim = over.GetPrimAtPath(shape)
+        assert not prim.IsInstanceProxy()
+        assert prim.GetAttribute("userProperties:garage2usd_shape").Get() == number
