@@ -4,6 +4,7 @@ import click
 
 from garage2usd.cli.build import build
 from garage2usd.cli.commands import Commands
+from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
 from garage2usd.cli.textures import textures
@@ -18,5 +19,5 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, render, schema, textures):
+for _command in (build, plan, render, schema, textures):
     main.add_command(_command)

@@ -1,4 +1,4 @@
-"""The plan from above: squares by their kind, stalls with their numbers, columns, cars, a route, findings, dimensions."""
+"""The plan from above: squares by kind, stalls with numbers, columns, cars, a route, findings, dimensions."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -11,9 +11,9 @@ from garage2usd.lanes import LaneGraph, LaneKind, Square
 from garage2usd.layout import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.placement import to_world
 from garage2usd.layout.specs import CarSpec, ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec, rectangle
+from garage2usd.stalls import Edge
 from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
 from garage2usd.view.plan_sheet import ARROW_END_M, INK, PAPER, Mark, Sheet
-from garage2usd.stalls import Edge
 from garage2usd.view.route import route_of
 
 __all__ = ["Mark", "draw_plan"]
@@ -53,12 +53,10 @@ _LINE_M = 0.12
 _NUMBER_M, _NUMBER_WIDTH_M, _NUMBER_FROM_MOUTH_M = 0.75, 2.0, 0.75
 _KEEP_RIGHT_M = 1.3
 _CHEVRON_M = 0.7
-_ROUTE_ASIDE_M, _ROUTE_WIDTH_M = 0.45, 0.45
+_ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
-def draw_plan(
-    layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, marks: Sequence[Mark] = ()
-) -> Drawing:
+def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, its first square's corner at (0, 0).
 
     Parameters
@@ -225,13 +223,19 @@ def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
     corners = stall.corners_m()
     yield Line([*corners, corners[0]], _IN, 2.5 * _LINE_M, "chosen")
     mouth = to_world((0.0, stall.length_m / 2), stall.centre_m, stall.yaw_rad)
-    inside = to_world((0.0, stall.length_m / 2 - 1.6), stall.centre_m, stall.yaw_rad)
+    inside = to_world((0.0, stall.length_m / 2 - _ROUTE_INTO_STALL_M), stall.centre_m, stall.yaw_rad)
     yield from _way(graph, route.to_stall, [mouth, inside], _IN, "way in")
     yield from _way(graph, tuple(reversed(route.from_stall)), [mouth, inside], _OUT, "way out", is_reversed=True)
 
 
 def _way(
-    graph: LaneGraph, squares: Sequence[Square], end: Sequence[Point], colour: Colour, kind: str, *, is_reversed: bool = False
+    graph: LaneGraph,
+    squares: Sequence[Square],
+    end: Sequence[Point],
+    colour: Colour,
+    kind: str,
+    *,
+    is_reversed: bool = False,
 ) -> Iterator[Line]:
     """From a portal to a stall, or reversed; with an arrow's head."""
     nodes = graph.graph.nodes

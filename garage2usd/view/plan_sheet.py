@@ -71,7 +71,9 @@ class Sheet:
         right = max(self._width_m + self._zone_m + self.letters_m, _LEAST_WIDTH_PX / self.px_per_m - margin)
         self._foot_m = self._depth_m + self._zone_m + self.letters_m
         self._places = self._legend_places(right)
-        lines = self._places[-1][1] - self._foot_m + self.letters_m * (2.5 + 1.6 * (1 + min(len(marks), _MOST_LISTED + 1)))
+        lines = (
+            self._places[-1][1] - self._foot_m + self.letters_m * (2.5 + 1.6 * (1 + min(len(marks), _MOST_LISTED + 1)))
+        )
         self.high = (right, self._foot_m + lines)
 
     def dimensions(self) -> Iterator[Line | Text]:
@@ -110,7 +112,10 @@ class Sheet:
             yield Text((x + 1.5 * letters, z), text, letters, INK, is_left=True, kind="legend")
         z = self._places[-1][1] + 2 * letters
         rows, cols = self._structure.shape
-        uses = ", ".join(f"{count} {use.replace('_', ' ')}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
+        uses = ", ".join(
+            f"{count} {use.replace('_', ' ')}"
+            for use, count in Counter(stall.use for stall in layout.stalls).most_common()
+        )
         words = f"{rows} x {cols} squares, {self._width_m:.2f} x {self._depth_m:.2f} m, {len(layout.stalls)} stalls"
         tick = letters / 3
         bar = [(0.0, z - tick), (0.0, z), (_SCALE_BAR_M, z), (_SCALE_BAR_M, z - tick)]

@@ -57,13 +57,13 @@ def _add(root: ET.Element, element: Area | Line | Disc | Text) -> None:
             rim = {"stroke": _colour(element.rim), "stroke-width": _length(element.rim_width_m)}
             ET.SubElement(root, "circle", {**about, **place, "fill": _colour(element.fill), **rim})
         case Text():
-            x, z = (_length(value) for value in element.at)
+            across, down = (_length(value) for value in element.at)
             style = {"font-size": _length(element.height_m), "fill": _colour(element.colour)}
             if element.is_left:
                 style["text-anchor"] = "start"
             if element.is_turned:
-                style["transform"] = f"rotate(-90 {x} {z})"
-            place = {"x": x, "y": z, "dominant-baseline": "central"}
+                style["transform"] = f"rotate(-90 {across} {down})"
+            place = {"x": across, "y": down, "dominant-baseline": "central"}
             ET.SubElement(root, "text", {**about, **place, **style}).text = element.text
 
 
