@@ -107,4 +107,9 @@ def text_width(text: str, height: float) -> float:
 
 @lru_cache(maxsize=4096)
 def _measured(text: str) -> float:
-    return float(ImageFont.load_default(size=_MEASURED_PX).getlength(text))
+    return float(_font().getlength(text))
+
+
+@lru_cache(maxsize=1)
+def _font() -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    return ImageFont.load_default(size=_MEASURED_PX)

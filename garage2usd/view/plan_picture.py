@@ -1,6 +1,7 @@
 """The plan from above: squares by kind, stalls with numbers, columns, cars, a route, findings, dimensions."""
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 
 import shapely
@@ -51,6 +52,7 @@ _OUT: Colour = (226, 96, 16)
 _BODIES = {body.name: body for body in CAR_BODIES}
 _LINE_M = 0.12
 _NUMBER_M, _NUMBER_WIDTH_M, _NUMBER_FROM_MOUTH_M = 0.75, 2.0, 0.75
+_DIGIT = re.compile(r"\d")
 _KEEP_RIGHT_M = 1.3
 _CHEVRON_M = 0.7
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
@@ -147,9 +149,11 @@ def _car_outline(car: Placement) -> list[Point]:
 
 def _number(stall: Stall) -> Text:
     """Beside the mouth, level; the stall's middle stays clear."""
-    height = min(_NUMBER_M, _NUMBER_M * _NUMBER_WIDTH_M / text_width(stall.number, _NUMBER_M))
+    # all digits as wide as the widest, so that few are measured
+    width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
+    height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
     is_level = stall.edge in {Edge.UP, Edge.DOWN}
-    inwards = _NUMBER_FROM_MOUTH_M if is_level else _NUMBER_FROM_MOUTH_M / 2 + text_width(stall.number, height) / 2
+    inwards = _NUMBER_FROM_MOUTH_M if is_level else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
     at = to_world((0.0, stall.length_m / 2 - inwards), stall.centre_m, stall.yaw_rad)
     return Text(at, stall.number, height, INK, kind="number")
 
