@@ -23,6 +23,7 @@ from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.raster import to_image
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
@@ -255,7 +256,7 @@ def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
     """The pictures of a build by their name."""
     plan = garage.plan
-    pictures = {"plan": draw_plan(garage.layout)}
+    pictures = {"plan": to_image(draw_plan(garage.layout, garage.graph))}
     if learning_curve:
         pictures["learning"] = draw_learning_curve(plan.learning_curve)
     if best_plans:
