@@ -23,6 +23,7 @@ from garage2usd.checks.stage_reader import profile_name, stage_subject
 from garage2usd.checks.subject import Subject
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
+from garage2usd.stage.reading import STAGE_SUFFIXES
 
 __all__ = ["RULES", "Finding", "Rule", "Severity", "Subject", "as_json", "as_table", "check", "check_file"]
 
@@ -45,8 +46,6 @@ RULES: tuple[Rule, ...] = tuple(
     for rule in module.BOOK.rules
 )
 """All rules."""
-
-_STAGES = {".usd", ".usda", ".usdc", ".usdz"}
 
 
 def check(subject: Subject, profile: Profile) -> list[Finding]:
@@ -79,7 +78,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     path = Path(path)
     if not path.is_file():
         raise ConfigError("PATH", str(path), "a file")
-    if path.suffix.lower() in _STAGES:
+    if path.suffix.lower() in STAGE_SUFFIXES:
         subject = stage_subject(path)
         name = profile_name(subject.stage)
         profile = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)

@@ -1,6 +1,5 @@
 """Reports and plan files as a subject; a plan with faults is read as far as it goes, so that rules name them."""
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
 from garage2usd.checks.subject import Fault, Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
+from garage2usd.documents import read_json, read_text
 from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
 from garage2usd.lanes import build_lane_graph, unproven_lane_graph
@@ -17,7 +17,7 @@ from garage2usd.site.given import check_structure
 
 __all__ = ["plan_subject"]
 
-_MAX_FILE_BYTES = 256 * 1024 * 1024
+_MAX_REPORT_BYTES = 256 * 1024 * 1024
 _FIELD = "PATH"
 _MOVED_M = 0.001
 
@@ -45,11 +45,11 @@ def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject
     if path.suffix == ".toml":
         config = load_config(path)
         return _of_config(config, path, kind="plan"), config
-    text = _read(path)
     if path.suffix != ".json":
+        text = read_text(path, field=_FIELD)
         config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
         return _of_config(config, path, kind="plan"), config
-    document = _parsed(text, path)
+    document = read_json(path, field=_FIELD, max_bytes=_MAX_REPORT_BYTES)
     if isinstance(document, dict) and "config" in document:
         return _of_report(document, path)
     config = config_from_mapping(_given(profile) | _settings_of(document, path))
@@ -163,23 +163,3 @@ def _alike(told: list[Any], real: list[Any]) -> bool:
         elif not isinstance(one, int | float) or not abs(one - other) <= _MOVED_M:
             return False
     return True
-
-
-def _read(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            data = file.read(_MAX_FILE_BYTES + 1)
-        if len(data) > _MAX_FILE_BYTES:
-            raise ConfigError(_FIELD, str(path), f"a file of at most {_MAX_FILE_BYTES} bytes")
-        return data.decode()
-    except OSError as error:
-        raise ConfigError(_FIELD, str(path), f"a readable file ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise ConfigError(_FIELD, str(path), "UTF-8 text") from None
-
-
-def _parsed(text: str, path: Path) -> Any:  # noqa: ANN401
-    try:
-        return json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
-        raise ConfigError(_FIELD, str(path), f"JSON ({error})") from None

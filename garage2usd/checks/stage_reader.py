@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
-from pxr import Tf, Usd
+from pxr import Usd
 
 from garage2usd.checks.lane_reader import DrivenGround, read_lanes
 from garage2usd.checks.scene import RectLight, read_scene
@@ -14,6 +14,7 @@ from garage2usd.grid import Structure, cells_from_text
 from garage2usd.layout import ObjectKind, Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.layout.specs import TubeLightSpec
+from garage2usd.stage.reading import open_stage
 
 __all__ = ["profile_name", "stage_subject"]
 
@@ -26,13 +27,10 @@ def stage_subject(path: Path) -> Subject:
 
     Raises
     ------
-    ConfigError
+    StageError
         If it cannot be opened.
     """
-    try:
-        stage = Usd.Stage.Open(str(path))
-    except Tf.ErrorException as error:
-        raise ConfigError("PATH", str(path), f"a stage that opens ({_first_line(error)})") from None
+    stage = open_stage(path)
     ground, scene = read_lanes(stage), read_scene(stage)
     structure = _structure(stage)
     lane_lux, stall_lux = _illuminances(ground, scene.lights, structure)
@@ -114,8 +112,3 @@ def _sides_m(square: Point, widths_m: tuple[float, float], structure: Structure 
     if structure is not None and 0 <= row < structure.shape[0] and 0 <= col < structure.shape[1]:
         return float(structure.column_widths_mm[col]) / 1000, float(structure.row_depths_mm[row]) / 1000
     return widths_m[0] + _LANE_MARGIN_M, widths_m[1] + _LANE_MARGIN_M
-
-
-def _first_line(error: Exception) -> str:
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return lines[-1][:200] if lines else "it is no stage"

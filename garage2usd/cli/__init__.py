@@ -1,5 +1,7 @@
 """The command line: arguments, progress, exit codes. A module is a command."""
 
+import sys
+
 import click
 
 from garage2usd.cli.build import build
@@ -8,11 +10,12 @@ from garage2usd.cli.commands import Commands
 from garage2usd.cli.drive import drive
 from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
+from garage2usd.cli.supervision import SUPERVISED, supervise
 from garage2usd.cli.textures import textures
 from garage2usd.cli.view import view
 from garage2usd.version import VERSION
 
-__all__ = ["main"]
+__all__ = ["main", "run"]
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -23,3 +26,11 @@ def main() -> None:
 
 for _command in (build, check, drive, render, schema, textures, view):
     main.add_command(_command)
+
+
+def run() -> None:
+    """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
+    name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    if name in SUPERVISED:
+        supervise(main, name=name)
+    main()

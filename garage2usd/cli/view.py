@@ -27,7 +27,9 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
       garage2usd view garage.usdz
       garage2usd view out/garage.usdc --port 8000 --no-browser
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.view.viewer import ViewerServer, open_stage, read_scene  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.limits import lift_seconds  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.stage.reading import open_stage  # noqa: PLC0415
+    from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
 
     start = time.perf_counter()
     stage = open_stage(path)
@@ -39,6 +41,7 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
                 threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
             scene = read_scene(stage, path)
             server.show(scene)
+            lift_seconds()
             shown = f"{len(scene.objects)} objects of {len(scene.counts())} classes"
             click.echo(f"{shown}, read in {time.perf_counter() - start:.1f} s; Ctrl-C ends")
             threading.Event().wait()

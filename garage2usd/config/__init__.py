@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
+from garage2usd.documents import read_text, read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
 from garage2usd.settings import Settings
@@ -33,7 +33,6 @@ __all__ = [
 ]
 
 _SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig, StageConfig)
-_MAX_FILE_BYTES = 16 * 1024 * 1024
 
 
 class GarageConfig(Settings):
@@ -131,10 +130,7 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
         If the file cannot be read, is not TOML, or holds an unknown key or a value that is not allowed.
     """
     path = Path(path)
-    try:
-        settings = tomllib.loads(_read_text(path, field="CONFIG"))
-    except tomllib.TOMLDecodeError as error:
-        raise ConfigError("CONFIG", str(path), f"TOML ({error})") from None
+    settings = read_toml(path, field="CONFIG")
     if profile is not None:
         settings["profile"] = profile_setting(profile)
     elif isinstance(settings.get("profile"), str):
@@ -142,7 +138,7 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     config = config_from_mapping(settings)
     if config.site.structure_file is None:
         return config
-    text = _read_text(path.parent / config.site.structure_file, field="site.structure_file")
+    text = read_text(path.parent / config.site.structure_file, field="site.structure_file")
     site = {key: value for key, value in settings["site"].items() if key != "structure_file"}
     return config_from_mapping({**settings, "site": {**site, "structure": text}})
 
@@ -164,20 +160,6 @@ def config_schema() -> dict[str, Any]:
     schema = GarageConfig.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     return schema
-
-
-def _read_text(path: Path, *, field: str) -> str:
-    try:
-        with path.open("rb") as file:
-            data = file.read(_MAX_FILE_BYTES + 1)
-    except OSError as error:
-        raise ConfigError(field, str(path), f"a readable file ({error.strerror})") from None
-    if len(data) > _MAX_FILE_BYTES:
-        raise ConfigError(field, str(path), f"a file of at most {_MAX_FILE_BYTES} bytes")
-    try:
-        return data.decode()
-    except UnicodeDecodeError as error:
-        raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
 
 
 def _config_error(error: ValidationError) -> ConfigError:

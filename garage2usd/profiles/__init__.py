@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles.clauses import Clause, Confidence, Length, LengthRange, Severity, Steps
 from garage2usd.profiles.profile import Profile
@@ -30,7 +31,6 @@ __all__ = [
 DEFAULT_PROFILE = "cn-jgj100"
 PROFILE_NAMES = ("cn-jgj100", "uk-istructe", "us-ada")
 """The profiles that are shipped."""
-_MAX_FILE_BYTES = 1024 * 1024
 
 
 def is_profile_file(name: str) -> bool:
@@ -58,21 +58,7 @@ def load_profile(name_or_file: str | Path, *, folder: Path | None = None) -> Pro
         return _shipped(name)
     if not is_profile_file(name):
         raise ConfigError("profile", name, f"one of {', '.join(PROFILE_NAMES)}, or a path that ends in .toml")
-    path = (folder or Path()) / name
-    try:
-        with path.open("rb") as file:
-            data = file.read(_MAX_FILE_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise ConfigError("profile", name, f"a readable file ({reason})") from None
-    if len(data) > _MAX_FILE_BYTES:
-        raise ConfigError("profile", name, f"a file of at most {_MAX_FILE_BYTES} bytes")
-    try:
-        return read_profile(tomllib.loads(data.decode()))
-    except UnicodeDecodeError:
-        raise ConfigError("profile", name, "UTF-8 text") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise ConfigError("profile", name, f"TOML ({error})") from None
+    return read_profile(read_toml((folder or Path()) / name, field="profile"))
 
 
 def read_profile(settings: dict[str, Any]) -> Profile:

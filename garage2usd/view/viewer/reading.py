@@ -6,37 +6,17 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Tf, Usd, UsdGeom
+from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
 from garage2usd.view.viewer.guides import lane_curves
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
 from garage2usd.view.viewer.walk import StageWalk
 
-__all__ = ["open_stage", "read_scene"]
+__all__ = ["read_scene"]
 
-_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
 _MOST_LABEL_BYTES = 1 << 30
-
-
-def open_stage(path: Path) -> Usd.Stage:
-    """Open a stage.
-
-    Raises
-    ------
-    StageError
-        If there is no such file, or USD cannot read it.
-    """
-    if path.suffix not in _SUFFIXES:
-        raise StageError(path, f"no stage; a stage ends in {', '.join(_SUFFIXES)}")
-    if not path.is_file():
-        raise StageError(path, "no such file")
-    try:
-        return Usd.Stage.Open(str(path))
-    except Tf.ErrorException as error:
-        reason = " ".join(str(error).split())
-        raise StageError(path, f"USD cannot read it ({reason[:300]})") from None
 
 
 def read_scene(stage: Usd.Stage, path: Path) -> Scene:

@@ -149,11 +149,11 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         """What it calls itself."""
         return "garage2usd"
 
-    def do_GET(self) -> None:  # noqa: N802 - the name in the base class
+    def do_GET(self) -> None:
         """Answer a request."""
         self._respond(with_body=True)
 
-    def do_HEAD(self) -> None:  # noqa: N802 - the name in the base class
+    def do_HEAD(self) -> None:
         """Answer a request without its bytes."""
         self._respond(with_body=False)
 
