@@ -23,10 +23,11 @@ from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.raster import to_image
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
-_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f]")
+_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 """What USD cannot say of a file that a layer refers to."""
 
 
@@ -151,7 +152,7 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     if _UNSPEAKABLE.search(path.name):
-        raise ConfigError("output", str(output), "a file name without '@', '\\' and control characters")
+        raise ConfigError("output", str(output), "a file name in UTF-8 without '@', '\\' and control characters")
     check_writable(path.parent)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
@@ -255,7 +256,7 @@ def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
     """The pictures of a build by their name."""
     plan = garage.plan
-    pictures = {"plan": draw_plan(garage.layout)}
+    pictures = {"plan": to_image(draw_plan(garage.layout, garage.graph))}
     if learning_curve:
         pictures["learning"] = draw_learning_curve(plan.learning_curve)
     if best_plans:

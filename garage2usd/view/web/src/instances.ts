@@ -8,16 +8,17 @@ import type { SurfaceMaterials } from "./surface_material";
 
 const STRIDE = 16;
 /** A shape is drawn at its full, second, third ... level where it is at least so many pixels across. */
-const LEVEL_PX = [110, 40, 14];
+const LEVEL_PX = [200, 60, 22, 9];
 /** Share of the triangles and greatest error, as a share of its size, that each coarser level has. */
 const COARSER = [
   { share: 0.3, error: 0.006 },
   { share: 0.08, error: 0.02 },
-  { share: 0.03, error: 0.06 },
+  { share: 0.03, error: 0.08 },
+  { share: 0.01, error: 0.25 },
 ];
-const FEWEST_TRIANGLES = 48;
+const FEWEST_TRIANGLES = 40;
 /** What is smaller is not drawn. */
-const LEAST_PX = 1.2;
+const LEAST_PX = 1.5;
 
 /** Instances of one shape at one level. */
 class Batch {
@@ -156,7 +157,7 @@ export class Instances {
     const { scene, boxes, box, frustum } = this;
     this.projection.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     frustum.setFromProjectionMatrix(this.projection);
-    const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360)) / coarse;
+    const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360));
     const { x, y, z } = camera.position;
     for (const { levels, blended } of this.shapes) {
       for (const batch of levels) batch.count = 0;
@@ -183,7 +184,7 @@ export class Instances {
         const { levels, blended } = this.shapes[scene.shape[object]];
         if (levels.length) {
           let level = 0;
-          while (level < levels.length - 1 && size < LEVEL_PX[level]) level += 1;
+          while (level < levels.length - 1 && size / coarse < LEVEL_PX[level]) level += 1;
           const batch = levels[level];
           batch.list[batch.count++] = object;
         }
@@ -209,7 +210,7 @@ function coarser(indices: Uint32Array, positions: Float32Array): Uint32Array[] {
   let last = indices;
   for (const { share, error } of COARSER) {
     if (last.length / 3 < FEWEST_TRIANGLES) break;
-    const target = 3 * Math.max(12, Math.floor((share * indices.length) / 3));
+    const target = 3 * Math.max(16, Math.floor((share * indices.length) / 3));
     let [found] = MeshoptSimplifier.simplify(indices, positions, 3, target, error, ["Prune"]);
     // seams between flat faces bind many meshes; far away nobody sees them
     if (found.length > 1.6 * target) [found] = MeshoptSimplifier.simplifySloppy(indices, positions, 3, null, target, error * 1.5);

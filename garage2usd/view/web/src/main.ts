@@ -7,7 +7,7 @@ import { Instances } from "./instances";
 import { footprint, lightPlanOf } from "./light_plan";
 import { element, laneLegend, showClasses, showLayers, showObject, showRemarks, useLegend } from "./panel";
 import { type Eye, PlanMap } from "./plan_map";
-import { Quality } from "./quality";
+import { Quality, isSoftware } from "./quality";
 import { Rays } from "./rays";
 import { SceneFile, type Stall } from "./scene_file";
 import { SurfaceMaterials } from "./surface_material";
@@ -67,7 +67,7 @@ class Viewer {
     parts: { boxes: Boxes; rays: Rays; renderer: THREE.WebGLRenderer },
   ) {
     ({ boxes: this.boxes, rays: this.rays, renderer: this.renderer } = parts);
-    this.quality = new Quality(this.renderer.getContext() as WebGL2RenderingContext);
+    this.quality = new Quality(isSoftware());
     this.world.background = new THREE.Color(SKY);
     this.walker = new Walker(scene, this.rays);
     this.colliders = new Colliders(scene);
@@ -94,11 +94,14 @@ class Viewer {
   static async open(): Promise<Viewer> {
     const answer = await fetch("scene.bin");
     if (!answer.ok) throw new Error("The stage could not be read; the command line says why.");
+    performance.mark("scene");
     const scene = new SceneFile(await answer.arrayBuffer());
     const textures = layersOf(scene);
     const boxes = new Boxes(scene);
     const chunks = chunksOf(boxes, scene.count, CHUNK_M);
-    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias: true });
+    // smooth edges cost a renderer in software more than all else
+    const antialias = !isSoftware();
+    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias });
     const light = lightPlanOf(scene, boxes);
     const materials = new SurfaceMaterials(scene, await textures, light);
     const instances = await Instances.create(scene, boxes, chunks, materials);
@@ -176,7 +179,7 @@ class Viewer {
     camera.updateMatrixWorld();
     this.cutAway(camera.position.y > this.ceilingHeight);
     const ratio = this.renderer.getPixelRatio();
-    this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse ** 0.5 : 1);
+    this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse : 1);
     this.renderer.render(this.world, camera);
     this.map.draw(this.eye(), this.selected < 0 ? null : footprint(this.scene, this.boxes, this.selected));
     this.showFigures();
@@ -269,7 +272,7 @@ class Viewer {
         id: "colliders", name: "Colliders", key: "K", on: false, hint: "What a physics engine makes of the objects that are shown",
         change: (on: boolean) => {
           this.colliders.group.visible = on;
-          if (on) this.colliders.show(this.instances.visible);
+          if (on) void this.colliders.load().then(() => this.applyLayers());
           this.touch();
         },
       });
@@ -420,8 +423,8 @@ class Viewer {
     if (object >= 0) {
       const [x, , z] = this.boxes.centre(object);
       const stall = this.stallAt(x, z, this.boxes.world[6 * object + 1]);
-      const car = stall && this.cars.find((number) => isInside(stall.corners, ...this.middle(number)));
-      showObject(this.scene, this.boxes, object, stall, car === undefined || car === null ? "" : this.scene.paths[car]);
+      const parked = stall !== null && this.cars.some((car) => isInside(stall.corners, ...this.middle(car)));
+      showObject(this.scene, this.boxes, object, stall, parked);
       this.frame.around(this.scene, this.boxes.local, object);
     }
     this.touch();
