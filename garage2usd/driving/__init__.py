@@ -1,19 +1,25 @@
 """Driving: the proof that the design car gets into each stall and out of it, and the ways that do it.
 
 Plain geometry, for any program: `find_way` takes a `DesignCar`, a parked `Pose`, `Obstacles` and `LanePose`s. For a
-whole garage `prove_stalls` takes its layout and lane graph.
+whole garage `prove_garage` takes a `DrivenGarage`, and `prove_stalls` a layout and its lane graph.
 """
 
 from garage2usd.driving.car import DesignCar, Pose
-from garage2usd.driving.garage import Nose, StallProof, prove_stalls
+from garage2usd.driving.garage import DrivenGarage, DrivenStall, Nose, StallProof, prove_garage
+from garage2usd.driving.lane_poses import LaneDirections, LaneSquare, SquareUse
+from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Search, find_way, least_clearance_m
 
 __all__ = [
     "DesignCar",
+    "DrivenGarage",
+    "DrivenStall",
     "Gear",
+    "LaneDirections",
     "LanePose",
+    "LaneSquare",
     "Limits",
     "Manoeuvre",
     "Move",
@@ -21,9 +27,11 @@ __all__ = [
     "Obstacles",
     "Pose",
     "Search",
+    "SquareUse",
     "StallProof",
     "Waypoint",
     "find_way",
     "least_clearance_m",
+    "prove_garage",
     "prove_stalls",
 ]

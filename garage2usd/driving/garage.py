@@ -1,22 +1,24 @@
-"""The proof for each stall of a garage that the design car drives in from an entrance and out to an exit."""
+"""The proof for each stall of a garage that the design car drives in from an entrance and out to an exit.
+
+A garage is plain geometry here: stalls, lanes by direction, and obstacles.
+"""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 
-from garage2usd.driving.car import DesignCar
+import shapely
+
+from garage2usd.driving.car import DesignCar, Point
 from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, find_way
-from garage2usd.driving.surroundings import absent_cars, fixed_objects, own_objects, parked_cars
-from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout, Stall
 from garage2usd.progress import Progress, silent
 
-__all__ = ["Nose", "StallProof", "prove_stalls"]
+__all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "prove_garage"]
 
 _SUSPECTS = 8
 
@@ -71,23 +73,67 @@ class StallProof:
         return self.way_in is not None and self.way_out is not None
 
 
-def prove_stalls(
-    layout: Layout,
-    graph: LaneGraph,
+@dataclass(frozen=True, slots=True)
+class DrivenStall:
+    """A stall that takes a car.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    centre_m, yaw_rad
+        Its middle (x, z), and the yaw of a car that stands in it nose in.
+    access
+        Number of the square that its mouth opens onto.
+    absent
+        Name for the car that is thought to stand there for the proofs of the others; None where one stands.
+    own
+        Names of obstacles that are not in the way of a car that parks there: its car, wheel stop and cones.
+    """
+
+    name: str
+    centre_m: Point
+    yaw_rad: float
+    access: int
+    absent: str | None
+    own: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenGarage:
+    """A garage as far as a car drives in it.
+
+    Attributes
+    ----------
+    stalls
+        Those that take cars.
+    directions
+        Its lanes.
+    standing
+        What a car could touch, the parked cars included.
+    """
+
+    stalls: tuple[DrivenStall, ...]
+    directions: LaneDirections
+    standing: Obstacles
+
+
+def prove_garage(
+    garage: DrivenGarage,
+    stalls: Iterable[DrivenStall] | None = None,
     *,
-    setback_m: float,
     car: DesignCar | None = None,
     limits: Limits | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
-    """Drive a car into each stall that takes one and out again.
+    """Drive a car into each stall and out again.
 
     Parameters
     ----------
-    layout, graph
+    garage
         The garage.
-    setback_m
-        How far the carriageway stays from squares that are no lane.
+    stalls
+        Those of its stalls that are asked for; left out, all.
     car, limits
         The car, and what is asked of its driver.
     progress
@@ -96,7 +142,7 @@ def prove_stalls(
     Returns
     -------
     tuple of StallProof
-        One for each stall that takes cars, in the order of the stalls.
+        One for each stall, in their order.
 
     Notes
     -----
@@ -104,26 +150,26 @@ def prove_stalls(
     tried with only the cars that stand there. Nose in goes before nose out, and driving on before backing out of a
     dead end.
     """
-    garage = _Garage(layout, graph, setback_m, car or DesignCar(), limits or Limits())
-    stalls = [stall for stall in layout.stalls if stall.use.takes_cars]
+    prover = _Prover(garage, car or DesignCar(), limits or Limits())
+    asked = garage.stalls if stalls is None else tuple(stalls)
     proofs = []
-    for done, stall in enumerate(stalls):
-        progress("driving", done, len(stalls))
-        proofs.append(garage.proof_of(stall))
+    for done, stall in enumerate(asked):
+        progress("driving", done, len(asked))
+        proofs.append(prover.proof_of(stall))
     return tuple(proofs)
 
 
-class _Garage:
+class _Prover:
     """What the proofs of one garage share."""
 
-    def __init__(self, layout: Layout, graph: LaneGraph, setback_m: float, car: DesignCar, limits: Limits) -> None:
+    def __init__(self, garage: DrivenGarage, car: DesignCar, limits: Limits) -> None:
         self.car, self.limits = car, limits
-        self.directions = LaneDirections(layout.structure, graph, setback_m)
-        self.as_it_stands = fixed_objects(layout).joined(parked_cars(layout))
-        self.full = self.as_it_stands.joined(absent_cars(layout, car))
+        self.directions = garage.directions
+        self.as_it_stands = garage.standing
+        self.full = garage.standing.joined(_absent_cars(garage.stalls, car))
         self.poses_at = lru_cache(maxsize=None)(self._poses_at)
 
-    def _poses_at(self, square: Square, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
+    def _poses_at(self, square: int, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
         """Lane poses near a square: those that serve both ways, and those that serve the asked one alone."""
         directions = self.directions
         arriving = directions.arriving
@@ -135,7 +181,7 @@ class _Garage:
 
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
-    def proof_of(self, stall: Stall) -> StallProof:
+    def proof_of(self, stall: DrivenStall) -> StallProof:
         """The ways of one stall, or what is in their way."""
         full = self._seen_from(stall, self.full)
         touched: list[str] = []
@@ -155,24 +201,22 @@ class _Garage:
         causes = tuple(name for name in suspects[:_SUSPECTS] if self._is_proven(stall, full.without([name])))
         return StallProof(stall.name, touched=causes or suspects, is_single_cause=bool(causes))
 
-    def _has_backing(self, stall: Stall) -> bool:
+    def _has_backing(self, stall: DrivenStall) -> bool:
         """Whether backing out of a dead end gives more lane poses near a stall."""
-        forward, backing = (
-            self.poses_at(stall.access_square, to_leave=True, backing=backing)[1] for backing in (False, True)
-        )
+        forward, backing = (self.poses_at(stall.access, to_leave=True, backing=backing)[1] for backing in (False, True))
         return len(backing) > len(forward)
 
-    def _seen_from(self, stall: Stall, obstacles: Obstacles) -> Obstacles:
+    def _seen_from(self, stall: DrivenStall, obstacles: Obstacles) -> Obstacles:
         near = obstacles.near(stall.centre_m, 1.5 * (self.limits.reach_m + self.car.length_m))
-        return near.without(own_objects(stall, near))
+        return near.without(stall.own if stall.absent is None else (*stall.own, stall.absent))
 
-    def _is_proven(self, stall: Stall, obstacles: Obstacles) -> bool:
+    def _is_proven(self, stall: DrivenStall, obstacles: Obstacles) -> bool:
         """Whether there are ways, looked for roughly."""
         limits = replace(self.limits, is_thorough=False)
         return any(all(self._ways(stall, nose, obstacles, limits, backing=True)[:2]) for nose in Nose)
 
     def _ways(
-        self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
+        self, stall: DrivenStall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
     ) -> tuple[Manoeuvre | None, Manoeuvre | None, Sequence[str]]:
         """The way in, the way out, and what was touched where one is missing."""
         parked = self.car.centred(stall.centre_m, stall.yaw_rad + nose.turn_rad)
@@ -181,8 +225,8 @@ class _Garage:
             found = find_way(self.car, parked, obstacles, poses, limits)
             return found.way, found.touched
 
-        both, leave = self.poses_at(stall.access_square, to_leave=True, backing=backing)
-        _, arrive = self.poses_at(stall.access_square, to_leave=False, backing=backing)
+        both, leave = self.poses_at(stall.access, to_leave=True, backing=backing)
+        _, arrive = self.poses_at(stall.access, to_leave=False, backing=backing)
         out, touched = way(both)
         if out is not None:
             return out.reversed(), out, ()
@@ -191,3 +235,12 @@ class _Garage:
             return None, None, touched
         into, touched = way(arrive) if len(arrive) > len(both) else (None, touched)
         return into.reversed() if into else None, out, touched
+
+
+def _absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:
+    """A car in the middle of each stall that holds none."""
+    return Obstacles.of(
+        (stall.absent, shapely.Polygon(car.corners(car.centred(stall.centre_m, stall.yaw_rad))))
+        for stall in stalls
+        if stall.absent is not None
+    )

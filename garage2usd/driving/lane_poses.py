@@ -4,109 +4,142 @@ import math
 from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from enum import Enum, auto
 from functools import cached_property
-from itertools import pairwise
 
-import networkx as nx
-
-from garage2usd.dead_ends import dead_ends
-from garage2usd.driving.car import DesignCar
+from garage2usd.driving.car import DesignCar, Point
 from garage2usd.driving.proof import LanePose
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph, Square
 
-__all__ = ["DirectedEdge", "LaneDirections"]
+__all__ = ["DirectedEdge", "LaneDirections", "LaneSquare", "SquareUse"]
 
-DirectedEdge = tuple[Square, Square]
-"""From the middle of one square to the middle of the next."""
+DirectedEdge = tuple[int, int]
+"""From the middle of one square to the middle of the next, by their numbers."""
 _NEAR_EDGES = 2
+_SHORTEST_M = 1e-3
+
+
+class SquareUse(Enum):
+    """What cars do on a square."""
+
+    LANE = auto()
+    ENTRANCE = auto()
+    EXIT = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class LaneSquare:
+    """A square of a lane, or a portal.
+
+    Attributes
+    ----------
+    middle_m
+        (x, z) of its middle.
+    sides_m
+        Its extents along X and Z.
+    use
+        Whether it is a lane, an entrance or an exit.
+    """
+
+    middle_m: Point
+    sides_m: tuple[float, float]
+    use: SquareUse = SquareUse.LANE
 
 
 @dataclass(frozen=True, eq=False)
 class LaneDirections:
-    """The edges of a lane graph by direction, and which of them lie on a way from an entrance or to an exit.
+    """Lanes by direction, and which of them lie on a way from an entrance or to an exit.
 
     All ways are driven forward, and no car turns round on a lane.
 
     Attributes
     ----------
-    structure, graph
-        The plan and its lanes.
-    setback_m
-        How far the carriageway stays from squares that are no lane.
+    squares
+        Lanes and portals; their numbers are their places.
+    widths_m
+        Width of the carriageway of each edge in each direction that it is driven in.
+    backing
+        Edges that lead into a dead end that cars may back out of.
     """
 
-    structure: Structure
-    graph: LaneGraph
-    setback_m: float
+    squares: tuple[LaneSquare, ...]
+    widths_m: Mapping[DirectedEdge, float]
+    backing: frozenset[DirectedEdge] = frozenset()
 
     @cached_property
     def arriving(self) -> frozenset[DirectedEdge]:
         """Edges that cars come to from an entrance."""
-        entrances = self.structure.where(Cell.ENTRANCE)
-        return self._spread((entrance, lane) for entrance in entrances for lane in self.graph.graph[entrance])
+        return self._spread(self._onward, SquareUse.ENTRANCE)
 
     @cached_property
     def leaving(self) -> frozenset[DirectedEdge]:
         """Edges that lead on to an exit."""
-        exits = self.structure.where(Cell.EXIT)
-        back = self._spread((exit_, lane) for exit_ in exits for lane in self.graph.graph[exit_])
-        return frozenset((one, other) for other, one in back)
+        return frozenset((one, other) for other, one in self._spread(self._backward, SquareUse.EXIT))
 
-    @cached_property
-    def backing(self) -> frozenset[DirectedEdge]:
-        """Edges that lead into a dead end that cars may back out of: one of at most 26 m."""
-        backed: set[DirectedEdge] = set()
-        for end in dead_ends(self.structure):
-            if not end.needs_turning_stall:
-                towards = [*reversed(end.squares)]
-                outside = [square for square in self.graph.graph[towards[0]] if square not in end.squares]
-                backed.update((square, towards[0]) for square in outside)
-                backed.update(pairwise(towards))
-        return frozenset(backed)
-
-    def near(self, square: Square) -> list[DirectedEdge]:
-        """The edges in both directions that are at most two squares from one, the nearest first."""
-        steps: Mapping[Square, int] = nx.single_source_shortest_path_length(
-            self.graph.graph, square, cutoff=_NEAR_EDGES
-        )
-        edges = [(one, other) for one in steps for other in self.graph.graph[one] if other in steps]
+    def near(self, square: int) -> list[DirectedEdge]:
+        """The edges in all their directions that are at most two squares from one, the nearest first."""
+        steps = {square: 0}
+        waiting = deque([square])
+        while waiting:
+            one = waiting.popleft()
+            for other in (*self._onward[one], *self._backward[one]) if steps[one] < _NEAR_EDGES else ():
+                if other not in steps:
+                    steps[other] = steps[one] + 1
+                    waiting.append(other)
+        edges = [(one, other) for one in steps for other in self._onward[one] if other in steps]
         return sorted(edges, key=lambda edge: (steps[edge[0]] + steps[edge[1]], edge))
 
     def poses(self, edges: Iterable[DirectedEdge], car: DesignCar) -> list[LanePose]:
         """Where a car may be in line with some edges, its middle on the edge and its body within the carriageway."""
         poses = (self._pose(edge, car) for edge in edges)
-        return [pose for pose in poses if min(pose.length_m, pose.width_m) >= 0]
+        return [pose for pose in poses if pose is not None and min(pose.length_m, pose.width_m) >= 0]
 
-    def _spread(self, edges: Iterable[DirectedEdge]) -> frozenset[DirectedEdge]:
-        """Some edges, and those that follow them without turning round or driving through a portal."""
-        reached = set(edges)
-        waiting = deque(sorted(reached))
+    @cached_property
+    def _onward(self) -> tuple[tuple[int, ...], ...]:
+        return self._ways(self.widths_m)
+
+    @cached_property
+    def _backward(self) -> tuple[tuple[int, ...], ...]:
+        return self._ways((other, one) for one, other in self.widths_m)
+
+    def _ways(self, edges: Iterable[DirectedEdge]) -> tuple[tuple[int, ...], ...]:
+        ways: list[list[int]] = [[] for _ in self.squares]
+        for one, other in edges:
+            ways[one].append(other)
+        return tuple(map(tuple, ways))
+
+    def _spread(self, ways: tuple[tuple[int, ...], ...], use: SquareUse) -> frozenset[DirectedEdge]:
+        """The edges off the portals of a use, and those that follow them without turning round or through a portal."""
+        starts = [number for number, square in enumerate(self.squares) if square.use is use]
+        reached = {(start, other) for start in starts for other in ways[start]}
+        waiting = deque(reached)
         while waiting:
             one, other = waiting.popleft()
-            if self.structure.cells[other] != Cell.LANE:
+            if self.squares[other].use is not SquareUse.LANE:
                 continue
-            for beyond in self.graph.graph[other]:
+            for beyond in ways[other]:
                 if beyond != one and (other, beyond) not in reached:
                     reached.add((other, beyond))
                     waiting.append((other, beyond))
         return frozenset(reached)
 
-    def _pose(self, edge: DirectedEdge, car: DesignCar) -> LanePose:
-        (row, col), (to_row, to_col) = edge
-        z_edges, x_edges = self.structure.row_edges_m, self.structure.column_edges_m
-        along_x = row == to_row
-        (near_low, near_high), (far_low, far_high) = (
-            (float(lines[at]), float(lines[at + 1]))
-            for lines, at in (((x_edges, col), (x_edges, to_col)) if along_x else ((z_edges, row), (z_edges, to_row)))
+    def _pose(self, edge: DirectedEdge, car: DesignCar) -> LanePose | None:
+        """Along the middle line, and as far as the car stays within both squares."""
+        start, end = (self.squares[number] for number in edge)
+        way = end.middle_m[0] - start.middle_m[0], end.middle_m[1] - start.middle_m[1]
+        length = math.hypot(*way)
+        if length < _SHORTEST_M:
+            return None
+        along = way[0] / length, way[1] / length
+        behind, beyond = (
+            (abs(along[0]) * square.sides_m[0] + abs(along[1]) * square.sides_m[1]) / 2 for square in (start, end)
         )
-        low = max(min((near_low + near_high) / 2, (far_low + far_high) / 2), min(near_low, far_low) + car.length_m / 2)
-        high = min(
-            max((near_low + near_high) / 2, (far_low + far_high) / 2), max(near_high, far_high) - car.length_m / 2
-        )
-        across = (z_edges, row) if along_x else (x_edges, col)
-        side_low, side_high = float(across[0][across[1]]), float(across[0][across[1] + 1])
-        width = side_high - side_low - 2 * self.setback_m - car.width_m
-        middle = (low + high) / 2, (side_low + side_high) / 2
-        step_x, step_z = to_col - col, to_row - row
-        return LanePose(middle if along_x else middle[::-1], math.atan2(-step_x, -step_z), high - low, width)
+        low = max(0.0, car.length_m / 2 - behind)
+        high = min(length, length + beyond - car.length_m / 2)
+        middle = (low + high) / 2
+        place = start.middle_m[0] + along[0] * middle, start.middle_m[1] + along[1] * middle
+        return LanePose(place, _yaw_rad(along), high - low, self.widths_m[edge] - car.width_m)
+
+
+def _yaw_rad(along: Point) -> float:
+    """Yaw of a direction; without the sign of zeros, so that a direction has one yaw."""
+    return math.atan2(-along[0] + 0.0, -along[1] + 0.0)

@@ -5,14 +5,13 @@ from collections.abc import Iterator
 import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.driving.car import DesignCar
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.layout import Layout, ObjectKind, Placement, Stall
+from garage2usd.layout import Layout, ObjectKind, Placement
 from garage2usd.layout import specs as s
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.placement import to_world
 
-__all__ = ["absent_cars", "fixed_objects", "object_name", "own_objects", "parked_cars"]
+__all__ = ["fixed_objects", "object_name", "parked_cars"]
 
 _TOUCHABLE = (
     ObjectKind.WALL,
@@ -57,36 +56,12 @@ def parked_cars(layout: Layout) -> Obstacles:
     return _named_shapes(layout.of_kind(ObjectKind.CAR))
 
 
-def absent_cars(layout: Layout, car: DesignCar) -> Obstacles:
-    """A car in the middle of each stall that takes one and holds none, named as the car that it would hold."""
-    present = {object_name(place) for place in layout.of_kind(ObjectKind.CAR)}
-    shapes = []
-    for stall in layout.stalls:
-        name = _on_square("Car", stall)
-        if stall.use.takes_cars and name not in present:
-            footprint = car.corners(car.centred(stall.centre_m, stall.yaw_rad))
-            shapes.append((name, shapely.Polygon(footprint)))
-    return Obstacles.of(shapes)
-
-
 def object_name(place: Placement) -> str:
     """A name that no other object of the garage has: ``r03_c07/Car_2`` on a square, else its own."""
     if place.square is None:
         return place.name
     row, col = place.square
     return f"r{row:02d}_c{col:02d}/{place.name}"
-
-
-def own_objects(stall: Stall, obstacles: Obstacles) -> list[str]:
-    """Names of what is a stall's own and not in the way of a car that parks there: its car, wheel stop and cones."""
-    cone = _on_square("Cone", stall) + "_"
-    cones = [name for name in obstacles.named(range(len(obstacles.owner))) if name.startswith(cone)]
-    return [_on_square("Car", stall), _on_square("WheelStop", stall), *cones]
-
-
-def _on_square(kind: str, stall: Stall) -> str:
-    row, col = stall.square
-    return f"r{row:02d}_c{col:02d}/{stall.named(kind)}"
 
 
 def _named_shapes(placements: tuple[Placement, ...] | list[Placement]) -> Obstacles:
