@@ -14,6 +14,7 @@ from garage2usd.checks import (
     portal,
     ramp,
     stall,
+    swept_path,
     usd,
 )
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
@@ -40,6 +41,7 @@ RULES: tuple[Rule, ...] = tuple(
         light,
         egress,
         feasibility,
+        swept_path,
         consistency,
         usd,
     )

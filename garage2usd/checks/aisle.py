@@ -13,7 +13,7 @@ from garage2usd.checks.subject import LaneEdge, Point, Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
 
-__all__ = ["BOOK"]
+__all__ = ["BOOK", "dead_end_of", "edge_name"]
 
 BOOK = RuleBook()
 _BUILDING = {"column", "wall", "obstacle"}
@@ -60,7 +60,9 @@ def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
         measured, narrowed_by = _clear_width(subject, way, edge.width_m)
         if measured < required - ROUNDING_M:
             reason = f"; {narrowed_by} stands in it" if narrowed_by else ""
-            yield Miss(_name(subject, edge), way.middle, f"the aisle is too narrow{reason}", measured, required)
+            things = (narrowed_by,) if narrowed_by else ()
+            message = f"the aisle is too narrow{reason}"
+            yield Miss(edge_name(subject, edge), way.middle, message, measured, required, things)
 
 
 @BOOK.rule("lane-blocked", asks="nothing stands on a lane")
@@ -72,7 +74,8 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
             if solid.label in _MAY_STAND_ON_LANES or solid.name in seen or _is_parked(solid, subject):
                 continue
             seen.add(solid.name)
-            yield Miss(solid.name, solid.centre, f"a {solid.kind} stands on the lane {_name(subject, edge)}")
+            message = f"a {solid.kind} stands on the lane {edge_name(subject, edge)}"
+            yield Miss(solid.name, solid.centre, message, things=(solid.name,))
 
 
 def _is_parked(solid: Solid, subject: Subject) -> bool:
@@ -121,7 +124,7 @@ def _dead_ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
     for tip in range(len(subject.nodes)):
         if subject.nodes[tip].is_portal or len(subject.beside[tip]) > 1:
             continue
-        squares, length = _dead_end(tip, subject)
+        squares, length = dead_end_of(tip, subject)
         if length <= profile.dead_end_length.amount + ROUNDING_M:
             continue
         uses = {stall.use for stall in subject.stalls if stall.access in squares}
@@ -131,7 +134,7 @@ def _dead_ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(node.name, node.position, message, length, profile.dead_end_length.amount)
 
 
-def _dead_end(tip: int, subject: Subject) -> tuple[list[int], float]:
+def dead_end_of(tip: int, subject: Subject) -> tuple[list[int], float]:
     """The lanes from a tip back to the next junction or portal, and their length in metres from the tip's far side."""
     nodes, beside = subject.nodes, subject.beside
     squares, previous, node = [tip], -1, tip
@@ -159,5 +162,6 @@ def _side(subject: Subject, tip: int) -> float:
     return node.widths_m[int(abs(node.position[0] - other.position[0]) < ROUNDING_M)]
 
 
-def _name(subject: Subject, edge: LaneEdge) -> str:
+def edge_name(subject: Subject, edge: LaneEdge) -> str:
+    """A way by the names of its ends."""
     return f"{subject.nodes[edge.start].name}-{subject.nodes[edge.end].name}"

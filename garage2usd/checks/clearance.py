@@ -140,4 +140,4 @@ def _closest(car: _ParkedCar, near: list[Solid], required: float, what: str, sub
         measured, name = min(distances)
         if measured < required - ROUNDING_M:
             message = f"a car in the stall comes too close to {what}: {name}"
-            yield Miss(car.stall.name, car.stall.centre, message, measured, required)
+            yield Miss(car.stall.name, car.stall.centre, message, measured, required, (name,))

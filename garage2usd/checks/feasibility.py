@@ -1,7 +1,4 @@
-"""Rules of feasibility: each stall has a route from an entrance and to an exit on the lane graph.
-
-That a car can drive from the lane into the stall, on a path that touches nothing, is a rule of this module too.
-"""
+"""Rules of feasibility: each stall has a route from an entrance and to an exit on the lane graph."""
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence

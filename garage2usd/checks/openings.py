@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.checks.shapes import Array, Body, Thing
 
-__all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of"]
+__all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of", "section_of"]
 
 _CUT_M = 1.0
 """Height over the floor at which a door's width is measured."""
@@ -85,6 +85,12 @@ def doors_of(things: Iterable[Thing]) -> Iterator[Door]:
 def ramps_of(things: Iterable[Thing]) -> Iterator[Ramp]:
     """The ramps among all objects."""
     return (_ramp(thing) for thing in things if thing.label == "ramp" and thing.bodies)
+
+
+def section_of(thing: Thing, level_m: float = _CUT_M) -> list[Array]:
+    """Where a level plane cuts the sides of an object: points (x, z) of each line; float64, shapes (n, 2)."""
+    cuts = (cut for body in thing.bodies for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), level_m))
+    return [cut[:, [0, 2]] for cut in cuts]
 
 
 def _door(thing: Thing) -> Door:

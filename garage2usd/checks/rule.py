@@ -15,13 +15,20 @@ ROUNDING_M = 1e-3
 
 
 class Miss(NamedTuple):
-    """A place that misses a rule; see `garage2usd.checks.finding.Finding`."""
+    """A place that misses a rule; see `garage2usd.checks.finding.Finding`.
+
+    Attributes
+    ----------
+    things
+        Prim paths of the objects that are at fault, where they may be in the way of other stalls too.
+    """
 
     place: str
     position: Point | None
     message: str
     measured: float | None = None
     required: float | None = None
+    things: tuple[str, ...] = ()
 
 
 Find = Callable[[Subject, Profile], Iterable[Miss]]

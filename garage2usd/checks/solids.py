@@ -100,6 +100,13 @@ class Solids:
         _, first = np.unique(self._owner[rows], return_index=True)
         return (self._solid(index) for index in rows[first].tolist())
 
+    def grounds(self, below_m: float) -> Iterator[tuple[str, str, list[shapely.Polygon]]]:
+        """Name, class and outlines of each object that stands, of its pieces that begin lower than a height."""
+        rows = np.flatnonzero(~self._hangs & (self._low < below_m))
+        owners, starts = np.unique(self._owner[rows], return_index=True)
+        for owner, pieces in zip(owners.tolist(), np.split(rows, starts[1:]), strict=True):
+            yield self._names[owner], self._labels[owner], self._footprints[pieces].tolist()
+
     def at(self, area: shapely.Polygon, *, hanging: bool = False, within_m: float = 0.0) -> list[Solid]:
         """The pieces of what stands, or of what hangs, that meet an area or lie within a distance of it."""
         found = self._tree.query(area, predicate="dwithin", distance=within_m)

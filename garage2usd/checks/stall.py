@@ -53,7 +53,7 @@ def _column(subject: Subject, _: Profile) -> Iterator[Miss]:
     for stall in subject.stalls:
         for solid in standing_in(stall, subject):
             if solid.label == "column":
-                yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall")
+                yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall", things=(solid.name,))
                 break
 
 
@@ -62,7 +62,8 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
     for stall in subject.parking_stalls:
         for solid in standing_in(stall, subject):
             if solid.label not in _BELONGS:
-                yield Miss(stall.name, stall.centre, f"a {solid.kind} stands in the stall: {solid.name}")
+                message = f"a {solid.kind} stands in the stall: {solid.name}"
+                yield Miss(stall.name, stall.centre, message, things=(solid.name,))
                 break
 
 
@@ -71,7 +72,7 @@ def _outside(subject: Subject, _: Profile) -> Iterator[Miss]:
     for name, ground in _cars(subject).items():
         stall = home_of(ground, subject)
         if stall is not None and not stall.polygon.buffer(_TOUCH_M).covers(ground):
-            yield Miss(name, _centre(ground), f"the car stands out of {stall.name}")
+            yield Miss(name, _centre(ground), f"the car stands out of {stall.name}", things=(name,))
 
 
 @BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")
@@ -79,7 +80,8 @@ def _kept_free(subject: Subject, _: Profile) -> Iterator[Miss]:
     for name, ground in _cars(subject).items():
         stall = home_of(ground, subject)
         if stall is not None and not stall.takes_cars:
-            yield Miss(stall.name, stall.centre, f"{name} stands in a stall of the use {stall.use.value}")
+            message = f"{name} stands in a stall of the use {stall.use.value}"
+            yield Miss(stall.name, stall.centre, message, things=(name,))
 
 
 @BOOK.rule("stall-two-cars", asks="a stall holds one car at most")
@@ -88,7 +90,8 @@ def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
     for name, ground in _cars(subject).items():
         stall = home_of(ground, subject)
         if stall is not None and first.setdefault(stall.name, name) != name:
-            yield Miss(stall.name, stall.centre, f"{first[stall.name]} and {name} stand in one stall")
+            both = first[stall.name], name
+            yield Miss(stall.name, stall.centre, f"{both[0]} and {both[1]} stand in one stall", things=both)
 
 
 @BOOK.rule("wheel-stop-height", "wheel_stop_height", asks="a wheel stop is low enough for a car's front")

@@ -15,12 +15,14 @@ from garage2usd.driving.car import DesignCar, Point
 from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import LanePose, Limits, find_way
+from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m
 from garage2usd.progress import Progress, silent
 
 __all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "prove_garage"]
 
 _SUSPECTS = 8
+_QUARTER = math.pi / 2
+_ASKEW_RAD, _SAME_RAD = 1e-4, 1e-9
 
 
 class Nose(StrEnum):
@@ -56,6 +58,9 @@ class StallProof:
         were ways; where no single one is, of those that were touched most often.
     is_single_cause
         Whether `touched` are such.
+    clearance_m
+        What is left between the car and the first of those causes on ways that are clear of all else, negative where
+        the car would go through it: a lower bound.
     """
 
     stall: str
@@ -66,6 +71,7 @@ class StallProof:
     backs_out: bool = False
     touched: tuple[str, ...] = ()
     is_single_cause: bool = False
+    clearance_m: float | None = None
 
     @property
     def is_proven(self) -> bool:
@@ -124,6 +130,7 @@ def prove_garage(
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
+    most_explained: int | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
     """Drive a car into each stall and out again.
@@ -136,6 +143,8 @@ def prove_garage(
         Those of its stalls that are asked for; left out, all.
     car, limits
         The car, and what is asked of its driver.
+    most_explained
+        For how many stalls without ways a single cause is looked for; None for all.
     progress
         Told of each stall.
 
@@ -152,10 +161,14 @@ def prove_garage(
     """
     prover = _Prover(garage, car or DesignCar(), limits or Limits())
     asked = garage.stalls if stalls is None else tuple(stalls)
-    proofs = []
+    proofs, failed = [], 0
     for done, stall in enumerate(asked):
         progress("driving", done, len(asked))
-        proofs.append(prover.proof_of(stall))
+        proof = prover.proof_of(stall)
+        if not proof.is_proven and (most_explained is None or failed < most_explained):
+            proof = prover.explained(stall, proof)
+        failed += not proof.is_proven
+        proofs.append(proof)
     return tuple(proofs)
 
 
@@ -182,7 +195,7 @@ class _Prover:
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
     def proof_of(self, stall: DrivenStall) -> StallProof:
-        """The ways of one stall, or what is in their way."""
+        """The ways of one stall, or what was touched."""
         full = self._seen_from(stall, self.full)
         touched: list[str] = []
         for obstacles in (full, self._seen_from(stall, self.as_it_stands)):
@@ -197,9 +210,18 @@ class _Prover:
                     if way_in and way_out:
                         return StallProof(stall.name, nose, way_in, way_out, is_full, backing)
                     touched += in_the_way
-        suspects = tuple(dict.fromkeys(touched))
-        causes = tuple(name for name in suspects[:_SUSPECTS] if self._is_proven(stall, full.without([name])))
-        return StallProof(stall.name, touched=causes or suspects, is_single_cause=bool(causes))
+        return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)))
+
+    def explained(self, stall: DrivenStall, proof: StallProof) -> StallProof:
+        """The failed proof of a stall with what alone is in the way, if there is such a thing."""
+        full, suspects = self._seen_from(stall, self.full), proof.touched
+        without = {name: self._ways_without(stall, name, full) for name in suspects[:_SUSPECTS]}
+        causes = tuple(name for name, ways in without.items() if ways)
+        if not causes:
+            return proof
+        cause = full.only(causes[0])
+        clearance_m = min(least_clearance_m(self.car, way, cause) for way in without[causes[0]])
+        return StallProof(stall.name, touched=causes, is_single_cause=True, clearance_m=clearance_m)
 
     def _has_backing(self, stall: DrivenStall) -> bool:
         """Whether backing out of a dead end gives more lane poses near a stall."""
@@ -210,10 +232,14 @@ class _Prover:
         near = obstacles.near(stall.centre_m, 1.5 * (self.limits.reach_m + self.car.length_m))
         return near.without(stall.own if stall.absent is None else (*stall.own, stall.absent))
 
-    def _is_proven(self, stall: DrivenStall, obstacles: Obstacles) -> bool:
-        """Whether there are ways, looked for roughly."""
+    def _ways_without(self, stall: DrivenStall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
+        """The ways in and out where one thing is left out, looked for roughly; none if there are not both."""
         limits = replace(self.limits, is_thorough=False)
-        return any(all(self._ways(stall, nose, obstacles, limits, backing=True)[:2]) for nose in Nose)
+        for nose in Nose:
+            way_in, way_out, _ = self._ways(stall, nose, obstacles.without([name]), limits, backing=True)
+            if way_in and way_out:
+                return way_in, way_out
+        return ()
 
     def _ways(
         self, stall: DrivenStall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
@@ -222,8 +248,13 @@ class _Prover:
         parked = self.car.centred(stall.centre_m, stall.yaw_rad + nose.turn_rad)
 
         def way(poses: list[LanePose]) -> tuple[Manoeuvre | None, tuple[str, ...]]:
-            found = find_way(self.car, parked, obstacles, poses, limits)
-            return found.way, found.touched
+            touched: list[str] = []
+            for family in _families(poses):
+                found = find_way(self.car, parked, obstacles, family, limits)
+                if found.way is not None:
+                    return found.way, ()
+                touched += found.touched
+            return None, tuple(dict.fromkeys(touched))
 
         both, leave = self.poses_at(stall.access, to_leave=True, backing=backing)
         _, arrive = self.poses_at(stall.access, to_leave=False, backing=backing)
@@ -235,6 +266,23 @@ class _Prover:
             return None, None, touched
         into, touched = way(arrive) if len(arrive) > len(both) else (None, touched)
         return into.reversed() if into else None, out, touched
+
+
+def _families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
+    """Poses whose directions differ by quarter turns, but for rounding, together; their directions then do exactly."""
+    families: list[list[LanePose]] = []
+    for pose in poses:
+        for family in families:
+            turned = pose.yaw_rad - family[0].yaw_rad
+            quarters = round(turned / _QUARTER)
+            off = abs(turned - quarters * _QUARTER)
+            if off < _ASKEW_RAD:
+                exact = family[0].yaw_rad + quarters * _QUARTER
+                family.append(pose if off < _SAME_RAD else replace(pose, yaw_rad=exact))
+                break
+        else:
+            families.append([pose])
+    return families
 
 
 def _absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:

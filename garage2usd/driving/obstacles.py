@@ -72,9 +72,17 @@ class Obstacles:
 
     def without(self, names: Iterable[str]) -> "Obstacles":
         """The same but for some names."""
-        left_out = set(names)
-        numbers = [number for number in np.unique(self.owner).tolist() if self.names[number] in left_out]
-        return self.kept(~np.isin(self.owner, numbers))
+        return self.kept(~self._is_of(names))
+
+    def only(self, *names: str) -> "Obstacles":
+        """Nothing but some names."""
+        return self.kept(self._is_of(names))
+
+    def _is_of(self, names: Iterable[str]) -> NDArray[np.bool_]:
+        wanted = set(names)
+        return np.isin(
+            self.owner, [number for number in np.unique(self.owner).tolist() if self.names[number] in wanted]
+        )
 
     def kept(self, is_kept: NDArray[np.bool_]) -> "Obstacles":
         """Some of the pieces, with all names."""
@@ -99,8 +107,9 @@ def _convex(shape: shapely.Geometry) -> list[Floats]:
     if isinstance(shape, shapely.Polygon):
         corners = np.array(shape.exterior.coords)[:-1, :2]
         is_convex = shape.convex_hull.area - shape.area <= _ROUNDING_M2
-        if len(corners) <= _CORNERS and is_convex:
-            return [_padded(corners)]
+        if is_convex:
+            fan = range(1, len(corners) - 1, _CORNERS - 2)
+            return [_padded(np.concatenate([corners[:1], corners[at : at + _CORNERS - 1]])) for at in fan]
         triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(shape))
         return [_padded(np.array(triangle.exterior.coords)[:-1, :2]) for triangle in triangles]
     points = np.array(shape.coords)[:, :2]

@@ -1,5 +1,6 @@
 import json
 import math
+from dataclasses import replace
 
 import networkx as nx
 import numpy as np
@@ -10,8 +11,8 @@ from pxr import Usd, UsdGeom
 from sample_files import REPOSITORY
 
 import garage2usd
-from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_stalls
-from garage2usd.driving.lane_poses import LaneDirections
+from garage2usd.driving import DesignCar, DrivenGarage, Manoeuvre, Obstacles, prove_garage, prove_stalls
+from garage2usd.driving.layout_garage import layout_garage, numbered_squares, square_directions
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.driving.witness import write_witness
 from garage2usd.grid import Cell
@@ -37,6 +38,16 @@ def drawn(*, structure=DRAWN, **sections):
 def proofs_of(garage, **settings):
     setback_m = garage.config.bay.carriageway_setback_m
     return prove_stalls(garage.layout, garage.graph, setback_m=setback_m, **settings)
+
+
+def directions_of(garage):
+    """The lanes by direction, and (row, col) of each."""
+    directions = square_directions(garage.plan.structure, garage.graph, garage.config.bay.carriageway_setback_m)
+    return directions, list(numbered_squares(garage.graph))
+
+
+def named(edges, squares):
+    return {(squares[one], squares[other]) for one, other in edges}
 
 
 @pytest.fixture(scope="module")
@@ -96,17 +107,20 @@ def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
         cells, graph = made.plan.structure.cells, made.graph.graph
         lines = nx.line_graph(nx.DiGraph(graph))
         lines.remove_edges_from([(a, b) for a, b in lines.edges if a[0] == b[1] or cells[a[1]] != Cell.LANE])
-        directions = LaneDirections(made.plan.structure, made.graph, made.config.bay.carriageway_setback_m)
+        directions, squares = directions_of(made)
         starts = [edge for edge in lines if cells[edge[0]] == Cell.ENTRANCE]
         ends = [edge for edge in lines if cells[edge[1]] == Cell.EXIT]
-        assert directions.arriving == {b for b in lines if any(nx.has_path(lines, a, b) for a in starts)}
-        assert directions.leaving == {a for a in lines if any(nx.has_path(lines, a, b) for b in ends)}
+        assert named(directions.arriving, squares) == {
+            b for b in lines if any(nx.has_path(lines, a, b) for a in starts)
+        }
+        assert named(directions.leaving, squares) == {a for a in lines if any(nx.has_path(lines, a, b) for b in ends)}
 
 
 def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, proofs):
-    directions = LaneDirections(garage.plan.structure, garage.graph, garage.config.bay.carriageway_setback_m)
-    assert {((3, 3), (4, 3)), ((4, 3), (5, 3))} <= directions.backing
-    assert not {((4, 3), (3, 3)), ((5, 3), (4, 3))} & directions.backing
+    directions, numbers = directions_of(garage)
+    backing = named(directions.backing, numbers)
+    assert {((3, 3), (4, 3)), ((4, 3), (5, 3))} <= backing
+    assert not {((4, 3), (3, 3)), ((5, 3), (4, 3))} & backing
     for proof in proofs:
         if not proof.backs_out:
             end = proof.way_out.end
@@ -115,10 +129,10 @@ def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, pr
 
 def test_lane_poses_keep_the_whole_car_on_the_carriageway(garage):
     car, setback_m = DesignCar(), garage.config.bay.carriageway_setback_m
-    directions = LaneDirections(garage.plan.structure, garage.graph, setback_m)
+    directions, numbers = directions_of(garage)
     x, z = garage.plan.structure.column_edges_m, garage.plan.structure.row_edges_m
-    for edge in directions.near((3, 3)):
-        squares = [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in edge]
+    for edge in directions.near(numbers.index((3, 3))):
+        squares = [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in (numbers[end] for end in edge)]
         for pose in directions.poses([edge], car):
             along = np.array([-math.sin(pose.yaw_rad), -math.cos(pose.yaw_rad)])
             across = np.array([along[1], -along[0]])
@@ -189,15 +203,34 @@ def test_a_single_cause_is_named():
     proofs = proofs_of(garage)
     stall = next(s for s in garage.layout.stalls if s.name == proofs[4].stall)
     x, z = np.mean(stall.corners_m()[:2], axis=0)
-    from garage2usd.driving import garage as module
-
-    shared = module._Garage(
-        garage.layout, garage.graph, garage.config.bay.carriageway_setback_m, DesignCar(), module.Limits()
-    )
     pillar = Obstacles.of([("new pillar", shapely.box(x - 0.3, z - 0.3, x + 0.3, z + 0.3))])
-    shared.full, shared.as_it_stands = shared.full.joined(pillar), shared.as_it_stands.joined(pillar)
-    proof = shared.proof_of(stall)
+    made = layout_garage(garage.layout, garage.graph, garage.config.bay.carriageway_setback_m)
+    made = replace(made, standing=made.standing.joined(pillar))
+    (proof,) = prove_garage(made, [s for s in made.stalls if s.name == stall.name])
     assert (proof.is_proven, proof.touched, proof.is_single_cause) == (False, ("new pillar",), True)
+    assert -1.4 < proof.clearance_m < 0.05
+
+
+def turned(garage, yaw_rad):
+    """The same plain garage, turned about the origin."""
+    cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
+
+    def at(point):
+        return point[0] * cos + point[1] * sin, -point[0] * sin + point[1] * cos
+
+    stalls = [replace(s, centre_m=at(s.centre_m), yaw_rad=s.yaw_rad + yaw_rad) for s in garage.stalls]
+    squares = [replace(square, middle_m=at(square.middle_m)) for square in garage.directions.squares]
+    standing = garage.standing.seen_from(0.0, 0.0, -yaw_rad)
+    return DrivenGarage(tuple(stalls), replace(garage.directions, squares=tuple(squares)), standing)
+
+
+@pytest.mark.parametrize("yaw_rad", [1e-6, 0.5])
+def test_a_garage_that_is_turned_is_driven_alike(garage, proofs, yaw_rad):
+    """Squares keep their sides, which only matter where they are shorter than a car."""
+    made = turned(layout_garage(garage.layout, garage.graph, garage.config.bay.carriageway_setback_m), yaw_rad)
+    for proof, other in zip(proofs, prove_garage(made), strict=True):
+        assert (other.stall, other.is_proven, other.is_full) == (proof.stall, True, True)
+        assert other.way_out.clearance_m >= 0.05
 
 
 def test_the_witness_says_in_json_what_was_proven(proofs, tmp_path):

@@ -1,0 +1,136 @@
+"""A garage that is checked, as plain geometry that a car drives in."""
+
+import math
+from collections import defaultdict
+from collections.abc import Collection, Iterator
+from itertools import pairwise
+
+import numpy as np
+import shapely
+
+from garage2usd.checks.aisle import dead_end_of
+from garage2usd.checks.openings import section_of
+from garage2usd.checks.stall import home_of
+from garage2usd.checks.subject import Point, StallOutline, Subject
+from garage2usd.dead_ends import DEAD_END_LIMIT_MM
+from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
+
+__all__ = ["driven_garage"]
+
+_USES = {"entrance": SquareUse.ENTRANCE, "exit": SquareUse.EXIT}
+_DRIVEN_THROUGH = {"vehicle_door", "ramp"}
+"""What a convex outline would close; it counts by its section instead."""
+_DRIVEN_OVER = {"speed_bump"}
+_OWN = {"car", "wheel_stop", "traffic_cone"}
+"""What is not in the way of the car whose stall it stands in."""
+_CORNERS, _DIRECTIONS = 4, 8
+_SLACK_M2 = 0.05
+"""Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
+_DIGITS = 4
+"""Metres are rounded to so many, so that the single precision of a stage makes no difference."""
+
+
+def driven_garage(subject: Subject, *, height_m: float, left_out: Collection[str] = ()) -> DrivenGarage:
+    """The stalls, the lanes by direction, and what stands on the floor; each thing by its prim path.
+
+    Parameters
+    ----------
+    subject
+        The garage.
+    height_m
+        What begins higher touches no car.
+    left_out
+        Prim paths of things that are thought away.
+    """
+    shapes, own, taken = [], defaultdict(list), set()
+    for name, label, ground in _standing(subject, height_m):
+        if name in left_out:
+            continue
+        home = home_of(ground.convex_hull, subject) if label in _OWN else None
+        if home is not None:
+            own[home.name].append(name)
+            if label == "car":
+                taken.add(home.name)
+        shapes.append((name, ground))
+    found = Obstacles.of(shapes)
+    standing = Obstacles(found.names, found.owner, np.round(found.pieces, _DIGITS))
+    stalls = tuple(
+        DrivenStall(
+            name=stall.name,
+            centre_m=_rounded(stall.centre),
+            yaw_rad=_yaw_rad(stall),
+            access=stall.access,
+            absent=None if stall.name in taken else f"a car in {stall.name}",
+            own=tuple(own[stall.name]),
+        )
+        for stall in subject.parking_stalls
+    )
+    return DrivenGarage(stalls, _directions(subject), standing)
+
+
+def _standing(subject: Subject, height_m: float) -> Iterator[tuple[str, str, shapely.Geometry]]:
+    """Name, class and ground of each thing that a car could touch."""
+    for name, label, pieces in subject.solids.grounds(height_m):
+        if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
+            yield name, label, _simple(pieces)
+    for thing in subject.things:
+        if thing.label in _DRIVEN_THROUGH:
+            yield thing.name, thing.label, shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
+
+
+def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:
+    """Convex pieces as fewer ones that hold them: one where they nearly fill it, none with more than eight corners."""
+    if len(pieces) > 1:
+        whole = shapely.union_all(pieces)
+        pieces = [whole.convex_hull] if whole.convex_hull.area - whole.area <= _SLACK_M2 else pieces
+    return shapely.MultiPolygon([_eight_cornered(piece) for piece in pieces])
+
+
+def _eight_cornered(piece: shapely.Polygon) -> shapely.Polygon:
+    """A convex polygon, or the tightest one around it with eight sides along and halfway between those of its box."""
+    corners = np.asarray(piece.exterior.coords)[:-1]
+    if len(corners) <= _CORNERS:
+        return piece
+    box = np.asarray(shapely.oriented_envelope(piece).exterior.coords)
+    angles = math.atan2(*(box[1] - box[0])[::-1]) + np.arange(_DIRECTIONS) * math.tau / _DIRECTIONS
+    normals = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    reach = (corners @ normals.T).max(axis=0)
+    meets = [
+        np.linalg.solve(normals[[side, side - 1]], reach[[side, side - 1]]).tolist() for side in range(_DIRECTIONS)
+    ]
+    return shapely.Polygon(meets).convex_hull
+
+
+def _directions(subject: Subject) -> LaneDirections:
+    squares = tuple(
+        LaneSquare(_rounded(node.position), node.widths_m, _USES.get(node.kind, SquareUse.LANE))
+        for node in subject.nodes
+    )
+    widths: dict[tuple[int, int], float] = {}
+    for edge in subject.edges:
+        width = round(edge.width_m, _DIGITS)
+        widths[edge.start, edge.end] = width
+        if not edge.one_way:
+            widths[edge.end, edge.start] = width
+    backing: set[tuple[int, int]] = set()
+    for tip, node in enumerate(subject.nodes):
+        if node.is_portal or len(subject.beside[tip]) != 1:
+            continue
+        lanes, length_m = dead_end_of(tip, subject)
+        if length_m <= DEAD_END_LIMIT_MM / 1000:
+            backing.update((outside, lanes[-1]) for outside in subject.beside[lanes[-1]] if outside not in lanes)
+            backing.update(pairwise(reversed(lanes)))
+    return LaneDirections(squares, widths, frozenset(backing))
+
+
+def _yaw_rad(stall: StallOutline) -> float:
+    x, z = stall.outwards
+    return round(math.atan2(x, z), _DIGITS + 1) if abs(x * z) > 10**-_DIGITS else _quarter_rad(x, z)
+
+
+def _quarter_rad(x: float, z: float) -> float:
+    return math.atan2(round(x) + 0.0, round(z) + 0.0)
+
+
+def _rounded(point: Point) -> Point:
+    return round(point[0], _DIGITS), round(point[1], _DIGITS)

@@ -1,0 +1,93 @@
+"""The rule of driving: the design car gets into each stall and out of it without a touch."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from garage2usd.checks import aisle, clearance, feasibility, stall
+from garage2usd.checks.aisle import edge_name
+from garage2usd.checks.finding import Severity
+from garage2usd.checks.rule import Miss, RuleBook
+from garage2usd.checks.subject import Subject
+from garage2usd.profiles import Length, Profile
+
+if TYPE_CHECKING:
+    from garage2usd.driving import DesignCar, StallProof
+
+__all__ = ["BOOK", "design_car"]
+
+BOOK = RuleBook()
+_CAR_HEIGHT_M = 2.0
+_NAMED = 3
+_EXPLAINED = 10
+"""For so many stalls without ways a single cause is looked for, which takes a second or two each."""
+
+
+@BOOK.rule("swept-path", asks="the design car drives into each stall and out again without a touch")
+def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    """Leaves out what other rules report: stalls that have an error, and the things that are at fault elsewhere."""
+    entrances, exits = ([at for at in subject.portals(kind) if subject.beside[at]] for kind in ("entrance", "exit"))
+    if not (entrances and exits and subject.has_whole_graph and subject.things):
+        return
+    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415 - compiled code that only a proof needs
+    from garage2usd.driving import Limits, prove_garage  # noqa: PLC0415
+
+    faults = _reported(subject, profile)
+    places = {fault.place for fault in faults}
+    lanes = {node for edge in subject.edges if edge_name(subject, edge) in places for node in (edge.start, edge.end)}
+    height_m = _amount(profile.design_car_height, _CAR_HEIGHT_M)
+    things = {name for fault in faults for name in fault.things}
+    garage = driven_garage(subject, height_m=height_m, left_out=things)
+    asked = [at for at in garage.stalls if at.name not in places and at.access not in lanes]
+    limits = Limits()
+    proofs = prove_garage(garage, asked, car=design_car(profile), limits=limits, most_explained=_EXPLAINED)
+    for at, proof in zip(asked, proofs, strict=True):
+        if not proof.is_proven:
+            required = None if proof.clearance_m is None else limits.margin_m
+            yield Miss(proof.stall, at.centre_m, _message(proof), proof.clearance_m, required)
+
+
+def design_car(profile: Profile) -> "DesignCar":
+    """The car of a profile: its axles are where the default car has them, in proportion.
+
+    Raises
+    ------
+    ConfigError
+        If no car of that size turns so tightly.
+    """
+    from garage2usd.driving import DesignCar  # noqa: PLC0415
+
+    usual = DesignCar()
+    length_m = _amount(profile.design_car_length, usual.length_m)
+    width_m = _amount(profile.design_car_width, usual.width_m)
+    return DesignCar(
+        length_m=length_m,
+        width_m=width_m,
+        wheelbase_m=usual.wheelbase_m * (length_m / usual.length_m),
+        rear_overhang_m=usual.rear_overhang_m * (length_m / usual.length_m),
+        track_m=usual.track_m * (width_m / usual.width_m),
+        turning_radius_m=_amount(profile.turning_radius, usual.turning_radius_m),
+    )
+
+
+def _reported(subject: Subject, profile: Profile) -> list[Miss]:
+    """What the rules of stalls, aisles, clearances and routes report as errors."""
+    faults = []
+    for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
+        clause = getattr(profile, rule.clauses[0]) if rule.clauses else None
+        severity = clause.severity if clause else rule.severity
+        if severity is Severity.ERROR and not (rule.clauses and clause is None):
+            faults += rule.find(subject, profile)
+    return faults
+
+
+def _message(proof: "StallProof") -> str:
+    if not proof.touched:
+        return "no lane beside the stall is driven to from an entrance and on to an exit without turning round"
+    named = ", ".join(proof.touched[:_NAMED])
+    if proof.is_single_cause:
+        return f"a car does not get into the stall and out again; in the way: {named}"
+    return f"a car does not get into the stall and out again; it touches {named}"
+
+
+def _amount(clause: Length | None, usual: float) -> float:
+    return usual if clause is None else clause.amount
