@@ -11,16 +11,17 @@ from functools import lru_cache
 
 import shapely
 
-from garage2usd.driving.car import DesignCar, Point
+from garage2usd.driving.car import DesignCar, Point, Pose
 from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m
+from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m, touched_parked
 from garage2usd.progress import Progress, silent
 
 __all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "prove_garage"]
 
 _SUSPECTS = 8
+_FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
 _QUARTER = math.pi / 2
 _ASKEW_RAD, _SAME_RAD = 1e-4, 1e-9
 
@@ -241,11 +242,23 @@ class _Prover:
                 return way_in, way_out
         return ()
 
+    def _parked(self, stall: DrivenStall, nose: Nose, obstacles: Obstacles) -> Pose:
+        """In the middle of the stall, or as little further out as keeps the car off what stands behind."""
+        sin, cos = math.sin(stall.yaw_rad), math.cos(stall.yaw_rad)
+        poses = [
+            self.car.centred(
+                (stall.centre_m[0] + sin * out_m, stall.centre_m[1] + cos * out_m), stall.yaw_rad + nose.turn_rad
+            )
+            for out_m in _FURTHER_OUT_M
+        ]
+        clear = (pose for pose in poses if not touched_parked(self.car, pose, obstacles, self.limits.margin_m))
+        return next(clear, poses[0])
+
     def _ways(
         self, stall: DrivenStall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
     ) -> tuple[Manoeuvre | None, Manoeuvre | None, Sequence[str]]:
         """The way in, the way out, and what was touched where one is missing."""
-        parked = self.car.centred(stall.centre_m, stall.yaw_rad + nose.turn_rad)
+        parked = self._parked(stall, nose, obstacles)
 
         def way(poses: list[LanePose]) -> tuple[Manoeuvre | None, tuple[str, ...]]:
             touched: list[str] = []

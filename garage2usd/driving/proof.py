@@ -13,7 +13,7 @@ from garage2usd.driving.search import HEADINGS, least_clearance, search
 from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
 from garage2usd.errors import ConfigError
 
-__all__ = ["LanePose", "Limits", "Search", "find_way", "least_clearance_m"]
+__all__ = ["LanePose", "Limits", "Search", "find_way", "least_clearance_m", "touched_parked"]
 
 _QUARTER = math.pi / 2
 _HEADING_ERROR = 1e-6
@@ -167,6 +167,13 @@ def find_way(
         return Search(None, local.named(order[touched[order] > 0]), is_exhausted=found == 0)
     way = Manoeuvre(parked, _moves(steps, car.rear_axle_radius_m), 0.0)
     return Search(Manoeuvre(parked, way.moves, least_clearance_m(car, way, near)))
+
+
+def touched_parked(car: DesignCar, parked: Pose, obstacles: Obstacles, margin_m: float) -> tuple[str, ...]:
+    """Names of what comes nearer than a margin to a car where it is parked."""
+    near = obstacles.near((parked.x_m, parked.z_m), car.length_m + margin_m)
+    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
+    return _standing(np.array([parked.x_m, parked.z_m, parked.yaw_rad]), near, body, margin_m)
 
 
 def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, most_m: float = 1.0) -> float:

@@ -101,6 +101,7 @@ CLIENTS = {
         "fire-compartment-sprinklered",
         {"fire_compartment_area_sprinklered": {"value": 500}},
     ),
+    "a car that turns in a wide circle": ("swept-path", {"turning_radius": {"value": 14.0, **M}}),
     "other columns": ("column-spacing", {"column_spacing": {"least": 7.5, "most": 8.0}}),
 }
 

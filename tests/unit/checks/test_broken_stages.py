@@ -69,12 +69,13 @@ def resized(stall, across_m=0.0, along_m=0.0):
     return edit
 
 
-def box(x, y, z, *, label=None, side=0.4):
+def box(x, y, z, *, label=None, side=0.4, scale=(1.0, 1.0, 1.0)):
     def edit(stage):
         cube = UsdGeom.Cube.Define(stage, "/Garage/Added")
         cube.CreateSizeAttr(side)
         cube.CreateExtentAttr([(-side / 2,) * 3, (side / 2,) * 3])
-        cube.AddTranslateOp().Set((x, y + side / 2, z))
+        cube.AddTranslateOp().Set((x, y + side * scale[1] / 2, z))
+        cube.AddScaleOp().Set(scale)
         if label:
             UsdSemantics.LabelsAPI.Apply(cube.GetPrim(), "class").CreateLabelsAttr([label])
 
@@ -164,6 +165,15 @@ BROKEN = {
             changed("Edges", "garage:lane:direction", 1, "forward"),
         ),
     ),
+    "a trolley before a mouth": ("swept-path", box(12.15, 0.0, 8.28, label="static", side=0.3)),
+    "a sign before a mouth": ("swept-path", box(11.6, 0.0, 8.28, label="traffic_sign", side=0.3, scale=(1, 4, 1))),
+    "a wall before a mouth": ("swept-path", box(12.15, 0.0, 8.28, label="wall", side=1.0, scale=(2.4, 3.2, 0.1))),
+    "a bollard without a label's class before a line": (
+        "swept-path",
+        box(10.95, 0.0, 8.28, label="bollard", side=0.3, scale=(3.0, 3.0, 1.0)),
+    ),
+    "a gate on the lane before a mouth": ("swept-path", box(12.15, 0.0, 9.6, label="barrier", side=1.5)),
+    "a kerb before a mouth": ("swept-path", box(12.15, 0.0, 8.28, label="kerb", side=0.3, scale=(4.0, 0.4, 1.0))),
     "a low duct": ("headroom", moved(f"{TILES}/Row_r01/Tile_r01_c02/Duct", y=-0.1)),
     "a pipe of another tool, hung too low": ("headroom", box(12.15, 1.9, 5.0, label="pipe")),
     "a high wheel stop": ("wheel-stop-height", moved(f"{STALL_1_1}/WheelStop_2", y=0.05)),
@@ -197,6 +207,34 @@ def test_a_finding_names_its_place_and_figures(stage):
     assert (finding.place, finding.position_m) == ("[1, 1]-[1, 2]", (16.2, 12.15))
     assert (finding.measured, finding.required, finding.unit) == (4.0, 5.5, "m")
     assert finding.source == "JGJ 100-2015 (high)"
+
+
+def test_a_stall_that_no_car_gets_into_is_named_with_what_is_in_the_way(stage):
+    box(12.15, 0.0, 8.28, label="static", side=0.3)(stage)
+    found = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    assert [(f.place, f.position_m, f.severity, f.unit) for f in found] == [
+        ("Stall_r00_c01_2", (12.15, 5.45), "error", "m")
+    ]
+    assert found[0].message == "a car does not get into the stall and out again; in the way: /Garage/Added"
+    # half the car and half the box
+    assert found[0].required == 0.05
+    assert -1.3 < found[0].measured < -0.9
+
+
+@pytest.mark.parametrize("clear", [0.03, 2.1])
+def test_what_is_flat_or_higher_than_the_car_is_in_no_cars_way(clear, stage):
+    """A mat, and an arm at 2.1 m on a post beside the row of stalls."""
+    if clear < 1:
+        box(12.15, 0.0, 8.28, label="static", side=0.3, scale=(1.0, clear / 0.31, 1.0))(stage)
+    else:
+        box(12.15, clear, 8.28, label="static", side=0.3)(stage)
+    assert "swept-path" not in rules_found(stage)
+
+
+def test_what_another_rule_reports_is_not_reported_again(stage):
+    """A column in one stall is in the way of its neighbours too, and a trolley at the mouth of the same stall."""
+    all_of(moved(COLUMN, x=-4.05, z=-1.0), box(12.15, 0.0, 8.28, label="static", side=0.3))(stage)
+    assert rules_found(stage) - FOUND_IN_GOOD_ONE == {"column-in-stall"}
 
 
 def test_what_is_hidden_or_a_guide_is_in_nobodys_way(stage):

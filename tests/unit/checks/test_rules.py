@@ -56,7 +56,7 @@ def test_rules_have_names_of_their_own_and_read_clauses_that_there_are():
 
 def test_every_clause_is_read_by_a_rule():
     read = {clause for rule in RULES for clause in rule.clauses}
-    # what the design car is and how it turns is read by the proof that it drives
+    # swept-path takes the usual ones where a profile has none
     driven = {"design_car_height", "turning_radius"}
     assert read | driven == set(Profile.model_fields) - {"name", "title"}
 
