@@ -42,7 +42,7 @@ def driven_garage(subject: Subject, *, height_m: float, left_out: Collection[str
     left_out
         Prim paths of things that are thought away.
     """
-    shapes, own, taken = [], defaultdict(list), set()
+    shapes, cars, own, taken = [], [], defaultdict(list), set()
     for name, label, ground in _standing(subject, height_m):
         if name in left_out:
             continue
@@ -51,8 +51,8 @@ def driven_garage(subject: Subject, *, height_m: float, left_out: Collection[str
             own[home.name].append(name)
             if label == "car":
                 taken.add(home.name)
-        shapes.append((name, ground))
-    found = Obstacles.of(shapes)
+        (cars if label == "car" else shapes).append((name, ground))
+    found = Obstacles.of(shapes + cars)
     standing = Obstacles(found.names, found.owner, np.round(found.pieces, _DIGITS))
     stalls = tuple(
         DrivenStall(

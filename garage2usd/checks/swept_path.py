@@ -22,7 +22,7 @@ _EXPLAINED = 10
 """For so many stalls without ways a single cause is looked for, which takes a second or two each."""
 
 
-@BOOK.rule("swept-path", asks="the design car drives into each stall and out again without a touch")
+@BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
 def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
     """Leaves out what other rules report: stalls that have an error, and the things that are at fault elsewhere."""
     entrances, exits = ([at for at in subject.portals(kind) if subject.beside[at]] for kind in ("entrance", "exit"))
@@ -39,7 +39,14 @@ def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
     garage = driven_garage(subject, height_m=height_m, left_out=things)
     asked = [at for at in garage.stalls if at.name not in places and at.access not in lanes]
     limits = Limits()
-    proofs = prove_garage(garage, asked, car=design_car(profile), limits=limits, most_explained=_EXPLAINED)
+    proofs = prove_garage(
+        garage,
+        asked,
+        car=design_car(profile),
+        limits=limits,
+        with_all_taken_only=True,
+        most_explained=_EXPLAINED,
+    )
     for at, proof in zip(asked, proofs, strict=True):
         if not proof.is_proven:
             required = None if proof.clearance_m is None else limits.margin_m
@@ -84,9 +91,8 @@ def _message(proof: "StallProof") -> str:
     if not proof.touched:
         return "no lane beside the stall is driven to from an entrance and on to an exit without turning round"
     named = ", ".join(proof.touched[:_NAMED])
-    if proof.is_single_cause:
-        return f"a car does not get into the stall and out again; in the way: {named}"
-    return f"a car does not get into the stall and out again; it touches {named}"
+    how = "in the way" if proof.is_single_cause else "it touches"
+    return f"a car does not get into the stall and out again while all others are taken; {how}: {named}"
 
 
 def _amount(clause: Length | None, usual: float) -> float:

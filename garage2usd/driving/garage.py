@@ -56,7 +56,8 @@ class StallProof:
         Whether the way out ends on a dead-end aisle of at most 26 m with the nose to its end, to be backed out of.
     touched
         Where nothing was proven: names of the objects of which each alone is in the way, so that without it there
-        were ways; where no single one is, of those that were touched most often.
+        were ways, in the order of the obstacles, cars last; where no single one is, of those that were
+        touched most often.
     is_single_cause
         Whether `touched` are such.
     clearance_m
@@ -131,6 +132,7 @@ def prove_garage(
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
+    with_all_taken_only: bool = False,
     most_explained: int | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
@@ -144,6 +146,8 @@ def prove_garage(
         Those of its stalls that are asked for; left out, all.
     car, limits
         The car, and what is asked of its driver.
+    with_all_taken_only
+        Whether ways that are clear only while other stalls are free do not count.
     most_explained
         For how many stalls without ways a single cause is looked for; None for all.
     progress
@@ -165,7 +169,7 @@ def prove_garage(
     proofs, failed = [], 0
     for done, stall in enumerate(asked):
         progress("driving", done, len(asked))
-        proof = prover.proof_of(stall)
+        proof = prover.proof_of(stall, with_all_taken_only=with_all_taken_only)
         if not proof.is_proven and (most_explained is None or failed < most_explained):
             proof = prover.explained(stall, proof)
         failed += not proof.is_proven
@@ -195,21 +199,20 @@ class _Prover:
 
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
-    def proof_of(self, stall: DrivenStall) -> StallProof:
+    def proof_of(self, stall: DrivenStall, *, with_all_taken_only: bool) -> StallProof:
         """The ways of one stall, or what was touched."""
         full = self._seen_from(stall, self.full)
         touched: list[str] = []
-        for obstacles in (full, self._seen_from(stall, self.as_it_stands)):
-            is_full = obstacles is full
-            if not is_full and len(obstacles.pieces) == len(full.pieces):
-                continue
+        as_it_stands = self._seen_from(stall, self.as_it_stands)
+        is_all = with_all_taken_only or len(as_it_stands.pieces) == len(full.pieces)
+        for obstacles in (full,) if is_all else (full, as_it_stands):
             for backing in (False, True):
                 if backing and not self._has_backing(stall):
                     continue
                 for nose in Nose:
                     way_in, way_out, in_the_way = self._ways(stall, nose, obstacles, self.limits, backing=backing)
                     if way_in and way_out:
-                        return StallProof(stall.name, nose, way_in, way_out, is_full, backing)
+                        return StallProof(stall.name, nose, way_in, way_out, obstacles is full, backing)
                     touched += in_the_way
         return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)))
 
@@ -217,7 +220,7 @@ class _Prover:
         """The failed proof of a stall with what alone is in the way, if there is such a thing."""
         full, suspects = self._seen_from(stall, self.full), proof.touched
         without = {name: self._ways_without(stall, name, full) for name in suspects[:_SUSPECTS]}
-        causes = tuple(name for name, ways in without.items() if ways)
+        causes = tuple(sorted((name for name, ways in without.items() if ways), key=self.full.names.index))
         if not causes:
             return proof
         cause = full.only(causes[0])

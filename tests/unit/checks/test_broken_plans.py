@@ -101,7 +101,6 @@ CLIENTS = {
         "fire-compartment-sprinklered",
         {"fire_compartment_area_sprinklered": {"value": 500}},
     ),
-    "a car that turns in a wide circle": ("swept-path", {"turning_radius": {"value": 14.0, **M}}),
     "other columns": ("column-spacing", {"column_spacing": {"least": 7.5, "most": 8.0}}),
 }
 
@@ -135,6 +134,37 @@ def test_a_narrow_aisle_is_reported():
         site={"structure": drawing}, bay={"column_widths_m": widths}, parking={"occupied_stalls": []}
     )
     assert found_in(settings) - FOUND_IN_GOOD_ONE - {"column-spacing"} == {"aisle-width"}
+
+
+def profile_without(*names):
+    settings = CN.model_dump(mode="json", exclude_none=True)
+    return read_profile({name: value for name, value in settings.items() if name not in names} | {"name": "client"})
+
+
+@pytest.mark.parametrize(
+    ("depth_m", "profile", "rules"),
+    [
+        (4.2, CN, {"aisle-width"}),
+        (4.2, profile_without("aisle_width"), {"swept-path"}),
+        (5.2, profile_without("aisle_width"), set()),
+        (5.2, profile_without("aisle_width", "turning_radius", "design_car_height"), set()),
+    ],
+)
+def test_an_aisle_too_narrow_to_turn_in_is_reported_once(depth_m, profile, rules):
+    """By the rule of aisles if the profile asks for a width, else by the car that does not get round."""
+    settings = settings_with(bay={"row_depths_m": [8.1, depth_m, 8.1], "column_widths_m": 8.1})
+    assert found_in(settings, profile) - FOUND_IN_GOOD_ONE - {"portal-width"} == rules
+
+
+def test_a_car_that_turns_more_widely_needs_a_wider_aisle():
+    settings = settings_with(bay={"row_depths_m": [8.1, 5.2, 8.1], "column_widths_m": 8.1})
+    clauses = {"aisle_width": {"value": 3.0, **M}, "turning_radius": {"value": 12.0, **M}}
+    assert found_in(settings, profile_with(**clauses)) - FOUND_IN_GOOD_ONE - {"portal-width"} == {"swept-path"}
+
+
+def test_a_turning_radius_that_no_car_has_is_refused():
+    with pytest.raises(ConfigError, match="turning_radius"):
+        found_in(SETTINGS, profile_with(turning_radius={"value": 2.0, **M}))
 
 
 def test_what_build_would_refuse_is_reported_in_its_words(tmp_path):
