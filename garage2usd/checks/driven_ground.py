@@ -42,7 +42,9 @@ def driven_garage(subject: Subject, *, height_m: float, left_out: Collection[str
     left_out
         Prim paths of things that are thought away.
     """
-    shapes, cars, own, taken = [], [], defaultdict(list), set()
+    shapes: list[tuple[str, shapely.Geometry]] = []
+    cars: list[tuple[str, shapely.Geometry]] = []
+    own, taken = defaultdict(list), set()
     for name, label, ground in _standing(subject, height_m):
         if name in left_out:
             continue
