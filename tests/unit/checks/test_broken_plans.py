@@ -136,30 +136,26 @@ def test_a_narrow_aisle_is_reported():
     assert found_in(settings) - FOUND_IN_GOOD_ONE - {"column-spacing"} == {"aisle-width"}
 
 
-def profile_without(*names):
-    settings = CN.model_dump(mode="json", exclude_none=True)
-    return read_profile({name: value for name, value in settings.items() if name not in names} | {"name": "client"})
+def profile_without(*names, **clauses):
+    settings = profile_with(**clauses).model_dump(mode="json", exclude_none=True)
+    return read_profile({name: value for name, value in settings.items() if name not in names})
+
+
+WIDE_CIRCLE = {"turning_radius": {"value": 12.0, **M}}
 
 
 @pytest.mark.parametrize(
-    ("depth_m", "profile", "rules"),
+    ("profile", "rules"),
     [
-        (4.2, CN, {"aisle-width"}),
-        (4.2, profile_without("aisle_width"), {"swept-path"}),
-        (5.2, profile_without("aisle_width"), set()),
-        (5.2, profile_without("aisle_width", "turning_radius", "design_car_height"), set()),
+        (profile_with(**WIDE_CIRCLE), {"aisle-width"}),
+        (profile_without("aisle_width", **WIDE_CIRCLE), {"swept-path"}),
+        (profile_without("aisle_width", "turning_radius", "design_car_height"), set()),
     ],
+    ids=["by the rule of aisles", "by the car that does not get round", "not where the usual car gets round"],
 )
-def test_an_aisle_too_narrow_to_turn_in_is_reported_once(depth_m, profile, rules):
-    """By the rule of aisles if the profile asks for a width, else by the car that does not get round."""
-    settings = settings_with(bay={"row_depths_m": [8.1, depth_m, 8.1], "column_widths_m": 8.1})
+def test_an_aisle_too_narrow_to_turn_in_is_reported_once(profile, rules):
+    settings = settings_with(bay={"row_depths_m": [8.1, 4.2, 8.1], "column_widths_m": 8.1})
     assert found_in(settings, profile) - FOUND_IN_GOOD_ONE - {"portal-width"} == rules
-
-
-def test_a_car_that_turns_more_widely_needs_a_wider_aisle():
-    settings = settings_with(bay={"row_depths_m": [8.1, 5.2, 8.1], "column_widths_m": 8.1})
-    clauses = {"aisle_width": {"value": 3.0, **M}, "turning_radius": {"value": 12.0, **M}}
-    assert found_in(settings, profile_with(**clauses)) - FOUND_IN_GOOD_ONE - {"portal-width"} == {"swept-path"}
 
 
 def test_a_turning_radius_that_no_car_has_is_refused():
