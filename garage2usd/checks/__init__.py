@@ -26,7 +26,18 @@ from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.stage.reading import STAGE_SUFFIXES
 
-__all__ = ["RULES", "Finding", "Rule", "Severity", "Subject", "as_json", "as_table", "check", "check_file"]
+__all__ = [
+    "RULES",
+    "Finding",
+    "Rule",
+    "Severity",
+    "Subject",
+    "as_json",
+    "as_table",
+    "check",
+    "check_file",
+    "read_subject",
+]
 
 RULES: tuple[Rule, ...] = tuple(
     rule
@@ -77,6 +88,12 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ConfigError, StageError
         If the file is none of these.
     """
+    subject, profile = read_subject(path, profile=profile)
+    return check(subject, profile), profile
+
+
+def read_subject(path: str | Path, *, profile: Profile | None = None) -> tuple[Subject, Profile]:
+    """Read what is checked, and what it is checked against; as for `check_file`."""
     path = Path(path)
     if not path.is_file():
         raise ConfigError("PATH", str(path), "a file")
@@ -87,4 +104,4 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     else:
         subject, config = plan_subject(path, profile=profile)
         profile = profile or config.standard
-    return check(subject, profile), profile
+    return subject, profile

@@ -15,7 +15,10 @@ from garage2usd.checks.subject import Point, StallOutline, Subject
 from garage2usd.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
 
-__all__ = ["driven_garage"]
+__all__ = ["CAR_HEIGHT_M", "driven_garage"]
+
+CAR_HEIGHT_M = 2.0
+"""Height of the design car where a profile gives none."""
 
 _USES = {"entrance": SquareUse.ENTRANCE, "exit": SquareUse.EXIT}
 _DRIVEN_THROUGH = {"vehicle_door", "ramp"}
@@ -30,7 +33,7 @@ _DIGITS = 4
 """Metres are rounded to so many, so that the single precision of a stage makes no difference."""
 
 
-def driven_garage(subject: Subject, *, height_m: float, left_out: Collection[str] = ()) -> DrivenGarage:
+def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()) -> DrivenGarage:
     """The stalls, the lanes by direction, and what stands on the floor; each thing by its prim path.
 
     Parameters

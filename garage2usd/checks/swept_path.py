@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["BOOK", "design_car"]
 
 BOOK = RuleBook()
-_CAR_HEIGHT_M = 2.0
 _NAMED = 3
 _EXPLAINED = 10
 """For so many stalls without ways a single cause is looked for, which takes a second or two each."""
@@ -28,13 +27,13 @@ def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
     entrances, exits = ([at for at in subject.portals(kind) if subject.beside[at]] for kind in ("entrance", "exit"))
     if not (entrances and exits and subject.has_whole_graph and subject.things):
         return
-    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415 - compiled code that only a proof needs
+    from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage  # noqa: PLC0415 - compiled code that only a proof needs
     from garage2usd.driving import Limits, prove_garage  # noqa: PLC0415
 
     faults = _reported(subject, profile)
     places = {fault.place for fault in faults}
     lanes = {node for edge in subject.edges if edge_name(subject, edge) in places for node in (edge.start, edge.end)}
-    height_m = _amount(profile.design_car_height, _CAR_HEIGHT_M)
+    height_m = _amount(profile.design_car_height, CAR_HEIGHT_M)
     things = {name for fault in faults for name in fault.things}
     garage = driven_garage(subject, height_m=height_m, left_out=things)
     asked = [at for at in garage.stalls if at.name not in places and at.access not in lanes]

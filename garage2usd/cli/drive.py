@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from garage2usd.driving import StallProof
+    from garage2usd.progress import Progress
 
 __all__ = ["drive"]
 
@@ -21,7 +22,7 @@ _FORMATS = (".json", ".usda", ".usdc")
 
 
 @click.command()
-@click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
+@click.argument("path", required=False, type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
 @click.option(
     "--output",
@@ -29,27 +30,47 @@ _FORMATS = (".json", ".usda", ".usdc")
     type=click.Path(path_type=Path),
     help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage.",
 )
-def drive(*, config: Path | None, seed: int | None, output: Path | None) -> None:
+def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     """Prove that a car drives into each stall and out again without a touch.
 
-    The garage is the one that `build` makes of the same CONFIG and seed. The car is 4.8 x 1.8 m with a turning radius
+    PATH is a configuration, and the garage the one that `build` makes of it and the seed; or a stage, also one that
+    other tools have edited, or the report of a build. The car is 4.8 x 1.8 m with a turning radius
     of 6 m. Stalls without ways are named with what is in the way, and the exit code is 1.
     """
-    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.driving import prove_stalls  # noqa: PLC0415
-    from garage2usd.pipeline import generate  # noqa: PLC0415
+    from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
 
     if output is not None and output.suffix not in _FORMATS:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
     with Bars(sys.stderr) as progress:
-        garage = generate(load_config(config) if config else None, seed=seed, progress=progress)
-        setback_m = garage.config.bay.carriageway_setback_m
-        proofs = prove_stalls(garage.layout, garage.graph, setback_m=setback_m, progress=progress)
+        if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
+            if seed is not None:
+                raise ConfigError("seed", seed, "none for a garage that is made already")
+            proofs = _proofs_of_file(path, progress)
+        else:
+            proofs = _proofs_of_config(path, seed, progress)
     if output is not None:
         _write(output, proofs)
     _describe(proofs)
     if not all(proof.is_proven for proof in proofs):
         raise click.exceptions.Exit(1)
+
+
+def _proofs_of_config(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.driving import prove_stalls  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+
+    garage = generate(load_config(path) if path else None, seed=seed, progress=progress)
+    setback_m = garage.config.bay.carriageway_setback_m
+    return prove_stalls(garage.layout, garage.graph, setback_m=setback_m, progress=progress)
+
+
+def _proofs_of_file(path: Path, progress: "Progress") -> "tuple[StallProof, ...]":
+    from garage2usd.checks import read_subject  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415
+    from garage2usd.driving import prove_garage  # noqa: PLC0415
+
+    return prove_garage(driven_garage(read_subject(path)[0]), progress=progress)
 
 
 def _write(output: Path, proofs: "Sequence[StallProof]") -> None:

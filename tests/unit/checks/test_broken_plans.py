@@ -158,6 +158,20 @@ def test_an_aisle_too_narrow_to_turn_in_is_reported_once(profile, rules):
     assert found_in(settings, profile) - FOUND_IN_GOOD_ONE - {"portal-width"} == rules
 
 
+def test_a_stage_and_its_report_say_the_same_of_stalls_that_no_car_gets_into(tmp_path):
+    drawing = "...\nE=X"
+    free = {"occupied_stalls": []}
+    bay = {"row_depths_m": [8.1, 4.2], "column_widths_m": 8.1}
+    made = build(GarageConfig(**settings_with(site={"structure": drawing}, bay=bay, parking=free)), tmp_path / "g.usda")
+    profile = profile_without("aisle_width", **WIDE_CIRCLE)
+    found = [
+        [finding for finding in check_file(path, profile=profile)[0] if finding.rule == "swept-path"]
+        for path in (made.stage, made.report)
+    ]
+    assert found[0]
+    assert found[0] == found[1]
+
+
 def test_a_turning_radius_that_no_car_has_is_refused():
     with pytest.raises(ConfigError, match="turning_radius"):
         found_in(SETTINGS, profile_with(turning_radius={"value": 2.0, **M}))

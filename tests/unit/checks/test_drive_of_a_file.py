@@ -1,0 +1,51 @@
+"""`garage2usd drive` of a stage that is there already, and of its report."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+from pxr import Usd, UsdGeom, UsdSemantics
+from small_garage import SETTINGS
+
+from garage2usd import GarageConfig, build
+from garage2usd.cli import main
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return build(GarageConfig(**SETTINGS), tmp_path_factory.mktemp("driven") / "small.usda")
+
+
+def driven(path, *options):
+    return CliRunner().invoke(main, ["drive", str(path), *options])
+
+
+def test_a_stage_and_its_report_have_the_same_ways(made, tmp_path):
+    ways = []
+    for number, path in enumerate((made.stage, made.report)):
+        result = driven(path, "-o", str(tmp_path / f"{number}.json"))
+        assert (result.exit_code, result.stdout.splitlines()[0]) == (
+            0,
+            "11 of 11 stalls are driven into and out of without a touch",
+        )
+        ways.append(json.loads((tmp_path / f"{number}.json").read_text())["stalls"])
+    assert ways[0] == ways[1]
+
+
+def test_what_was_put_into_a_stage_is_driven_around_or_named(made, tmp_path):
+    stage = Usd.Stage.Open(str(made.stage))
+    stage.SetEditTarget(stage.GetSessionLayer())
+    cube = UsdGeom.Cube.Define(stage, "/Garage/Trolley")
+    cube.CreateSizeAttr(1.0)
+    cube.AddTranslateOp().Set((12.15, 0.5, 5.0))
+    UsdSemantics.LabelsAPI.Apply(cube.GetPrim(), "class").CreateLabelsAttr(["static"])
+    stage.Export(str(tmp_path / "edited.usdc"))
+    result = driven(tmp_path / "edited.usdc")
+    assert result.exit_code == 1
+    assert "Stall_r00_c01_2: no way; in the way: /Garage/Trolley" in result.stdout
+
+
+def test_a_garage_that_is_made_takes_no_seed(made):
+    result = driven(made.stage, "--seed", "3")
+    assert result.exit_code != 0
+    assert "none for a garage that is made already" in result.output + str(result.exception)
