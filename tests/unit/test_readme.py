@@ -1,6 +1,7 @@
 """What the README shows runs as it stands there."""
 
 import re
+import signal
 import subprocess
 import sys
 
@@ -36,11 +37,20 @@ def test_toml_blocks_are_configurations(text):
 
 def test_shell_blocks_run(tmp_path):
     commands = [line.split("#")[0].strip() for block in blocks("sh") for line in block.splitlines()]
-    builds = [line.split()[1:] for line in commands if line.startswith("garage2usd")]
-    assert len(builds) == 3
+    calls = [line.split()[1:] for line in commands if line.startswith("garage2usd")]
+    builds = [arguments for arguments in calls if arguments[0] == "build"]
+    views = [arguments for arguments in calls if arguments[0] == "view"]
+    assert (len(builds), len(views), len(calls)) == (3, 1, 4)
     (tmp_path / "samples").symlink_to(REPOSITORY / "samples")
     for arguments in builds:
         subprocess.run([sys.executable, "-m", "garage2usd", *arguments], cwd=tmp_path, check=True, capture_output=True)
+    for arguments in views:
+        command = [sys.executable, "-u", "-m", "garage2usd", *arguments, "--no-browser"]
+        with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as server:
+            assert "http://127.0.0.1:" in server.stdout.readline()
+            assert "objects of" in server.stdout.readline()
+            server.terminate()
+        assert server.returncode == 128 + signal.SIGTERM
     assert (tmp_path / "garage.usdz").exists()
     assert (tmp_path / "garages" / "g7.usdc").exists()
     assert (tmp_path / "out" / "hand_drawn.usda").exists()
