@@ -107,7 +107,7 @@ def configuration(corpus: Corpus, draw: Random) -> Case:
 def structure(corpus: Corpus, draw: Random) -> Case:
     """S, R and C as text, as JSON, or as a file that a configuration names."""
     text = draw.choice(
-        [PLAN, "1 " * 30, "-1 0 1 2 3\n" * 5, ".=" * 50_000, "\n" * 10_000, PLAN * 300, "=" * 10**6 + "\n"]
+        [PLAN, "1 " * 30, "-1 0 1 2 3\n" * 5, ".=" * 50_000, "\n" * 10_000, PLAN * 8, "=" * 10**6 + "\n"]
     )
     data = _damaged(text.encode(), draw)
     match draw.randrange(3):
