@@ -85,9 +85,9 @@ def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
 
     Notes
     -----
-    ``n = sum S(theta)`` types a lane: 4 crossroads, 3 T-junction, at most 2 straight. Deviation: raw S counts an
-    entrance as two lanes, so lane and portal neighbours are counted instead. A free square with n lane neighbours is
-    Type 1 (n >= 3, or 2 across), Type 2 (2 adjacent), Type 3 (1), Type 4 (0).
+    ``n = sum S(theta)`` types a lane: 4 crossroads, 3 T-junction, at most 2 straight. A free square with n lane
+    neighbours is Type 1 (n >= 3, or 2 across), Type 2 (2 adjacent), Type 3 (1), Type 4 (0). Deviation: raw S counts an
+    entrance as two lanes, so lane and portal neighbours are counted instead.
     """
     graph = _typed_graph(structure)
     return LaneGraph(nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay))

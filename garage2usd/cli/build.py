@@ -26,7 +26,7 @@ __all__ = ["build"]
     "--output",
     "-o",
     type=click.Path(path_type=Path),
-    default=Path("garage.usdz"),
+    default="garage.usdz",
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
 )

@@ -15,7 +15,7 @@ __all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason"]
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
-_LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 4.0, 8.0, 60.0
+_LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 """Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
 _REASON_CHARACTERS = 300
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
@@ -48,7 +48,10 @@ def open_stage(path: Path) -> Usd.Stage:
 
 def usd_reason(error: Exception) -> str:
     """What an error of USD says, without the place in USD's sources where it was raised."""
-    text = " ".join(str(error).split())
+    try:
+        text = " ".join(str(error).split())
+    except UnicodeDecodeError:  # it repeats bytes of the file
+        text = "it holds bytes that are no text"
     said = _SAID.findall(text)
     return "; ".join(dict.fromkeys(said) or [text])[:_REASON_CHARACTERS]
 

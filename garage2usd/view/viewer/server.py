@@ -50,7 +50,7 @@ def page_files() -> Mapping[str, _Answer]:
 
 
 class ViewerServer:
-    """Serves the page and, once it is `show`n, one scene, on the loopback interface until it is closed.
+    """Serves the page and, once one is shown, a scene, on the loopback interface until it is closed.
 
     Parameters
     ----------
