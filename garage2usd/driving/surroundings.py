@@ -80,7 +80,7 @@ def object_name(place: Placement) -> str:
 def own_objects(stall: Stall, obstacles: Obstacles) -> list[str]:
     """Names of what is a stall's own and not in the way of a car that parks there: its car, wheel stop and cones."""
     cone = _on_square("Cone", stall) + "_"
-    cones = [name for name in obstacles.names if name.startswith(cone)]
+    cones = [name for name in obstacles.named(range(len(obstacles.owner))) if name.startswith(cone)]
     return [_on_square("Car", stall), _on_square("WheelStop", stall), *cones]
 
 

@@ -163,9 +163,6 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.image_settings.color_depth = "8"
-    for name in dir(scene.render):  # neither date nor duration, so that the same picture is the same file
-        if name.startswith("use_stamp"):
-            setattr(scene.render, name, False)
 
 
 def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:

@@ -126,7 +126,8 @@ def report(corpus: Corpus, draw: Random) -> Case:
     """A report with absurd values or damaged text."""
     sound = corpus.files["usda/garage_report.json"]
     data = _absurd_json(json.loads(sound), draw) if draw.random() < 0.6 else _damaged(sound, draw)
-    return Case("report", ("check", "garage_report.json"), {"garage_report.json": data})
+    command = draw.choice([("check", "garage_report.json"), ("plan", "garage_report.json", "--output", "out/plan.svg")])
+    return Case("report", command, {"garage_report.json": data})
 
 
 def profile(corpus: Corpus, draw: Random) -> Case:
@@ -146,7 +147,7 @@ def profile(corpus: Corpus, draw: Random) -> Case:
 def arguments(corpus: Corpus, draw: Random) -> Case:
     """Options that make no sense, in any order."""
     words = [word for _ in range(draw.randrange(1, 4)) for word in draw.choice(ARGUMENTS)]
-    command = draw.choice(["build", "check", "drive", "view", "render", "schema", "textures", "nothing", ""])
+    command = draw.choice(["build", "check", "drive", "plan", "view", "render", "schema", "textures", "nothing", ""])
     return Case(
         "arguments", (command, draw.choice(["config.toml", "none.toml", ""]), *words), {"config.toml": CONFIG.encode()}
     )

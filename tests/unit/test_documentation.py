@@ -40,7 +40,7 @@ def test_blocks_that_are_not_run_are_few_and_well_formed():
 def test_every_block_says_what_it_is():
     assert {block.language for block in EVERY_BLOCK} <= RUN | SHOWN
     fences = sum(page.read_text().count("\n```") for page in PAGES)
-    directives = sum(len(re.findall(r"^```\{", page.read_text(), re.M)) for page in PAGES)
+    directives = sum(len(re.findall(r"^```\{", page.read_text(), re.MULTILINE)) for page in PAGES)
     at_the_top = sum(page.read_text().startswith("```") for page in PAGES)
     assert fences + at_the_top == 2 * (len(EVERY_BLOCK) + directives)
 
@@ -87,7 +87,7 @@ def site(tmp_path_factory):
 
 
 def text_of(page):
-    article = re.search(r"<article.*</article>", page.read_text(), re.S)[0]
+    article = re.search(r"<article.*</article>", page.read_text(), re.DOTALL)[0]
     return " ".join(html.unescape(re.sub(r"<[^>]+>", "", article)).split())
 
 
