@@ -1,4 +1,4 @@
-"""How fast the Unity package's C# readers read the layers of a stage, beside USD's own.
+"""How fast the Unity package reads layers, beside USD's own reader, and makes prefabs.
 
 Usage: python benchmarks/unity.py   (this part alone, to the standard output)
 """
@@ -13,25 +13,37 @@ from pathlib import Path
 
 from pxr import Sdf
 
+HERE = Path(__file__).parent
+sys.path.append(str(HERE.parent / "tests" / "unity"))
+
+from layer import compile_prefab_dump  # noqa: E402
+from reader import compile_program  # noqa: E402
+
 __all__ = ["unity"]
 
-HERE = Path(__file__).parent
-PACKAGE = HERE.parent / "unity_importer"
 ROWS, COLS = 40, 60
 ROUNDS = 5
 SECONDS = 0.5
 """Of processor time that the C# readers spend on a layer in each round; they read it once before, uncounted."""
 
 LAYERS = {
-    "garage, nested": ("nested", "garage.usdc"),
-    "garage, instanced": ("instanced", "garage.usdc"),
     "lane graph": ("nested", "garage_assets/LaneGraph.usdc"),
     "a car": ("nested", "garage_assets/Car_01.usdc"),
+    "garage, nested": ("nested", "garage.usdc"),
+    "garage, instanced": ("instanced", "garage.usdc"),
 }
+FORMS = ("nested", "instanced")
+"""The first is what ``form = "auto"`` makes of a garage of this size."""
 
 
 def unity() -> str:
-    """A table of the speed of both readers on layers of a stage, as text and as crate."""
+    """Two tables: layers as text and as crate through both readers, and stages to prefabs."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        return "\n".join([*_reading(folder), "", *_prefabs(folder)])
+
+
+def _reading(folder: Path) -> list[str]:
     rows = [
         "## Reading layers in Unity's C#",
         "",
@@ -39,30 +51,58 @@ def unity() -> str:
             f"Layers of a stage of {ROWS} x {COLS} squares, as `.usda` and as `.usdc`: whole files in memory to all "
             "opinions and values, by the package's core under Mono, warm; beside it `Sdf.Layer.OpenAsAnonymous`, which "
             "leaves values of crates in the file until they are asked for. Processor seconds, medians of "
-            f"{ROUNDS} rounds in turns. As text: megabytes of the same layer as `.usda` a second, as crates of garages "
-            "are compressed and share equal values."
+            f"{ROUNDS} rounds in turns. Lane graph and car are arrays of numbers, which a crate holds nearly as they "
+            "are. The garages are very many small opinions, of which a crate packs each into a few bytes, so that "
+            "bytes of the file say little there; hence the column as text: megabytes of the same layer as `.usda` a "
+            "second."
         ),
         "",
-        "| layer | format | file | C# | as text | pxr | pxr / C# |",
+        "| layer | format | file | specs | C# | as text | pxr | pxr / C# |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    program = compile_program(folder)
+    for layer, (form, file) in LAYERS.items():
+        crate = _stage(folder, form) / file
+        text = crate.with_suffix(".usda")
+        opened = Sdf.Layer.FindOrOpen(str(crate))
+        opened.Export(str(text))
+        specs = _spec_count(opened)
+        rows += [_row(layer, path, specs, text.stat().st_size / 1e6, program) for path in (text, crate)]
+    return rows
+
+
+def _spec_count(layer: Sdf.Layer) -> int:
+    paths: list[Sdf.Path] = []
+    layer.Traverse(Sdf.Path.absoluteRootPath, paths.append)
+    return len(paths)
+
+
+def _prefabs(folder: Path) -> list[str]:
+    """Rows of what a whole import costs on the fakes."""
+    rows = [
+        "## Prefabs in Unity's C#",
+        "",
+        (
+            f"A garage of {ROWS} x {COLS} squares from its files to the prefab on the fakes of Unity's classes, as the "
+            "importer makes it: reading all layers and textures, composing, triangles, one Mesh for all equal "
+            "ones, GameObjects, components, labels and lane graph. Processor seconds under Mono, medians of "
+            f"{ROUNDS} imports in one process after a first. Unity's own objects cost what Unity takes for them, which "
+            "is not measured."
+        ),
+        "",
+        "| form | read and compose | make | whole | GameObjects | with a mesh | assets |",
         "|---|---|---|---|---|---|---|",
     ]
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        program = _compiled(folder)
-        for layer, (form, file) in LAYERS.items():
-            crate = _stage(folder, form) / file
-            text = crate.with_suffix(".usda")
-            Sdf.Layer.FindOrOpen(str(crate)).Export(str(text))
-            rows += [_row(layer, path, text.stat().st_size / 1e6, program) for path in (text, crate)]
-    return "\n".join(rows)
-
-
-def _compiled(folder: Path) -> Path:
-    program = folder / "UsdDump.exe"
-    sources = [*(PACKAGE / "Core").rglob("*.cs"), *(PACKAGE / "Tools~" / "UsdDump").rglob("*.cs")]
-    command = ["mcs", "-langversion:7.2", "-optimize+", "-r:System.Core", f"-out:{program}", *map(str, sources)]
-    subprocess.run(command, check=True)  # noqa: S603
-    return program
+    program = compile_prefab_dump(folder)
+    for form in FORMS:
+        stage = _stage(folder, form) / "garage.usdc"
+        command = ["mono", str(program), "time", str(stage), str(ROUNDS + 1)]
+        run = subprocess.run(command, check=True, capture_output=True)  # noqa: S603
+        imports = json.loads(run.stdout)["imports"][1:]
+        read, make, total = (statistics.median(one[key] for one in imports) for key in ("read_s", "make_s", "total_s"))
+        counts = " | ".join(f"{imports[0][key]:,}" for key in ("objects", "renderers", "assets"))
+        rows.append(f"| {form} | {read:.2f} s | {make:.2f} s | {total:.2f} s | {counts} |")
+    return rows
 
 
 def _stage(folder: Path, form: str) -> Path:
@@ -75,14 +115,14 @@ def _stage(folder: Path, form: str) -> Path:
     return stage
 
 
-def _row(layer: str, path: Path, text_mb: float, program: Path) -> str:
+def _row(layer: str, path: Path, specs: int, text_mb: float, program: Path) -> str:
     pairs = [(_seconds_of_core(path, program), _seconds_of_pxr(path)) for _ in range(ROUNDS)]
     ratio = statistics.median(theirs / ours for ours, theirs in pairs)
     ours, theirs = (statistics.median(seconds) for seconds in zip(*pairs, strict=True))
     megabytes = path.stat().st_size / 1e6
     return (
-        f"| {layer} | `{path.suffix}` | {megabytes:.2f} MB | {megabytes / ours:.0f} MB/s | {text_mb / ours:.0f} MB/s "
-        f"| {megabytes / theirs:.0f} MB/s | {ratio:.2f} |"
+        f"| {layer} | `{path.suffix}` | {megabytes:.2f} MB | {specs:,} | {megabytes / ours:.0f} MB/s "
+        f"| {text_mb / ours:.0f} MB/s | {megabytes / theirs:.0f} MB/s | {ratio:.2f} |"
     )
 
 

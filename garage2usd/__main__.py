@@ -1,6 +1,6 @@
 """``python -m garage2usd``."""
 
-from garage2usd.cli import main
+from garage2usd.cli import run
 
 if __name__ == "__main__":
-    main()
+    run()

@@ -12,7 +12,7 @@ from garage2usd.errors import UnreachableStallError
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.stalls import StallRow, stall_rows
 
-__all__ = ["LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph"]
+__all__ = ["LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
 
@@ -74,17 +74,23 @@ def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
     ------
     UnreachableStallError
         If a stall's lane has no route from an entrance and to an exit that keeps to lanes.
+    """
+    lanes = unproven_lane_graph(structure, bay)
+    _check_reachability(structure, lanes.graph, lanes.stall_rows)
+    return lanes
+
+
+def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
+    """Build the lane graph of any structure with lanes, whether or not its stalls are reached.
 
     Notes
     -----
-    ``n = sum S(theta)`` types a lane: 4 crossroads, 3 T-junction, at most 2 straight. Deviation: raw S counts an
-    entrance as two lanes, so lane and portal neighbours are counted instead. A free square with n lane neighbours is
-    Type 1 (n >= 3, or 2 across), Type 2 (2 adjacent), Type 3 (1), Type 4 (0).
+    ``n = sum S(theta)`` types a lane: 4 crossroads, 3 T-junction, at most 2 straight. A free square with n lane
+    neighbours is Type 1 (n >= 3, or 2 across), Type 2 (2 adjacent), Type 3 (1), Type 4 (0). Deviation: raw S counts an
+    entrance as two lanes, so lane and portal neighbours are counted instead.
     """
     graph = _typed_graph(structure)
-    rows = stall_rows(structure, bay)
-    _check_reachability(structure, graph, rows)
-    return LaneGraph(nx.freeze(graph), _stall_types(structure), rows)
+    return LaneGraph(nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay))
 
 
 def _typed_graph(structure: Structure) -> "nx.Graph[Square]":

@@ -45,7 +45,7 @@ class CapacityTable:
     along_z_double: NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class StallRow:
     """Stalls side by side on one square, all with their mouth on one edge."""
 

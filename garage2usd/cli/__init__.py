@@ -1,16 +1,22 @@
 """The command line: arguments, progress, exit codes. A module is a command."""
 
+import sys
+
 import click
 
 from garage2usd.cli.build import build
+from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
+from garage2usd.cli.drive import drive
 from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
+from garage2usd.cli.supervision import SUPERVISED, supervise
 from garage2usd.cli.textures import textures
+from garage2usd.cli.view import view
 from garage2usd.version import VERSION
 
-__all__ = ["main"]
+__all__ = ["main", "run"]
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -19,5 +25,13 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, plan, render, schema, textures):
+for _command in (build, check, drive, plan, render, schema, textures, view):
     main.add_command(_command)
+
+
+def run() -> None:
+    """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
+    name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    if name in SUPERVISED:
+        supervise(main, name=name)
+    main()

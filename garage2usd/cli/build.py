@@ -18,6 +18,7 @@ __all__ = ["build"]
 @click.command()
 @click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option("--profile", help="The standard to design to: a name, or a TOML file; in place of the configuration's.")
 @click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
 @click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well.")
 @click.option("--best-plans", type=click.IntRange(0, 200), default=0, help="Draw so many of the best plans as well.")
@@ -25,12 +26,19 @@ __all__ = ["build"]
     "--output",
     "-o",
     type=click.Path(path_type=Path),
-    default=Path("garage.usdz"),
+    default="garage.usdz",
     show_default=True,
     help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
 )
 def build(
-    *, config: Path | None, seed: int | None, tape: str | None, learning_curve: bool, best_plans: int, output: Path
+    *,
+    config: Path | None,
+    seed: int | None,
+    profile: str | None,
+    tape: str | None,
+    learning_curve: bool,
+    best_plans: int,
+    output: Path,
 ) -> None:
     """Build the garage that CONFIG (TOML) describes, or a good default one.
 
@@ -39,12 +47,16 @@ def build(
       garage2usd build --seed 7 --output garage.usdz
       garage2usd build samples/paper_7x9.toml -o out/paper.usda
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config import GarageConfig, load_config, profile_setting  # noqa: PLC0415 - keeps --help instant
     from garage2usd.pipeline import build as build_garage  # noqa: PLC0415
 
+    if config:
+        settings = load_config(config, profile=profile)
+    else:
+        settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     with Bars(sys.stderr) as progress:
         made = build_garage(
-            load_config(config) if config else None,
+            settings,
             output,
             seed=seed,
             tape=tape,

@@ -1,6 +1,7 @@
 """A group of commands that share their errors and exit codes."""
 
 import signal
+import sys
 
 import click
 
@@ -9,7 +10,7 @@ from garage2usd.errors import ConfigError, Garage2UsdError
 
 __all__ = ["Commands"]
 
-_USAGE_FIELDS = {"output"}
+_USAGE_FIELDS = {"output", "profile"}
 
 
 class Commands(click.Group):
@@ -24,3 +25,16 @@ class Commands(click.Group):
             click.echo(f"Error: {error}", err=True)
             usage = isinstance(error, ConfigError) and error.field in _USAGE_FIELDS
             ctx.exit(2 if usage else 1)
+        except Exception as error:
+            # values of a stage are read late, so any step may come upon a damaged one
+            if not _is_of_usd(error):
+                raise
+            from garage2usd.stage.reading import usd_reason  # noqa: PLC0415 - it brings USD
+
+            click.echo(f"Error: USD cannot read the stage ({usd_reason(error)})", err=True)
+            ctx.exit(1)
+
+
+def _is_of_usd(error: Exception) -> bool:
+    tf = sys.modules.get("pxr.Tf")
+    return tf is not None and isinstance(error, tf.ErrorException)

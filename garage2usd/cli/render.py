@@ -57,7 +57,7 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
     "--output",
     "-o",
     type=click.Path(file_okay=False, path_type=Path),
-    default=Path("dataset"),
+    default="dataset",
     show_default=True,
     help="Folder of the data set.",
 )

@@ -2,19 +2,21 @@
 
 import hashlib
 import json
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import BaseModel, Field, ValidationError, field_validator
 
-from garage2usd.config.base import Settings
+from garage2usd.config.design import designed_settings
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
+from garage2usd.documents import read_text, read_toml
 from garage2usd.errors import ConfigError
+from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
+from garage2usd.settings import Settings
 
 __all__ = [
     "BayConfig",
@@ -27,10 +29,10 @@ __all__ = [
     "config_from_mapping",
     "config_schema",
     "load_config",
+    "profile_setting",
 ]
 
 _SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig, StageConfig)
-_MAX_FILE_BYTES = 16 * 1024 * 1024
 
 
 class GarageConfig(Settings):
@@ -50,6 +52,10 @@ class GarageConfig(Settings):
     """Parked cars."""
     stage: StageConfig = StageConfig()
     """The stage's files."""
+    profile: str | Profile = DEFAULT_PROFILE
+    """The standard that the garage is designed to: 'cn-jgj100', 'uk-istructe', 'us-ada', a TOML file with a profile of
+    one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes the place
+    of defaults that do not satisfy it; settings that are given stay."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.
@@ -60,9 +66,21 @@ class GarageConfig(Settings):
             If a key is unknown or a value is not allowed.
         """
         try:
-            super().__init__(**settings)
+            super().__init__(**designed_settings(_standard(settings), settings))
         except ValidationError as error:
             raise _config_error(error) from None
+
+    @field_validator("profile")
+    @classmethod
+    def _known(cls, profile: str | Profile) -> str | Profile:
+        if isinstance(profile, str) and profile not in PROFILE_NAMES:
+            raise ValueError(f"one of {', '.join(PROFILE_NAMES)}, or the contents of a profile")
+        return profile
+
+    @property
+    def standard(self) -> Profile:
+        """The profile that the garage is designed to."""
+        return load_profile(self.profile) if isinstance(self.profile, str) else self.profile
 
     def with_seed(self, seed: int) -> "GarageConfig":
         """The same settings with another seed."""
@@ -74,19 +92,37 @@ class GarageConfig(Settings):
         return hashlib.sha256(canonical.encode()).hexdigest()
 
 
+def _standard(settings: Mapping[str, Any]) -> Profile:
+    """The profile that settings name or hold, before they are validated; one that asks for nothing if it is unusable.
+
+    Raises
+    ------
+    ConfigError
+        If it is a profile of the user's own with a value that is not allowed.
+    """
+    given = settings.get("profile", DEFAULT_PROFILE)
+    if isinstance(given, Profile):
+        return given
+    if isinstance(given, Mapping):
+        return read_profile(dict(given))
+    return load_profile(given) if given in PROFILE_NAMES else Profile(name="none")
+
+
 def config_from_mapping(settings: Mapping[str, Any]) -> GarageConfig:
     """Validate settings given as nested mappings, as TOML reads them."""
     return GarageConfig(**settings)
 
 
-def load_config(path: str | Path) -> GarageConfig:
+def load_config(path: str | Path, *, profile: str | Path | None = None) -> GarageConfig:
     """Read a TOML configuration.
 
     Parameters
     ----------
     path
-        The file. A relative ``site.structure_file`` in it starts at the file's folder and is read here, so that the
-        configuration carries the structure itself.
+        The file. A relative ``site.structure_file`` or ``profile`` in it starts at the file's folder and is read here,
+        so that the configuration carries structure and profile itself.
+    profile
+        Name or file of a profile that takes the place of the file's own.
 
     Raises
     ------
@@ -94,16 +130,29 @@ def load_config(path: str | Path) -> GarageConfig:
         If the file cannot be read, is not TOML, or holds an unknown key or a value that is not allowed.
     """
     path = Path(path)
-    try:
-        settings = tomllib.loads(_read_text(path, field="CONFIG"))
-    except tomllib.TOMLDecodeError as error:
-        raise ConfigError("CONFIG", str(path), f"TOML ({error})") from None
+    settings = read_toml(path, field="CONFIG")
+    if profile is not None:
+        settings["profile"] = profile_setting(profile)
+    elif isinstance(settings.get("profile"), str):
+        settings["profile"] = profile_setting(settings["profile"], folder=path.parent)
     config = config_from_mapping(settings)
     if config.site.structure_file is None:
         return config
-    text = _read_text(path.parent / config.site.structure_file, field="site.structure_file")
+    text = read_text(path.parent / config.site.structure_file, field="site.structure_file")
     site = {key: value for key, value in settings["site"].items() if key != "structure_file"}
     return config_from_mapping({**settings, "site": {**site, "structure": text}})
+
+
+def profile_setting(name_or_file: str | Path, *, folder: Path | None = None) -> str | Profile:
+    """The value of the setting ``profile`` for a shipped profile's name or a file.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such profile, or the file holds what no profile has.
+    """
+    profile = load_profile(name_or_file, folder=folder)
+    return profile.name if str(name_or_file) in PROFILE_NAMES else profile
 
 
 def config_schema() -> dict[str, Any]:
@@ -111,20 +160,6 @@ def config_schema() -> dict[str, Any]:
     schema = GarageConfig.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     return schema
-
-
-def _read_text(path: Path, *, field: str) -> str:
-    try:
-        with path.open("rb") as file:
-            data = file.read(_MAX_FILE_BYTES + 1)
-    except OSError as error:
-        raise ConfigError(field, str(path), f"a readable file ({error.strerror})") from None
-    if len(data) > _MAX_FILE_BYTES:
-        raise ConfigError(field, str(path), f"a file of at most {_MAX_FILE_BYTES} bytes")
-    try:
-        return data.decode()
-    except UnicodeDecodeError as error:
-        raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
 
 
 def _config_error(error: ValidationError) -> ConfigError:

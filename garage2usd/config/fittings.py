@@ -2,7 +2,7 @@
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from garage2usd.config.base import Settings
+from garage2usd.settings import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
 
@@ -22,6 +22,10 @@ class FittingsConfig(Settings):
     """Thickness of the outer walls, outside the contour."""
     ramps: bool = True
     """A ramp to the ground outside behind each portal that has room for one; the others keep a closed roller door."""
+    ramp_slope_percent: float = Field(15.0, ge=5, le=20)
+    """Slope of the ramps between their gentler pieces."""
+    ramp_transition_m: float = Field(3.6, ge=1, le=10)
+    """Length of the pieces of half that slope at a ramp's foot and top."""
     barriers: bool = True
     """A barrier gate with a ticket column at each ramp."""
     stall_numbers: bool = True
@@ -77,9 +81,10 @@ class ParkingConfig(Settings):
     """Ids of stalls that are free, whatever the occupancy."""
     ev_share: float = Field(0.08, ge=0, le=1)
     """Share of the stalls that have a charger."""
-    accessible_share: float = Field(0.02, ge=0, le=1)
-    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0.
-    Each has a hatched access aisle beside it, that two of them share and that takes the place of a stall."""
+    accessible_share: float | None = Field(None, ge=0, le=1)
+    """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0. Left out,
+    as many as the profile asks for, or a share of 0.02 where it asks for none. Each has a hatched access aisle beside
+    it, that two of them share and that takes the place of a stall."""
     reversed_share: float = Field(0.3, ge=0, le=1)
     """Share of the parked cars that stand nose out."""
     max_yaw_deg: float = Field(2.0, ge=0, le=5)

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from garage2usd.config.base import Settings
+from garage2usd.settings import Settings
 
 __all__ = ["DEFAULT_SIDE_M", "BayConfig", "SidesM", "SiteConfig"]
 
@@ -95,12 +95,14 @@ class SiteConfig(Settings):
 class BayConfig(Settings):
     """Size of the squares and of the stalls on them."""
 
+    square_side_m: float = Field(DEFAULT_SIDE_M, ge=1, le=50)
+    """Side of the squares whose size is neither given nor chosen by `dimensioned`: three stalls between columns."""
     column_widths_m: SidesM | None = None
-    """The paper's R: width along X of every column, of each, or of each square, constant along a column; 8.1 or what
-    `dimensioned` chooses unless it is given."""
+    """The paper's R: width along X of every column, of each, or of each square, constant along a column;
+    `square_side_m` or what `dimensioned` chooses unless it is given."""
     row_depths_m: SidesM | None = None
-    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row; 8.1 or what
-    `dimensioned` chooses unless it is given."""
+    """The paper's C: depth along Z of every row, of each, or of each square, constant along a row;
+    `square_side_m` or what `dimensioned` chooses unless it is given."""
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)

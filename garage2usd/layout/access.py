@@ -14,9 +14,6 @@ from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, 
 
 __all__ = ["barriers", "ramp_lights", "with_ramps"]
 
-MAX_SLOPE = 0.15
-TRANSITION_M = 3.6
-"""Least length of the half-slope pieces at a ramp's foot and top."""
 _SLAB_M = 0.3
 _FOOT_M = 0.5
 _LANDING_M = 2.5
@@ -73,8 +70,9 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
 def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
     """The ramp behind a door: level foot, half slope, full slope, half slope, landing."""
     rise = portal.height_m + _SLAB_M
-    transition = TRANSITION_M * MAX_SLOPE / 2
-    lengths = (_FOOT_M, TRANSITION_M, (rise - 2 * transition) / MAX_SLOPE, TRANSITION_M, _LANDING_M)
+    slope, gentle_m = fittings.ramp_slope_percent / 100, fittings.ramp_transition_m
+    transition = min(gentle_m * slope / 2, rise / 2)
+    lengths = (_FOOT_M, gentle_m, (rise - 2 * transition) / slope, gentle_m, _LANDING_M)
     climbs = (0.0, transition, rise - 2 * transition, transition, 0.0)
     runs = np.cumsum([portal.thickness_m, *lengths])
     heights = np.cumsum([0.0, *climbs])

@@ -9,9 +9,11 @@ import shapely
 from garage2usd.config import ParkingConfig
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
 from garage2usd.layout.specs import ChargerSpec, Marking, Point, Surface
+from garage2usd.profiles import Profile
 
 __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
 
+_ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25
 """Garages of so many stalls have an accessible one at least."""
 _CHARGER_FROM_REAR_M = 0.055
@@ -19,7 +21,7 @@ _SYMBOL_Z_M = 0.35
 
 
 def with_designated_stalls(
-    stalls: tuple[Stall, ...], anchors: Iterable[Point], parking: ParkingConfig
+    stalls: tuple[Stall, ...], anchors: Iterable[Point], parking: ParkingConfig, profile: Profile
 ) -> tuple[Stall, ...]:
     """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones.
 
@@ -31,9 +33,7 @@ def with_designated_stalls(
     is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's.
     """
     anchors = list(anchors)
-    accessible = round(parking.accessible_share * len(stalls))
-    if parking.accessible_share > 0 and len(stalls) >= _ACCESSIBLE_FROM_STALLS:
-        accessible = max(accessible, 1)
+    accessible = _accessible_count(len(stalls), parking, profile)
     charging = round(parking.ev_share * len(stalls))
     order = sorted(
         (index for index, stall in enumerate(stalls) if stall.use is StallUse.STANDARD),
@@ -56,6 +56,15 @@ def with_designated_stalls(
     return tuple(
         stall if use is stall.use else replace(stall, use=use) for stall, use in zip(stalls, uses, strict=True)
     )
+
+
+def _accessible_count(stalls: int, parking: ParkingConfig, profile: Profile) -> int:
+    """How many stalls are accessible: the user's share, or what the profile asks for."""
+    if parking.accessible_share is None and profile.accessible_stalls is not None:
+        return profile.accessible_stalls.required(stalls)
+    share = _ACCESSIBLE_SHARE if parking.accessible_share is None else parking.accessible_share
+    least = 1 if share > 0 and stalls >= _ACCESSIBLE_FROM_STALLS else 0
+    return max(round(share * stalls), least)
 
 
 def _access_aisle(index: int, stalls: tuple[Stall, ...], uses: list[StallUse]) -> int | None:

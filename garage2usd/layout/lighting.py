@@ -1,6 +1,6 @@
 """How bright the floor is: tubes get the luminance that reaches the wanted illuminance."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,7 @@ from garage2usd.layout.placement import Placement, Stall
 from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.layout.tiles import TileGrid
 
-__all__ = ["Illuminance", "Lux", "direct_lux", "light_up"]
+__all__ = ["Illuminance", "Lux", "direct_lux", "lane_points_of", "light_up"]
 
 UTILISATION, MAINTENANCE = 1.0, 0.8
 """Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
@@ -68,7 +68,9 @@ def light_up(
     in the way; beams cut off less than half a per cent. L is the least with which the mean direct light on lanes
     reaches ``lane_lux`` and that on stalls ``stall_lux``. The lumen method has ``E = N Phi UF MF / A``.
     """
-    lane_points = _lane_points(grid)
+    lane_points = lane_points_of(
+        (tile.x_m, tile.z_m, tile.width_m, tile.depth_m) for tile in grid if tile.cell is Cell.LANE
+    )
     stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
     unit_lanes, unit_stalls = (direct_lux(points, tubes) for points in (lane_points, stall_points))
     needs = [
@@ -132,15 +134,10 @@ def _spec(tube: Placement) -> TubeLightSpec:
     return tube.spec
 
 
-def _lane_points(grid: TileGrid) -> NDArray[np.float64]:
+def lane_points_of(squares: Iterable[tuple[float, float, float, float]]) -> NDArray[np.float64]:
+    """Nine points (x, z) on each lane square, told by its middle (x, z) and its extent along X and Z."""
     shares = (np.arange(_POINTS_A_SIDE) + 0.5) / _POINTS_A_SIDE - 0.5
-    points = [
-        (tile.x_m + u * tile.width_m, tile.z_m + v * tile.depth_m)
-        for tile in grid
-        if tile.cell is Cell.LANE
-        for u in shares
-        for v in shares
-    ]
+    points = [(x + u * width, z + v * depth) for x, z, width, depth in squares for u in shares for v in shares]
     return np.array(points).reshape(-1, 2)
 
 

@@ -11,7 +11,7 @@ from garage2usd.layout.placement import ObjectKind, Placement
 if TYPE_CHECKING:
     from garage2usd.layout.specs import Spec
 
-__all__ = ["KINDS", "ObjectTable"]
+__all__ = ["KINDS", "ObjectTable", "compact"]
 
 KINDS = tuple(ObjectKind)
 """The kinds by the number that a table holds for each."""
@@ -23,8 +23,10 @@ class ObjectTable(Sequence[Placement]):
 
     Attributes
     ----------
-    specs, names
-        The different shapes and names.
+    specs
+        The different shapes.
+    names
+        The different names, as ASCII; shape (names,).
     kind, spec, name
         Number of each object's kind in `KINDS`, of its shape in `specs` and of its name in `names`; shape (n,).
     position_m
@@ -32,7 +34,7 @@ class ObjectTable(Sequence[Placement]):
     yaw_rad
         Turn of each about +Y; float64, shape (n,).
     square
-        (row, col) of the tile of each, (-1, -1) for what belongs to the building; int32, shape (n, 2).
+        (row, col) of the tile of each, (-1, -1) for what belongs to the building; signed, shape (n, 2).
     """
 
     def __init__(self, parts: Iterable[Iterable[Placement]]) -> None:
@@ -45,9 +47,9 @@ class ObjectTable(Sequence[Placement]):
         columns = [_columns(part, specs, names) for part in parts]
         kind, spec, name, position, yaw, square = (np.concatenate(column) for column in zip(*columns, strict=True))
         order = np.lexsort((square[:, 1], square[:, 0], square[:, 0] < 0))
-        self.kind, self.spec, self.name = kind[order], spec[order], name[order]
-        self.position_m, self.yaw_rad, self.square = position[order], yaw[order], square[order]
-        self.specs, self.names = tuple(specs), tuple(names)
+        self.kind, self.spec, self.name = kind[order], compact(spec[order]), compact(name[order])
+        self.position_m, self.yaw_rad, self.square = position[order], yaw[order], compact(square[order])
+        self.specs, self.names = tuple(specs), np.array(list(names), dtype=np.bytes_)
 
     def __len__(self) -> int:
         """Number of objects."""
@@ -74,7 +76,7 @@ class ObjectTable(Sequence[Placement]):
         columns = (self.name, self.kind, self.spec, self.position_m, self.yaw_rad, self.square)
         return [
             Placement(
-                self.names[name],
+                self.names[name].decode("ascii"),
                 KINDS[kind],
                 self.specs[spec],
                 (x, y, z),
@@ -89,6 +91,11 @@ class ObjectTable(Sequence[Placement]):
     def rows_of(self, *kinds: ObjectKind) -> NDArray[np.intp]:
         """Numbers of the rows that hold objects of some kinds."""
         return np.flatnonzero(np.isin(self.kind, [_KIND_NUMBERS[kind] for kind in kinds]))
+
+
+def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]:
+    """Numbers in the smallest signed type that holds them."""
+    return numbers.astype(np.min_scalar_type(-1 - int(numbers.max(initial=0))))
 
 
 def _columns(

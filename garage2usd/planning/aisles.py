@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.compiled import compiled
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
-from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.polish import connect
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.planning.compiled import compiled
+from garage2usd.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "uniform"]

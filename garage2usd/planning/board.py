@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.planning.compiled import compiled
+from garage2usd.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = [

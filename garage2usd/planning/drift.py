@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.compiled import compiled
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
-from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = ["drift"]

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.compiled import compiled
 from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
-from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import PADDING, Ground
 
 __all__ = ["FORBIDDEN", "Sheet", "advance", "complete", "enumerate_layouts", "suffix_values"]

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.compiled import compiled
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure
-from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = ["anneal", "climb", "close_dead_ends", "connect"]

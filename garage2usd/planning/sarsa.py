@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.compiled import compiled
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, dead_ends, lay, value_now
-from garage2usd.planning.compiled import compiled
 from garage2usd.planning.ground import Ground
 
 __all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory"]

@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Tf, Usd, UsdGeom
+from pxr import Usd, UsdGeom
 
-from garage2usd.errors import ConfigError, StageError
+from garage2usd.errors import ConfigError
 from garage2usd.layout import ObjectKind
+from garage2usd.limits import lift_seconds
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.render.blender_process import check_blender, run_blender
@@ -28,6 +29,7 @@ from garage2usd.render.pictures import (
 )
 from garage2usd.render.scene import SHAPE_PROPERTY, read_scene, write_shapes
 from garage2usd.stage.labels import OBJECT_LABELS
+from garage2usd.stage.reading import open_stage
 from garage2usd.stage.variants import SWITCHES
 
 __all__ = ["Picture", "Rendering", "render_stage"]
@@ -118,7 +120,7 @@ def render_stage(
         raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
     check_blender()
     check_writable(folder)
-    opened = _open(path)
+    opened = open_stage(path)
     views = find_views(opened, cameras=cameras, frames=frames)
     labels = read_labels(opened, path)
     progress("scene", 0, 1)
@@ -146,6 +148,7 @@ def render_stage(
             "frames": jobs,
         }
         progress("render", 0, total)
+        lift_seconds()
         run_blender(job, staging, lambda done: progress("render", done, total))
         entries = []
         for number, (view, frame_job, hide) in enumerate(zip(views, jobs, hidden, strict=True)):
@@ -161,13 +164,6 @@ def render_stage(
         progress("masks", len(views), len(views))
         places = publish([*(finished / kind for kind in kinds), table], folder)
     return Rendering(folder, places[-1], tuple(view.name for view in views), kinds)
-
-
-def _open(path: Path) -> Usd.Stage:
-    try:
-        return Usd.Stage.Open(str(path))
-    except Tf.ErrorException as error:
-        raise StageError(path, str(error.args[0]).strip().splitlines()[0] if error.args else "cannot be read") from None
 
 
 def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[list[int]]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from garage2usd.config import BayConfig, SiteConfig
-from garage2usd.config.site import DEFAULT_SIDE_M, SidesM
+from garage2usd.config.site import SidesM
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
 from garage2usd.site.contour import draw_contour
@@ -48,13 +48,13 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
     _check_size(site, cells)
     return Structure(
         cells,
-        sides_mm(_given(bay.column_widths_m), field="bay.column_widths_m", shape=cells.shape, axis=1),
-        sides_mm(_given(bay.row_depths_m), field="bay.row_depths_m", shape=cells.shape, axis=0),
+        sides_mm(_given(bay.column_widths_m, bay), field="bay.column_widths_m", shape=cells.shape, axis=1),
+        sides_mm(_given(bay.row_depths_m, bay), field="bay.row_depths_m", shape=cells.shape, axis=0),
     )
 
 
-def _given(sides_m: SidesM | None) -> SidesM:
-    return DEFAULT_SIDE_M if sides_m is None else sides_m
+def _given(sides_m: SidesM | None, bay: BayConfig) -> SidesM:
+    return bay.square_side_m if sides_m is None else sides_m
 
 
 def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:

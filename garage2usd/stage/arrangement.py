@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from garage2usd.grid import Cell
 from garage2usd.lanes import Square
 from garage2usd.layout import Layout, ObjectKind
-from garage2usd.layout.table import KINDS
+from garage2usd.layout.table import KINDS, compact
 
 __all__ = ["ROOT_NAME", "SCATTERED", "Arrangement", "arrange", "row_name", "tile_name"]
 
@@ -45,7 +46,7 @@ class Arrangement:
     nested
         Whether equal tiles share a prototype.
     squares
-        The square of each tile, in reading order.
+        (row, col) of each tile, in reading order; shape (tiles, 2).
     origins_m
         (x, z) of each tile's origin, the middle of its square; float64, shape (tiles, 2).
     order, borders
@@ -55,20 +56,20 @@ class Arrangement:
     scattered
         Rows of the objects of each point instancer, in the order of its points.
     names
-        The different names.
+        The different names, as ASCII; shape (names,).
     name
         Number of each object's name in `names`; shape (n,).
     """
 
     nested: bool
-    squares: list[Square]
+    squares: NDArray[np.intp]
     origins_m: NDArray[np.float64]
-    order: NDArray[np.intp]
+    order: NDArray[np.int32]
     borders: NDArray[np.intp]
     groups: dict[str, NDArray[np.intp]]
     scattered: dict[str, NDArray[np.intp]]
-    names: tuple[str, ...]
-    name: NDArray[np.int32]
+    names: NDArray[np.bytes_]
+    name: NDArray[np.signedinteger[Any]]
 
     def on_tile(self, tile: int) -> NDArray[np.intp]:
         """Rows of the objects of a tile."""
@@ -87,15 +88,15 @@ class Arrangement:
         paths = [""] * len(self.name)
         for parent, rows in self._parents():
             for row, name in zip(rows.tolist(), self.name[rows].tolist(), strict=True):
-                paths[row] = f"{parent}/{self.names[name]}"
+                paths[row] = f"{parent}/{self.names[name].decode('ascii')}"
         for instancer, rows in self.scattered.items():
             for point, row in enumerate(rows.tolist()):
                 paths[row] = f"/{ROOT_NAME}/{instancer}[{point}]"
         return paths
 
     def _parents(self) -> Iterator[tuple[str, NDArray[np.intp]]]:
-        for square, rows in zip(self.squares, self.on_tiles(), strict=True):
-            yield f"/{ROOT_NAME}/Tiles/{row_name(square[0])}/{tile_name(square)}", rows
+        for (row, col), rows in zip(self.squares.tolist(), self.on_tiles(), strict=True):
+            yield f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name((row, col))}", rows
         for group, rows in self.groups.items():
             yield f"/{ROOT_NAME}/{group}", rows
 
@@ -117,7 +118,7 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
     tile_of_square[tuple(squares.T)] = np.arange(len(squares))
     rows, cols = objects.square.T
     tile = np.where(rows >= 0, tile_of_square[rows, cols], -1)
-    names, name = list(objects.names), objects.name
+    names, name = objects.names, objects.name
     scattered = {}
     if nested:
         for kind, common_name in _AT_CORNERS.items():
@@ -127,26 +128,31 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
             row = np.searchsorted(structure.row_edges_m, corner_z - _BORDER_TOLERANCE_M) - 1
             col = np.searchsorted(structure.column_edges_m, corner_x - _BORDER_TOLERANCE_M) - 1
             tile[at] = tile_of_square[row, col]
-            name = np.where(np.isin(np.arange(len(name)), at), np.int32(len(names)), name)
-            names.append(common_name)
+            name = name.astype(np.int32)
+            name[at] = len(names)
+            names = np.append(names, np.bytes_(common_name))
         for kind, instancer in SCATTERED.items():
             at = objects.rows_of(kind)
             if len(at):
                 scattered[instancer] = at
                 tile[at] = -2
-    order = np.argsort(tile, kind="stable")
+                name[at] = 0
+        # most names were those of what is scattered and of columns
+        used = np.bincount(name, minlength=len(names)) > 0
+        names, name = names[used], compact(np.cumsum(used) - 1)[name]
+    order = np.argsort(tile, kind="stable").astype(np.int32)
     borders = np.searchsorted(tile[order], np.arange(len(squares) + 1))
     middles = [(edges[1:] + edges[:-1]) / 2 for edges in (structure.column_edges_m, structure.row_edges_m)]
     origins = np.stack([middles[0][squares[:, 1]], middles[1][squares[:, 0]]], axis=1)
     return Arrangement(
         nested,
-        [(row, col) for row, col in squares.tolist()],
+        squares,
         origins,
         order,
         borders,
         _grouped(layout, np.flatnonzero(tile == -1)),
         scattered,
-        tuple(names),
+        names,
         name,
     )
 

@@ -1,10 +1,11 @@
 """Small steps of authoring Sdf specs, with no stage open."""
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
-__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "set_units"]
+__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "save", "set_units"]
 
 LABEL_TAXONOMY = "class"
 """Instance name of the semantic labels: ``semantics:labels:class``."""
@@ -61,3 +62,10 @@ def order_operations(prim: Sdf.PrimSpec, names: Iterable[str]) -> None:
     """Say which transform operations apply, outermost first."""
     order = Vt.TokenArray([f"xformOp:{name}" for name in names])
     attribute(prim, "xformOpOrder", Sdf.ValueTypeNames.TokenArray, order, uniform=True)
+
+
+def save(layer: Sdf.Layer, path: Path) -> None:
+    """Write an anonymous layer to a new file; as `Sdf.Layer.Export`, but without a second copy of all it holds."""
+    file = Sdf.Layer.CreateNew(str(path))
+    file.TransferContent(layer)
+    file.Save()

@@ -11,7 +11,7 @@ from pxr import Gf, Sdf
 
 from garage2usd.grid import Cell
 from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout
+from garage2usd.layout import Layout, ObjectKind
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
 
@@ -25,7 +25,9 @@ _MARGIN = 1.05
 _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
-
+_NEAR_M, _FAR_M = 0.1, 2000.0
+_SHELL = (ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.RAMP, ObjectKind.SKY)
+"""What is outermost of every garage."""
 
 DRIVE_NAME = "Drive"
 """Name of the camera that drives, and of its asset."""
@@ -66,12 +68,12 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
     _fixed(_camera(layer, path.AppendChild("Inside")), (x, _EYE_M, z), yaw_deg=yaw)
 
-    of_building = np.flatnonzero(layout.placements.square[:, 0] < 0)
-    low, high = world_bounds_m(layout.placements, of_building)
+    low, high = world_bounds_m(layout.placements, layout.placements.rows_of(*_SHELL))
     (left, _, back), (right, top, front) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
     distance = _MARGIN * _FOCAL_MM * max((right - left) / _APERTURE_MM[0], (front - back) / _APERTURE_MM[1])
     over = ((left + right) / 2, top + distance, (back + front) / 2)
-    _fixed(_camera(layer, path.AppendChild("Above")), over, pitch_deg=-90.0)
+    above = _camera(layer, path.AppendChild("Above"), far_m=max(_FAR_M, math.ceil(over[1])))
+    _fixed(above, over, pitch_deg=-90.0)
     drive = define(layer, path.AppendChild(DRIVE_NAME), "Camera")
     reference = Sdf.Reference(f"./{asset_folder}/{DRIVE_NAME}.usdc")
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
@@ -133,13 +135,13 @@ def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
     return way
 
 
-def _camera(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.PrimSpec:
+def _camera(layer: Sdf.Layer, path: Sdf.Path, *, far_m: float = _FAR_M) -> Sdf.PrimSpec:
     camera = define(layer, path, "Camera")
     # focal length and aperture are tenths of a stage unit
     lens = {"focalLength": _FOCAL_MM, "horizontalAperture": _APERTURE_MM[0], "verticalAperture": _APERTURE_MM[1]}
     for name, value_mm in lens.items():
         attribute(camera, name, Sdf.ValueTypeNames.Float, value_mm / 100)
-    attribute(camera, "clippingRange", Sdf.ValueTypeNames.Float2, Gf.Vec2f(0.1, 2000.0))
+    attribute(camera, "clippingRange", Sdf.ValueTypeNames.Float2, Gf.Vec2f(_NEAR_M, far_m))
     return camera
 
 

@@ -5,18 +5,19 @@ inside one change block. No stage is open, so that nothing is composed while wri
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import chain, groupby, islice
+from itertools import chain, islice
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
 from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph, Square
+from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.layout.specs import Spec
 from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
-from garage2usd.stage.authoring import define, set_units
+from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, write_lane_graph
@@ -66,25 +67,49 @@ def write_garage_layer(
     path
         The file; ``.usda`` or ``.usdc``.
     """
+    text = _garage_text(layout, graph, arrangement, prototypes, path.parent / asset_folder)
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    layer.ImportFromString(text)
+    root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
+    with Sdf.ChangeBlock():
+        layer.defaultPrim = ROOT_NAME
+        set_units(layer)
+        set_frames(layer, last_frame)
+        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout.structure)})
+        define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
+    del text
+    save(layer, path)
+    # of a large garage each layer is a hundred megabytes while it is written
+    del layer
     write_lane_graph(path.parent / asset_folder / LANE_GRAPH_FILE, layout, graph, setback_m=setback_m)
     for name, rows in arrangement.scattered.items():
         write_instancer(path.parent / asset_folder / f"{name}.usdc", layout.placements, rows, prototypes)
+
+
+def _garage_text(
+    layout: Layout,
+    graph: LaneGraph,
+    arrangement: Arrangement,
+    prototypes: Mapping[Spec, Prototype],
+    folder: Path,
+) -> str:
+    """The garage but for cameras and metadata; prototypes of tiles are written into the folder of the assets."""
     writer = InstanceWriter(
         layout,
         arrangement,
         prototypes,
-        f"./{asset_folder}",
+        f"./{folder.name}",
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
         describe_stalls=not arrangement.nested,
     )
-    folder = path.parent / asset_folder
     labels = _tile_labels(graph, arrangement.squares)
     class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
     if arrangement.nested:
         inner = InstanceWriter(layout, arrangement, prototypes, ".", classes={}, describe_stalls=False)
         shared = share_tiles(layout, arrangement, labels, inner)
         write_tile_prototypes(shared, folder / TILES_FILE)
-        tiles = _shared_tiles(arrangement, shared, asset_folder)
+        tiles = _shared_tiles(arrangement, shared, folder.name)
         shared_followers = shared.followers
     else:
         tiles, shared_followers = _tiles(arrangement, labels, writer), {}
@@ -97,39 +122,28 @@ def write_garage_layer(
         f'class "{_CLASSES}"\n{{\n{classes}}}\n'
     )
     files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = (_part_text(asset_folder, file) for file in files)
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString("".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"])))
-    root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
-    with Sdf.ChangeBlock():
-        layer.defaultPrim = ROOT_NAME
-        set_units(layer)
-        set_frames(layer, last_frame)
-        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout.structure)})
-        define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
-    layer.Export(str(path))
+    parts = (_part_text(folder.name, file) for file in files)
+    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"]))
 
 
-def _tile_labels(graph: LaneGraph, squares: Iterable[Square]) -> list[str]:
+def _tile_labels(graph: LaneGraph, squares: NDArray[np.intp]) -> list[str]:
     """What a label says of each tile: the kind of its lane square, or the type of its stalls."""
     stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
     kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}
-    return [kinds.get(square) or stalls[square] for square in squares]
+    return [kinds.get((row, col)) or stalls[row, col] for row, col in squares.tolist()]
 
 
 def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWriter) -> Iterator[str]:
-    """Row and tile groups; a tile's origin is the middle of its square, where its floor lies."""
-    places = rounded_m(arrangement.origins_m)
+    """Row and tile groups."""
     counts = np.diff(arrangement.borders)
     objects = writer.texts(arrangement.on_all_tiles(), np.repeat(arrangement.origins_m, counts, axis=0))
-    tiles = zip(arrangement.squares, places, counts.tolist(), labels, strict=True)
-    for row, in_row in groupby(tiles, key=lambda tile: tile[0][0]):
-        texts = (
-            group_text(tile_name(square), islice(objects, count), label=label, place=place_text(x, 0.0, z))
-            for square, (x, z), count, label in in_row
+    texts = (
+        group_text(tile_name((row, col)), islice(objects, count), label=label, place=place_text(x, 0.0, 0.0))
+        for (row, col), x, count, label in zip(
+            arrangement.squares.tolist(), rounded_m(arrangement.origins_m[:, 0]), counts.tolist(), labels, strict=True
         )
-        yield from group_pieces(row_name(row), texts)
+    )
+    return _rows(arrangement, texts)
 
 
 def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder: str) -> Iterator[str]:
@@ -141,13 +155,24 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder
     headers = {
         name: reference_text(asset, prim=f"/{name}", base=f"/{ROOT_NAME}/{_CLASSES}/{name}") for name in shared.texts
     }
-    tiles = zip(arrangement.squares, rounded_m(arrangement.origins_m), shared.name_of, strict=True)
-    for row, in_row in groupby(tiles, key=lambda tile: tile[0][0]):
-        texts = (
-            f'def "{tile_name(square)}" (\n{headers[name]})\n{{\n{moved_text(x, z)}}}\n'
-            for square, (x, z), name in in_row
+    texts = (
+        f'def "{tile_name((row, col))}" (\n{headers[name]})\n{{\n{moved_text(x)}}}\n'
+        for (row, col), x, name in zip(
+            arrangement.squares.tolist(), rounded_m(arrangement.origins_m[:, 0]), shared.name_of, strict=True
         )
-        yield from group_pieces(row_name(row), texts)
+    )
+    return _rows(arrangement, texts)
+
+
+def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
+    """Row groups with their tiles; the origin of a tile is the middle of its square, where its floor lies.
+
+    A row is at its place across Z and a tile at its place along X, so that few values say where the many tiles are.
+    """
+    first, counts = np.unique(arrangement.squares[:, 0], return_index=True, return_counts=True)[1:]
+    rows, places = arrangement.squares[first, 0].tolist(), rounded_m(arrangement.origins_m[first, 1])
+    for row, z, count in zip(rows, places, counts.tolist(), strict=True):
+        yield from group_pieces(row_name(row), islice(tiles, count), place=place_text(0.0, 0.0, z))
 
 
 def _part_text(asset_folder: str, file: str) -> str:

@@ -71,10 +71,11 @@ class InstanceWriter:
         ):
             header = self._headers.get((kind, spec)) or self._header(kind, spec)
             stall = self._stalls.get(row)
+            prim = names[name].decode("ascii")
             if stall:
-                yield instance_text(names[name], header, place_text(x, y, z, yaw), _stall_text(stall))
+                yield instance_text(prim, header, place_text(x, y, z, yaw), _stall_text(stall))
             else:
-                yield _placed_text(names[name], header, x, y, z, yaw)
+                yield _placed_text(prim, header, x, y, z, yaw)
 
     def _header(self, kind: int, spec: int) -> str:
         prototype = self._prototypes[spec]

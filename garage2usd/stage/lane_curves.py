@@ -13,7 +13,7 @@ from garage2usd.lanes import LaneGraph, LaneKind, Square
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
-from garage2usd.stage.authoring import attribute, define, set_units
+from garage2usd.stage.authoring import attribute, define, save, set_units
 
 __all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
 
@@ -53,7 +53,7 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
         _author_nodes(layer, root.AppendChild("Nodes"), layout.structure, graph, squares, setback_m)
         _author_edges(layer, root.AppendChild("Edges"), layout.structure, graph, number_of, setback_m)
         _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, number_of)
-    layer.Export(str(path))
+    save(layer, path)
 
 
 def _author_nodes(

@@ -76,9 +76,9 @@ def place_text(x: float, y: float, z: float, yaw_deg: float = 0.0) -> str:
     return f"{move}float xformOp:rotateY = {yaw_deg}\n{_ORDERS[True]}"
 
 
-def moved_text(x: float, z: float) -> str:
-    """The translation of a prim whose prototype has a place of its own."""
-    return f"float3 xformOp:translate = ({x}, 0, {z})\n"
+def moved_text(x: float) -> str:
+    """The translation along X of a prim whose prototype has a place of its own."""
+    return f"float3 xformOp:translate = ({x}, 0, 0)\n"
 
 
 def rounded_m(position_m: NDArray[np.float64]) -> list[Any]:

@@ -11,7 +11,7 @@ from pxr import Gf, Kind, Sdf, Vt
 from garage2usd.layout import ObjectTable
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.table import KINDS
-from garage2usd.stage.authoring import attribute, define, set_units
+from garage2usd.stage.authoring import attribute, define, save, set_units
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import Prototype
@@ -41,7 +41,7 @@ def write_instancer(
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=OBJECT_LABELS[kind])
         _author_prototypes(prim, [prototypes[spec].name for spec in specs])
         _author_points(prim, objects, rows, indices)
-    layer.Export(str(path))
+    save(layer, path)
 
 
 def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:

@@ -1,7 +1,7 @@
 """Prototypes of whole tiles: in a large garage equal tiles share one, in a layer beside the assets."""
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
 from pathlib import Path
@@ -13,7 +13,7 @@ from pxr import Sdf
 from garage2usd.layout import Layout
 from garage2usd.layout.table import KINDS
 from garage2usd.stage.arrangement import Arrangement
-from garage2usd.stage.authoring import set_units
+from garage2usd.stage.authoring import save, set_units
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.prim_text import group_text, place_text
 from garage2usd.stage.variants import SWITCHES, Switch
@@ -24,6 +24,8 @@ TILES_FILE = "Tiles.usdc"
 """Layer of the tile prototypes, beside the assets."""
 _SAME_PLACE_M = 1e-5
 _SAME_YAW_RAD = 1e-6
+_TILES_AT_ONCE = 4096
+"""Whose objects are compared in one go, so that those of a large garage are not all there twice."""
 
 
 @dataclass(frozen=True)
@@ -59,27 +61,10 @@ def share_tiles(
     writer
         Of instances whose assets stand in the folder of the prototypes, without classes.
     """
-    objects = layout.placements
-    borders = arrangement.borders
-    order = arrangement.on_all_tiles()
-    origins = np.repeat(arrangement.origins_m, np.diff(borders), axis=0)
-    local = objects.position_m[order]
-    local[:, [0, 2]] -= origins
-    content = np.column_stack(
-        [
-            arrangement.name[order],
-            objects.kind[order],
-            objects.spec[order],
-            np.rint(local / _SAME_PLACE_M).astype(np.int32),
-            np.rint(objects.yaw_rad[order] / _SAME_YAW_RAD).astype(np.int32),
-        ]
-    )
     names: dict[tuple[str, bytes], str] = {}
     first: list[int] = []
     name_of: list[str] = []
-    spans = pairwise((borders - borders[0]).tolist())
-    for tile, (label, (start, end)) in enumerate(zip(labels, spans, strict=True)):
-        key = label, content[start:end].tobytes()
+    for tile, key in enumerate(zip(labels, _contents(layout, arrangement), strict=True)):
         name = names.get(key)
         if name is None:
             name = names[key] = f"Tile_{len(names) + 1:04d}"
@@ -99,13 +84,35 @@ def share_tiles(
     return TilePrototypes(name_of, texts, followers)
 
 
+def _contents(layout: Layout, arrangement: Arrangement) -> Iterator[bytes]:
+    """What each tile holds, in names, kinds, shapes and places from its origin; equal for tiles that hold the same."""
+    objects, borders = layout.placements, arrangement.borders
+    for begin in range(0, len(borders) - 1, _TILES_AT_ONCE):
+        tiles = slice(begin, min(begin + _TILES_AT_ONCE, len(borders) - 1))
+        spans = borders[tiles.start : tiles.stop + 1]
+        rows = arrangement.order[spans[0] : spans[-1]]
+        local = objects.position_m[rows]
+        local[:, [0, 2]] -= np.repeat(arrangement.origins_m[tiles], np.diff(spans), axis=0)
+        content = np.column_stack(
+            [
+                arrangement.name[rows],
+                objects.kind[rows],
+                objects.spec[rows],
+                np.rint(local / _SAME_PLACE_M).astype(np.int32),
+                np.rint(objects.yaw_rad[rows] / _SAME_YAW_RAD).astype(np.int32),
+            ]
+        )
+        for start, end in pairwise((spans - spans[0]).tolist()):
+            yield content[start:end].tobytes()
+
+
 def _followers(layout: Layout, arrangement: Arrangement, rows: NDArray[np.intp]) -> dict[Switch, list[str]]:
     """Names of the objects in some rows that follow each variant set."""
     followers: dict[Switch, list[str]] = defaultdict(list)
     for row in rows.tolist():
         switch = SWITCHES.get(KINDS[layout.placements.kind[row]])
         if switch is not None:
-            followers[switch].append(arrangement.names[arrangement.name[row]])
+            followers[switch].append(arrangement.names[arrangement.name[row]].decode("ascii"))
     return dict(followers)
 
 
@@ -116,4 +123,4 @@ def write_tile_prototypes(shared: TilePrototypes, path: Path) -> None:
     with Sdf.ChangeBlock():
         set_units(layer)
         layer.defaultPrim = next(iter(shared.texts))
-    layer.Export(str(path))
+    save(layer, path)

@@ -110,7 +110,7 @@ MUTANTS = (
     ),
     Mutant(
         "path-map-jumps",
-        USDC + "CrateReader.cs",
+        USDC + "CratePaths.cs",
         "bool hasChild = jump > 0 || jump == -1",
         "bool hasChild = jump > 0",
     ),
@@ -397,13 +397,13 @@ MUTANTS = (
     ),
     Mutant(
         "concave-faces",
-        SCENE + "TriangleMesh.cs",
+        SCENE + "FaceTriangles.cs",
         "if (count == 3 || count > LargestEarCut)",
         "if (count > 2)",
     ),
     Mutant(
         "ears-with-corners-in-them",
-        SCENE + "TriangleMesh.cs",
+        SCENE + "FaceTriangles.cs",
         "if (!atCorner && Area(",
         "if (atCorner && Area(",
     ),
@@ -448,6 +448,18 @@ MUTANTS = (
         SCENE + "TriangleMesh.cs",
         "partOfFace[face] = parts.Count - 1;",
         "partOfFace[face] = 0;",
+    ),
+    Mutant(
+        "meshes-alike-in-their-arrays-alone",
+        SCENE + "MeshMemo.cs",
+        "value == null || value.IsArray ? value : (object)value.Text ?? value.Number(0)",
+        "value == null || value.IsArray ? value : null",
+    ),
+    Mutant(
+        "meshes-alike-but-for-their-interpolation",
+        SCENE + "MeshMemo.cs",
+        'parts.Add(property.MetadataText("interpolation"));',
+        "",
     ),
     # ---- materials and lights
     Mutant(

@@ -41,7 +41,7 @@ namespace Garage.Usd
         public static ArcNode RootOf(LayerStack stack)
         {
             ArcNode root = ArcNode.OfRoot(stack, "/", 0);
-            root.Specs = SpecsAt(stack, "/");
+            root.Specs = stack.SpecsAt("/");
             root.IsExpanded = true;
             return root;
         }
@@ -55,19 +55,8 @@ namespace Garage.Usd
             return root;
         }
 
-        static LayerSpec[] SpecsAt(LayerStack stack, string path)
-        {
-            var specs = new List<LayerSpec>(1);
-            for (int i = 0; i < stack.Layers.Count; i++)
-            {
-                PrimSpec spec = stack.Layers[i].Find(path);
-                if (spec != null) { specs.Add(new LayerSpec(i, spec)); }
-            }
-            return specs.ToArray();
-        }
-
         // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
-        ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, Choices choices)
+        ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, VariantChoices choices)
         {
             string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path
                 + (choices == null ? "" : choices.Key);
@@ -84,7 +73,7 @@ namespace Garage.Usd
             if (parentPath == "/" || parentPath == null || !withAncestors)
             {
                 root = ArcNode.OfRoot(stack, path, UsdPaths.Depth(path));
-                root.Specs = SpecsAt(stack, path);
+                root.Specs = stack.SpecsAt(path);
             }
             else
             {
@@ -102,7 +91,7 @@ namespace Garage.Usd
             return root;
         }
 
-        void Expand(ArcNode root, bool withVariants, Choices choices)
+        void Expand(ArcNode root, bool withVariants, VariantChoices choices)
         {
             var pending = new List<ArcNode>();
             root.Size = Count(root);
@@ -251,7 +240,7 @@ namespace Garage.Usd
             }
             bool isClass = arc == Arc.Inherit || arc == Arc.Specialize;
             ArcNode template = Template(stack, path, false, withAncestors, isClass && withAncestors
-                ? Choices.Of(node, path) : null);
+                ? VariantChoices.Of(node, path) : null);
             if (template == null)
             {
                 library.Warn("<" + node.Path + "> leads in a circle by <" + path + ">");
@@ -410,7 +399,7 @@ namespace Garage.Usd
 
         // ---- variants
 
-        ArcNode NextVariant(ArcNode root, Choices choices)
+        ArcNode NextVariant(ArcNode root, VariantChoices choices)
         {
             var order = new List<ArcNode>();
             root.AddByStrength(order);
@@ -430,58 +419,6 @@ namespace Garage.Usd
                 }
             }
             return null;
-        }
-
-        /// <summary>
-        /// Variants of the prims above a class, where those who refer to the layer of the class choose others than the
-        /// layer does.
-        /// </summary>
-        sealed class Choices
-        {
-            readonly Dictionary<string, string> selections = new Dictionary<string, string>();
-
-            public string Key { get; private set; }
-
-            /// <summary>
-            /// What places around a node choose above a path of its layers; null where they choose nothing.
-            /// </summary>
-            public static Choices Of(ArcNode node, string path)
-            {
-                Choices choices = null;
-                string above = path;
-                while ((above = UsdPaths.Parent(above)) != null && above != "/")
-                {
-                    string seen = above;
-                    for (ArcNode place = node; place.Parent != null && seen != null; place = place.Parent)
-                    {
-                        seen = place.PathInParent(seen);
-                        if (seen == null || ReferenceEquals(place.Parent.Stack, node.Stack)) { continue; }
-                        // the outermost place comes last and wins
-                        LayerSpec[] specs = SpecsAt(place.Parent.Stack, seen);
-                        for (int i = specs.Length - 1; i >= 0; i--)
-                        {
-                            if (specs[i].Spec.VariantSelections == null) { continue; }
-                            choices = choices ?? new Choices();
-                            foreach (KeyValuePair<string, string> one in specs[i].Spec.VariantSelections)
-                            {
-                                choices.selections[above + "{" + one.Key] = one.Value;
-                            }
-                        }
-                    }
-                }
-                if (choices == null) { return null; }
-                foreach (KeyValuePair<string, string> one in choices.selections)
-                {
-                    choices.Key += "{" + one.Key + "=" + one.Value;
-                }
-                return choices;
-            }
-
-            public string Find(string path, string set)
-            {
-                string selection;
-                return selections.TryGetValue(path + "{" + set, out selection) ? selection : null;
-            }
         }
 
         static string SelectionOf(List<ArcNode> order, string set)

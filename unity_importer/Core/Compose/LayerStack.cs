@@ -29,6 +29,18 @@ namespace Garage.Usd
                 return string.IsNullOrEmpty(name) ? null : name[0] == '/' ? name : "/" + name;
             }
         }
+
+        /// <summary>What the layers say at a path, the strongest first.</summary>
+        public LayerSpec[] SpecsAt(string path)
+        {
+            var specs = new List<LayerSpec>(1);
+            for (int i = 0; i < Layers.Count; i++)
+            {
+                PrimSpec spec = Layers[i].Find(path);
+                if (spec != null) { specs.Add(new LayerSpec(i, spec)); }
+            }
+            return specs.ToArray();
+        }
     }
 
     /// <summary>Reads each layer once and builds the stacks.</summary>
@@ -41,6 +53,10 @@ namespace Garage.Usd
         readonly IAssetResolver resolver;
         readonly Dictionary<string, Layer> layers = new Dictionary<string, Layer>();
         readonly Dictionary<string, LayerStack> stacks = new Dictionary<string, LayerStack>();
+        // identifiers of assets as each layer names them
+        readonly Dictionary<Layer, Dictionary<string, string>> resolved
+            = new Dictionary<Layer, Dictionary<string, string>>();
+
         readonly HashSet<string> warned = new HashSet<string>();
         readonly List<string> warnings = new List<string>();
 
@@ -99,9 +115,17 @@ namespace Garage.Usd
 
         string Resolve(Layer anchor, string asset)
         {
-            string reason;
-            string identifier = resolver.Resolve(anchor.Identifier, asset, out reason);
+            Dictionary<string, string> known;
+            if (!resolved.TryGetValue(anchor, out known))
+            {
+                known = new Dictionary<string, string>();
+                resolved.Add(anchor, known);
+            }
+            string identifier, reason;
+            if (known.TryGetValue(asset, out identifier)) { return identifier; }
+            identifier = resolver.Resolve(anchor.Identifier, asset, out reason);
             if (identifier == null) { Warn(anchor.Identifier + ": @" + asset + "@ " + reason); }
+            known.Add(asset, identifier);
             return identifier;
         }
 

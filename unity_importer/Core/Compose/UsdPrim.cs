@@ -266,9 +266,7 @@ namespace Garage.Usd
             bool has = false;
             AddKey(index, LayerOffset.Identity, key, ref has);
             if (!has) { return; }
-            // opinions on what is below the instance from outside of its arcs do not count
-            ArcNode shared = SharedPart(index);
-            Prototype = Stage.PrototypeOf(key.ToString(), this, shared);
+            Prototype = Stage.PrototypeOf(key.ToString(), this);
         }
 
         static void AddKey(ArcNode node, LayerOffset above, StringBuilder key, ref bool has)
@@ -288,6 +286,14 @@ namespace Garage.Usd
                 foreach (ArcNode child in node.Children) { AddKey(child, offset, key, ref has); }
             }
             key.Append(')');
+        }
+
+        /// <summary>
+        /// The opinions on an instance without those from outside of its arcs, which do not count below it.
+        /// </summary>
+        internal ArcNode SharedPart()
+        {
+            return SharedPart(index);
         }
 
         static ArcNode SharedPart(ArcNode node)

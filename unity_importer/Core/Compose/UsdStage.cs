@@ -147,13 +147,13 @@ namespace Garage.Usd
             }
         }
 
-        internal UsdPrim PrototypeOf(string key, UsdPrim instance, ArcNode shared)
+        internal UsdPrim PrototypeOf(string key, UsdPrim instance)
         {
             UsdPrim prototype;
             if (!prototypes.TryGetValue(key, out prototype))
             {
-                prototype = new UsdPrim(this, null, "/__Prototype_" + (prototypeList.Count + 1), shared,
-                    instance.SourcePath, null);
+                prototype = new UsdPrim(this, null, "/__Prototype_" + (prototypeList.Count + 1),
+                    instance.SharedPart(), instance.SourcePath, null);
                 prototypes.Add(key, prototype);
                 prototypeList.Add(prototype);
             }

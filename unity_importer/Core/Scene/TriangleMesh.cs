@@ -21,8 +21,6 @@ namespace Garage.Usd
     /// <summary>A mesh as graphics cards want it, in the axes and units of the stage.</summary>
     public sealed class TriangleMesh
     {
-        const int LargestEarCut = 1000;
-
         /// <summary>Three numbers a vertex.</summary>
         public float[] Points { get; private set; }
 
@@ -54,6 +52,18 @@ namespace Garage.Usd
             public float[] Result;
         }
 
+        static readonly HashSet<string> Attributes = new HashSet<string>
+        {
+            "points", "faceVertexCounts", "faceVertexIndices", "holeIndices", "orientation", "normals",
+            "subdivisionScheme", "doubleSided",
+        };
+
+        /// <summary>Whether an attribute has to do with what the mesh is.</summary>
+        internal static bool Reads(string attribute)
+        {
+            return Attributes.Contains(attribute) || attribute.StartsWith("primvars:", StringComparison.Ordinal);
+        }
+
         /// <summary>Triangles of a Mesh prim; null, with the reason, where its arrays contradict each other.</summary>
         public static TriangleMesh Build(UsdPrim prim, out string reason)
         {
@@ -69,6 +79,7 @@ namespace Garage.Usd
             float[] points;
             int[] counts, indices, faceStarts;
             bool[] isHole;
+            FaceTriangles faces;
             bool leftHanded;
 
             public Builder(UsdPrim prim)
@@ -87,6 +98,7 @@ namespace Garage.Usd
                 points = pointsValue.Floats();
                 counts = countsValue.Ints();
                 indices = indicesValue.Ints();
+                faces = new FaceTriangles(points, indices);
                 int pointCount = points.Length / 3;
                 faceStarts = new int[counts.Length + 1];
                 long total = 0;
@@ -186,7 +198,7 @@ namespace Garage.Usd
                 var sums = new double[smooth ? points.Length : 0];
                 for (int face = 0; face < counts.Length; face++)
                 {
-                    FaceNormal(face, normal);
+                    faces.Normal(faceStarts[face], counts[face], normal);
                     if (leftHanded)
                     {
                         for (int k = 0; k < 3; k++) { normal[k] = -normal[k]; }
@@ -212,20 +224,6 @@ namespace Garage.Usd
                 for (int k = 0; k < 3; k++)
                 {
                     into[place + k] = length > 0 ? (float)(from[at + k] / length) : k == 1 ? 1 : 0;
-                }
-            }
-
-            // twice the area times the direction, by Newell
-            void FaceNormal(int face, double[] normal)
-            {
-                normal[0] = normal[1] = normal[2] = 0;
-                int start = faceStarts[face], end = faceStarts[face + 1];
-                for (int corner = start; corner < end; corner++)
-                {
-                    int a = 3 * indices[corner], b = 3 * indices[corner + 1 < end ? corner + 1 : start];
-                    normal[0] += ((double)points[a + 1] - points[b + 1]) * ((double)points[a + 2] + points[b + 2]);
-                    normal[1] += ((double)points[a + 2] - points[b + 2]) * ((double)points[a] + points[b]);
-                    normal[2] += ((double)points[a] - points[b]) * ((double)points[a + 1] + points[b + 1]);
                 }
             }
 
@@ -425,13 +423,16 @@ namespace Garage.Usd
                     }
                 }
                 var triangles = new List<int>[parts.Count];
-                for (int i = 0; i < triangles.Length; i++) { triangles[i] = new List<int>(); }
+                for (int i = 0; i < triangles.Length; i++)
+                {
+                    triangles[i] = new List<int>(i == 0 ? 3 * Math.Max(0, indices.Length - 2 * counts.Length) : 0);
+                }
                 var corners = new List<int>();
                 for (int face = 0; face < counts.Length; face++)
                 {
                     if (isHole[face] || counts[face] < 3) { continue; }
                     corners.Clear();
-                    Triangulate(face, corners);
+                    faces.Cut(faceStarts[face], counts[face], corners);
                     List<int> into = triangles[partOfFace[face]];
                     for (int i = 0; i < corners.Count; i += 3)
                     {
@@ -445,90 +446,6 @@ namespace Garage.Usd
                     parts[i].Triangles = triangles[i].ToArray();
                     if (parts[i].Triangles.Length > 0 || parts.Count == 1) { mesh.SubMeshes.Add(parts[i]); }
                 }
-            }
-
-            // ---- faces to triangles
-
-            void Triangulate(int face, List<int> corners)
-            {
-                int start = faceStarts[face], count = counts[face];
-                if (count == 3 || count > LargestEarCut)
-                {
-                    for (int i = 1; i + 1 < count; i++) { AddTriangle(corners, start, start + i, start + i + 1); }
-                    return;
-                }
-                // the plane in which the face is largest
-                var normal = new double[3];
-                FaceNormal(face, normal);
-                int drop = Math.Abs(normal[0]) > Math.Abs(normal[1])
-                    ? (Math.Abs(normal[0]) > Math.Abs(normal[2]) ? 0 : 2)
-                    : Math.Abs(normal[1]) > Math.Abs(normal[2]) ? 1 : 2;
-                int u = (drop + 1) % 3, v = (drop + 2) % 3;
-                double sign = normal[drop] < 0 ? -1 : 1;
-                var x = new double[count];
-                var y = new double[count];
-                for (int i = 0; i < count; i++)
-                {
-                    x[i] = points[3 * indices[start + i] + u];
-                    y[i] = sign * points[3 * indices[start + i] + v];
-                }
-                var rest = new List<int>(count);
-                for (int i = 0; i < count; i++) { rest.Add(i); }
-                while (rest.Count > 3)
-                {
-                    int ear = BestEar(rest, x, y);
-                    int before = rest[(ear + rest.Count - 1) % rest.Count], after = rest[(ear + 1) % rest.Count];
-                    AddTriangle(corners, start + before, start + rest[ear], start + after);
-                    rest.RemoveAt(ear);
-                }
-                AddTriangle(corners, start + rest[0], start + rest[1], start + rest[2]);
-            }
-
-            static void AddTriangle(List<int> corners, int a, int b, int c)
-            {
-                corners.Add(a);
-                corners.Add(b);
-                corners.Add(c);
-            }
-
-            // the first corner that can be cut off without crossing the rest; whichever is least bad where the face
-            // crosses itself
-            static int BestEar(List<int> rest, double[] x, double[] y)
-            {
-                int best = 1;
-                double largest = double.NegativeInfinity;
-                for (int i = 1; i <= rest.Count; i++)
-                {
-                    int ear = i % rest.Count;
-                    int a = rest[(ear + rest.Count - 1) % rest.Count], b = rest[ear], c = rest[(ear + 1) % rest.Count];
-                    double area = Area(x, y, a, b, c);
-                    if (area > largest)
-                    {
-                        largest = area;
-                        best = ear;
-                    }
-                    if (area <= 0) { continue; }
-                    bool isFree = true;
-                    foreach (int other in rest)
-                    {
-                        if (other == a || other == b || other == c) { continue; }
-                        bool atCorner = (x[other] == x[a] && y[other] == y[a]) || (x[other] == x[b] && y[other] == y[b])
-                            || (x[other] == x[c] && y[other] == y[c]);
-                        if (!atCorner && Area(x, y, a, b, other) >= 0 && Area(x, y, b, c, other) >= 0
-                            && Area(x, y, c, a, other) >= 0)
-                        {
-                            isFree = false;
-                            break;
-                        }
-                    }
-                    if (isFree) { return ear; }
-                }
-                return best;
-            }
-
-            static double Area(double[] x, double[] y, int a, int b, int c)
-            {
-                return (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a]);
             }
         }
     }

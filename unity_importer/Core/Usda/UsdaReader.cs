@@ -4,15 +4,11 @@ using System.Collections.Generic;
 namespace Garage.Usd
 {
     /// <summary>Reads text layers (.usda).</summary>
-    sealed class UsdaReader : UsdaValueReader
+    sealed class UsdaReader : UsdaListReader
     {
-        const int DeepestPrim = 400;
-
         readonly Layer layer;
         readonly LineMemo lines;
-        readonly string[] names = new string[DeepestPrim];
-        int depth, variantDepth;
-        string primPath;
+        int variantDepth;
 
         UsdaReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
@@ -83,7 +79,6 @@ namespace Garage.Usd
 
         void ReadPrim(PrimSpec parent, Specifier specifier)
         {
-            if (depth >= DeepestPrim) { throw Error("prims are nested more than " + DeepestPrim + " deep"); }
             string typeName = AtQuote() ? "" : Name();
             string name = QuotedString(false);
             if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0)
@@ -93,13 +88,11 @@ namespace Garage.Usd
             var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
             if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
             layer.SpecCount++;
-            names[depth++] = name;
-            primPath = null;
+            Enter(name);
             if (Take('(')) { ReadPrimMetadata(prim); }
             Expect('{');
             ReadBody(prim);
-            depth--;
-            primPath = null;
+            Leave();
         }
 
         void ReadBody(PrimSpec prim)
@@ -466,122 +459,6 @@ namespace Garage.Usd
                 prim.VariantSelections[set] = QuotedString();
                 Take(',');
             }
-        }
-
-        LayerOffset ReadOffset()
-        {
-            double offset = 0, scale = 1;
-            for (;;)
-            {
-                SkipSeparators();
-                Take(',');
-                if (Take(')')) { return new LayerOffset(offset, scale); }
-                string key = Name();
-                Expect('=');
-                if (key == "offset") { offset = Number(); }
-                else if (key == "scale") { scale = Number(); }
-                else { ReadAnything(0); }
-            }
-        }
-
-        List<ReferenceArc> ArcList()
-        {
-            var arcs = new List<ReferenceArc>();
-            if (TakeNone()) { return arcs; }
-            bool many = Take('[');
-            while (!(many && Take(']')))
-            {
-                string asset = Next() == '@' ? AssetPath() : "";
-                int stop = at;
-                string path = "";
-                if (Next() == '<')
-                {
-                    path = Absolute(PathText(), true);
-                    stop = at;
-                }
-                if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']'
-                    && text[at - 1] != '@' && text[at - 1] != '>')
-                {
-                    throw Unexpected("an asset or a path");
-                }
-                bool hasOffset = Take('(');
-                arcs.Add(new ReferenceArc(asset, path, hasOffset ? ReadOffset() : LayerOffset.Identity));
-                if (!many)
-                {
-                    // a line ends where its last word does
-                    at = hasOffset ? at : stop;
-                    break;
-                }
-                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
-            }
-            return arcs;
-        }
-
-        List<string> PathList()
-        {
-            var paths = new List<string>();
-            if (TakeNone()) { return paths; }
-            if (!Take('['))
-            {
-                paths.Add(Absolute(PathText(), false));
-                return paths;
-            }
-            while (!Take(']'))
-            {
-                paths.Add(Absolute(PathText(), false));
-                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
-            }
-            return paths;
-        }
-
-        List<string> NameList()
-        {
-            var list = new List<string>();
-            if (TakeNone()) { return list; }
-            if (!Take('['))
-            {
-                list.Add(QuotedString());
-                return list;
-            }
-            while (!Take(']'))
-            {
-                list.Add(QuotedString());
-                if (!Take(',') && Next() != ']') { throw Unexpected("',' or ']'"); }
-            }
-            return list;
-        }
-
-        static ListOp<T> Edited<T>(ListOp<T> op, string edit, List<T> items)
-        {
-            // a whole list and edits of one replace each other; what is there may be shared
-            op = op == null || edit == null || op.IsExplicit ? new ListOp<T>() : op.Copy();
-            switch (edit)
-            {
-                case "prepend": op.Prepended = items; break;
-                case "append": op.Appended = items; break;
-                case "delete": op.Deleted = items; break;
-                case "add": op.Added = items; break;
-                case "reorder": op.Ordered = items; break;
-                default:
-                    op.IsExplicit = true;
-                    op.Explicit = items;
-                    break;
-            }
-            return op;
-        }
-
-        string Absolute(string path, bool mayBeEmpty)
-        {
-            if (path.Length == 0)
-            {
-                if (mayBeEmpty) { return path; }
-                throw Error("a path is empty");
-            }
-            if (path[0] == '/' && path.IndexOf("..", StringComparison.Ordinal) < 0) { return path; }
-            primPath = primPath ?? "/" + string.Join("/", names, 0, depth);
-            string absolute = UsdPaths.Absolute(primPath, path);
-            if (absolute == null) { throw Error("the path <" + path + "> leads out of the layer"); }
-            return absolute;
         }
     }
 }

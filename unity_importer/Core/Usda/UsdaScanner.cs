@@ -16,10 +16,7 @@ namespace Garage.Usd
         protected int at;
 
         readonly string file;
-        readonly char[] ascii = new char[128];
-        string[] internedStrings;
-        int[] internedStarts, internedLengths;
-        int internedCount;
+        readonly TextMemo strings;
 
         static UsdaScanner()
         {
@@ -37,11 +34,7 @@ namespace Garage.Usd
             end = bytes.Length;
             text = new byte[end + 2];
             Buffer.BlockCopy(bytes, 0, text, 0, end);
-            int slots = 1024;
-            while (slots < 65536 && slots < end / 256) { slots *= 2; }
-            internedStrings = new string[slots];
-            internedStarts = new int[slots];
-            internedLengths = new int[slots];
+            strings = new TextMemo(text, end);
         }
 
         protected UsdFormatException Error(string reason)
@@ -150,7 +143,7 @@ namespace Garage.Usd
                 letter = s[++i];
             }
             if (i == at) { return null; }
-            string name = Interned(at, i - at, hash);
+            string name = strings.Shared(at, i - at, hash);
             at = i;
             return name;
         }
@@ -201,7 +194,8 @@ namespace Garage.Usd
             }
             at = i + 1;
             if (escaped) { return Unescaped(start, i); }
-            return isShared && i - start <= 64 ? Interned(start, i - start, hash) : Decoded(start, i - start);
+            int length = i - start;
+            return isShared && length <= 64 ? strings.Shared(start, length, hash) : strings.Decoded(start, length);
         }
 
         string LongString(byte quote)
@@ -220,7 +214,7 @@ namespace Garage.Usd
                 i++;
             }
             at = i + 3;
-            return escaped ? Unescaped(start, i) : Decoded(start, i - start);
+            return escaped ? Unescaped(start, i) : strings.Decoded(start, i - start);
         }
 
         string Unescaped(int start, int stop)
@@ -319,7 +313,7 @@ namespace Garage.Usd
                 at++;
             }
             at++;
-            return Decoded(first, at - 1 - first);
+            return strings.Decoded(first, at - 1 - first);
         }
 
         /// <summary>What stands between angle brackets.</summary>
@@ -336,7 +330,7 @@ namespace Garage.Usd
             }
             int length = at - start;
             at++;
-            return length <= 128 ? Interned(start, length, hash) : Decoded(start, length);
+            return length <= 128 ? strings.Shared(start, length, hash) : strings.Decoded(start, length);
         }
 
         /// <summary>A number of any form; an integer is exact up to 2^64.</summary>
@@ -468,69 +462,6 @@ namespace Garage.Usd
             }
             at = stop;
             return exact;
-        }
-
-        // plain ASCII needs no decoder, whose calls cost more than short texts
-        string Decoded(int start, int length)
-        {
-            if (length > ascii.Length) { return Encoding.UTF8.GetString(text, start, length); }
-            byte[] s = text;
-            for (int i = 0; i < length; i++)
-            {
-                byte letter = s[start + i];
-                if (letter >= 128) { return Encoding.UTF8.GetString(s, start, length); }
-                ascii[i] = (char)letter;
-            }
-            return new string(ascii, 0, length);
-        }
-
-        /// <summary>One string for equal bytes.</summary>
-        string Interned(int start, int length, int hash)
-        {
-            hash ^= hash >> 15;
-            int mask = internedStrings.Length - 1;
-            int slot = (hash ^ length) & mask;
-            byte[] s = text;
-            // few probes, as a file can be made to have colliding names
-            for (int probes = 0; internedStrings[slot] != null; probes++)
-            {
-                if (probes == 16) { return Decoded(start, length); }
-                if (internedLengths[slot] == length)
-                {
-                    int other = internedStarts[slot], i = 0;
-                    while (i < length && s[other + i] == s[start + i]) { i++; }
-                    if (i == length) { return internedStrings[slot]; }
-                }
-                slot = (slot + 1) & mask;
-            }
-            string made = Decoded(start, length);
-            internedStrings[slot] = made;
-            internedStarts[slot] = start;
-            internedLengths[slot] = length;
-            if (++internedCount * 2 > internedStrings.Length) { GrowInterned(); }
-            return made;
-        }
-
-        void GrowInterned()
-        {
-            string[] strings = internedStrings;
-            int[] starts = internedStarts, lengths = internedLengths;
-            int size = strings.Length * 4, mask = size - 1;
-            internedStrings = new string[size];
-            internedStarts = new int[size];
-            internedLengths = new int[size];
-            for (int i = 0; i < strings.Length; i++)
-            {
-                if (strings[i] == null) { continue; }
-                int hash = 0;
-                for (int k = 0; k < lengths[i]; k++) { hash = hash * 31 + text[starts[i] + k]; }
-                hash ^= hash >> 15;
-                int slot = (hash ^ lengths[i]) & mask;
-                while (internedStrings[slot] != null) { slot = (slot + 1) & mask; }
-                internedStrings[slot] = strings[i];
-                internedStarts[slot] = starts[i];
-                internedLengths[slot] = lengths[i];
-            }
         }
     }
 }

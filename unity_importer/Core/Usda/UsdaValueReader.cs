@@ -139,7 +139,8 @@ namespace Garage.Usd
 
         string ReadText(UsdType type)
         {
-            return type == UsdType.Asset && !AtQuote() ? AssetPath() : type == UsdType.Path ? PathText() : QuotedString();
+            return type == UsdType.Asset && !AtQuote() ? AssetPath()
+                : type == UsdType.Path ? PathText() : QuotedString();
         }
 
         void ReadElement(UsdType type)

@@ -7,8 +7,6 @@ namespace Garage.Usd
     /// <summary>Reads binary layers (.usdc) of the versions 0.4 to 0.x.</summary>
     sealed class CrateReader
     {
-        const int DeepestPath = 500;
-
         enum Field
         {
             Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes,
@@ -46,9 +44,7 @@ namespace Garage.Usd
         int[] fieldSets;
         object[] fieldValues;
         bool[] fieldIsRead;
-        int[] pathParents, pathTokens, pathOrder;
-        bool[] pathIsProperty;
-        string[] pathTexts;
+        CratePaths paths;
         CrateValues values;
 
         CrateReader(byte[] data, string identifier)
@@ -86,8 +82,8 @@ namespace Garage.Usd
             ReadTokens();
             ReadStrings();
             ReadFields();
-            ReadPaths();
-            values = new CrateValues(bytes, version, tokens, strings, PathText);
+            paths = new CratePaths(bytes, file, Section("PATHS"), tokens);
+            values = new CrateValues(bytes, version, tokens, strings, paths.Text);
             ReadSpecs();
             return layer;
         }
@@ -181,141 +177,52 @@ namespace Garage.Usd
             fieldSets = bytes.PackedInts(ref place, count);
         }
 
-        void ReadPaths()
-        {
-            long place = Section("PATHS");
-            int count = CountOf("PATHS", place, 1024L * bytes.Length);
-            int encoded = CountOf("PATHS", place + 8, count);
-            place += 16;
-            int[] indices = bytes.PackedInts(ref place, encoded);
-            int[] elements = bytes.PackedInts(ref place, encoded);
-            int[] jumps = bytes.PackedInts(ref place, encoded);
-            bytes.Charge(place, 40L * count);
-            pathParents = new int[count];
-            pathTokens = new int[count];
-            pathIsProperty = new bool[count];
-            pathTexts = new string[count];
-            pathOrder = new int[encoded];
-            var depths = new int[count];
-            for (int i = 0; i < count; i++) { pathParents[i] = -2; }
-            // entries whose siblings wait until all below them is read, with the parent of these
-            var waiting = new Stack<KeyValuePair<int, int>>();
-            int at = 0, parent = -1, read = 0;
-            while (encoded > 0)
-            {
-                if ((uint)at >= (uint)encoded) { throw Error("PATHS", "a jump leads out of the table"); }
-                int path = indices[at];
-                if ((uint)path >= (uint)count || pathParents[path] != -2)
-                {
-                    throw Error("PATHS", "a path is missing or twice in the table");
-                }
-                int token = elements[at];
-                pathIsProperty[path] = token < 0;
-                // the number of a property's name is negative
-                pathTokens[path] = token < 0 ? -token : token;
-                if (parent >= 0 && (uint)pathTokens[path] >= (uint)tokens.Length)
-                {
-                    throw Error("PATHS", "there is no token " + token);
-                }
-                pathParents[path] = parent;
-                depths[path] = parent < 0 ? 0 : depths[parent] + 1;
-                if (depths[path] > DeepestPath)
-                {
-                    throw Error("PATHS", "paths are nested more than " + DeepestPath + " deep");
-                }
-                pathOrder[read++] = path;
-                int jump = jumps[at];
-                bool hasChild = jump > 0 || jump == -1, hasSibling = jump >= 0;
-                if (parent < 0 && hasSibling && jump != 0) { throw Error("PATHS", "the root has a sibling"); }
-                if (hasChild)
-                {
-                    if (hasSibling) { waiting.Push(new KeyValuePair<int, int>(at + jump, parent)); }
-                    parent = path;
-                    at++;
-                }
-                else if (hasSibling && parent >= 0)
-                {
-                    at++;
-                }
-                else if (waiting.Count > 0)
-                {
-                    KeyValuePair<int, int> next = waiting.Pop();
-                    at = next.Key;
-                    parent = next.Value;
-                }
-                else
-                {
-                    break;
-                }
-            }
-            Array.Resize(ref pathOrder, read);
-        }
-
-        /// <summary>The path without variant selections; "" for the index of no path.</summary>
-        string PathText(int index)
-        {
-            if (index == -1) { return ""; }
-            if ((uint)index >= (uint)pathTexts.Length) { throw Error("PATHS", "there is no path " + index); }
-            if (pathTexts[index] != null) { return pathTexts[index]; }
-            // the root's text is nothing while others are built on it
-            if (pathParents[index] == -2) { return ""; }
-            if (pathParents[index] == -1) { return "/"; }
-            string above = PathText(pathParents[index]);
-            string element = tokens[pathTokens[index]];
-            bool isVariant = element.Length > 0 && element[0] == '{';
-            string text = pathIsProperty[index] ? above + "." + element : isVariant ? above
-                : UsdPaths.Child(above, element);
-            bytes.Charge(0, 2L * text.Length + 32);
-            pathTexts[index] = text;
-            return text;
-        }
-
         // ---- specs
 
         void ReadSpecs()
         {
             long place = Section("SPECS");
-            int count = CountOf("SPECS", place, pathParents.Length);
+            int count = CountOf("SPECS", place, paths.Count);
             place += 8;
-            int[] paths = bytes.PackedInts(ref place, count);
+            int[] ofPath = bytes.PackedInts(ref place, count);
             int[] sets = bytes.PackedInts(ref place, count);
             int[] types = bytes.PackedInts(ref place, count);
-            bytes.Charge(place, 16L * pathParents.Length);
-            var specs = new int[pathParents.Length];
+            bytes.Charge(place, 16L * paths.Count);
+            var specs = new int[paths.Count];
             for (int i = 0; i < count; i++)
             {
-                if ((uint)paths[i] >= (uint)specs.Length || specs[paths[i]] != 0)
+                if ((uint)ofPath[i] >= (uint)specs.Length || specs[ofPath[i]] != 0)
                 {
                     throw Error("SPECS", "a path is missing or has two specs");
                 }
-                specs[paths[i]] = i + 1;
+                specs[ofPath[i]] = i + 1;
             }
             CountChildren(specs, types);
             propertyOfSet = new PropertySpec[fieldSets.Length];
-            var prims = new PrimSpec[pathParents.Length];
-            foreach (int path in pathOrder)
+            var prims = new PrimSpec[paths.Count];
+            foreach (int path in paths.Order)
             {
                 int spec = specs[path] - 1;
                 if (spec < 0) { continue; }
-                PrimSpec parent = pathParents[path] < 0 ? null : prims[pathParents[path]];
+                PrimSpec parent = paths.ParentOf(path) < 0 ? null : prims[paths.ParentOf(path)];
                 bytes.Charge(place, 120);
                 switch (types[spec])
                 {
                     case 7:
-                        if (pathParents[path] != -1) { throw Error("SPECS", "a root that is no root"); }
+                        if (paths.ParentOf(path) != -1) { throw Error("SPECS", "a root that is no root"); }
                         prims[path] = layer.Root;
                         Reserve(layer.Root, path);
                         ReadPrimFields(layer.Root, sets[spec]);
                         break;
                     case 6: case 10:
-                        if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
+                        if (parent == null) { throw Error("SPECS", "<" + paths.Text(path) + "> has no parent"); }
                         prims[path] = MakePrim(parent, path, types[spec] == 10);
                         Reserve(prims[path], path);
                         ReadPrimFields(prims[path], sets[spec]);
                         break;
                     case 1: case 8:
-                        if (parent == null) { throw Error("SPECS", "<" + PathText(path) + "> has no parent"); }
-                        ReadProperty(parent, tokens[pathTokens[path]], types[spec] == 8, sets[spec]);
+                        if (parent == null) { throw Error("SPECS", "<" + paths.Text(path) + "> has no parent"); }
+                        ReadProperty(parent, paths.Element(path), types[spec] == 8, sets[spec]);
                         break;
                 }
             }
@@ -338,9 +245,9 @@ namespace Garage.Usd
             propertyCounts = new int[specs.Length];
             for (int path = 0; path < specs.Length; path++)
             {
-                if (specs[path] == 0 || pathParents[path] < 0) { continue; }
-                if (pathIsProperty[path]) { propertyCounts[pathParents[path]]++; }
-                else if (types[specs[path] - 1] == 6) { childCounts[pathParents[path]]++; }
+                if (specs[path] == 0 || paths.ParentOf(path) < 0) { continue; }
+                if (paths.IsProperty(path)) { propertyCounts[paths.ParentOf(path)]++; }
+                else if (types[specs[path] - 1] == 6) { childCounts[paths.ParentOf(path)]++; }
             }
         }
 
@@ -355,14 +262,14 @@ namespace Garage.Usd
 
         PrimSpec MakePrim(PrimSpec parent, int path, bool isVariant)
         {
-            string element = tokens[pathTokens[path]];
+            string element = paths.Element(path);
             layer.SpecCount++;
             if (!isVariant)
             {
                 var prim = new PrimSpec(element);
                 if (element.Length == 0 || !parent.AddChild(prim))
                 {
-                    throw Error("SPECS", "a second prim <" + PathText(path) + ">");
+                    throw Error("SPECS", "a second prim <" + paths.Text(path) + ">");
                 }
                 return prim;
             }

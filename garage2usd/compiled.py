@@ -1,4 +1,4 @@
-"""The compiler of the planner's loops; imported only by modules that are themselves imported on first use."""
+"""The compiler of numeric loops; imported only by modules that are themselves imported on first use."""
 
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar, cast

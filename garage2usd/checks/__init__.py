@@ -1,0 +1,88 @@
+"""Checks: what a garage misses of a standard, of feasibility, and of USD, as findings instead of exceptions."""
+
+from pathlib import Path
+
+from garage2usd.checks import (
+    accessible,
+    aisle,
+    clearance,
+    consistency,
+    egress,
+    feasibility,
+    headroom,
+    light,
+    portal,
+    ramp,
+    stall,
+    usd,
+)
+from garage2usd.checks.finding import Finding, Severity, as_json, as_table
+from garage2usd.checks.plan_reader import plan_subject
+from garage2usd.checks.rule import Rule
+from garage2usd.checks.stage_reader import profile_name, stage_subject
+from garage2usd.checks.subject import Subject
+from garage2usd.errors import ConfigError
+from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
+from garage2usd.stage.reading import STAGE_SUFFIXES
+
+__all__ = ["RULES", "Finding", "Rule", "Severity", "Subject", "as_json", "as_table", "check", "check_file"]
+
+RULES: tuple[Rule, ...] = tuple(
+    rule
+    for module in (
+        stall,
+        aisle,
+        clearance,
+        headroom,
+        portal,
+        ramp,
+        accessible,
+        light,
+        egress,
+        feasibility,
+        consistency,
+        usd,
+    )
+    for rule in module.BOOK.rules
+)
+"""All rules."""
+
+
+def check(subject: Subject, profile: Profile) -> list[Finding]:
+    """What a garage misses of a profile and of the rules that need none, errors first."""
+    findings = (finding for rule in RULES for finding in rule.findings(subject, profile))
+    return sorted(findings, key=Finding.sort_key)
+
+
+def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
+    """Check a stage, a report or a plan.
+
+    Parameters
+    ----------
+    path
+        A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
+        (``.toml``), or a structure as text or JSON.
+    profile
+        What it is checked against; left out, the profile that it was designed to if it tells, else ``cn-jgj100``.
+
+    Returns
+    -------
+    tuple
+        The findings, errors first, and the profile.
+
+    Raises
+    ------
+    ConfigError, StageError
+        If the file is none of these.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise ConfigError("PATH", str(path), "a file")
+    if path.suffix.lower() in STAGE_SUFFIXES:
+        subject = stage_subject(path)
+        name = profile_name(subject.stage)
+        profile = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
+    else:
+        subject, config = plan_subject(path, profile=profile)
+        profile = profile or config.standard
+    return check(subject, profile), profile

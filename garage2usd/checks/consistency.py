@@ -1,0 +1,29 @@
+"""Rules of files that contradict themselves: lane graphs with holes, stalls told twice, plans that are refused."""
+
+from collections.abc import Callable, Iterator
+
+from garage2usd.checks.rule import Miss, RuleBook
+from garage2usd.checks.subject import Subject
+from garage2usd.profiles import Profile
+
+__all__ = ["BOOK"]
+
+BOOK = RuleBook()
+
+
+def _faults(name: str) -> Callable[[Subject, Profile], Iterator[Miss]]:
+    def find(subject: Subject, _: Profile) -> Iterator[Miss]:
+        for fault in subject.faults:
+            if fault.rule == name:
+                yield Miss(fault.place, fault.position, fault.message)
+
+    return find
+
+
+for _name, _asks in (
+    ("lane-graph", "a stage has a lane graph whose nodes, edges and stalls fit together"),
+    ("stall-outline", "a stall's prim lies where the lane graph has its outline"),
+    ("plan-refused", "a garage can be built from a plan"),
+    ("report-stalls", "a report lists the stalls that its configuration and matrices give"),
+):
+    BOOK.rule(_name, asks=_asks)(_faults(_name))

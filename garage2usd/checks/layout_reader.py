@@ -1,0 +1,123 @@
+"""A layout, and a plan that could not be laid out, as a subject."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
+from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, StallOutline, Subject
+from garage2usd.config import BayConfig, GarageConfig
+from garage2usd.grid import Structure
+from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
+from garage2usd.layout.parking import stalls_of
+from garage2usd.layout.specs import Spec
+from garage2usd.layout.tiles import TileGrid
+from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.labels import OBJECT_LABELS
+from garage2usd.stage.prototypes import asset_of
+
+__all__ = ["layout_subject", "unlaid_subject"]
+
+_FLAT = {ObjectKind.FLOOR, ObjectKind.STALL, ObjectKind.STALL_NUMBER, ObjectKind.FLOOR_STAIN, ObjectKind.SKY}
+
+
+def layout_subject(
+    layout: Layout, graph: LaneGraph, config: GarageConfig, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
+) -> Subject:
+    """Everything that a layout tells; what only lies on the floor is left out."""
+    squares = sorted(graph.graph.nodes)
+    number = {square: index for index, square in enumerate(squares)}
+    lux = layout.illuminance
+    return Subject(
+        source=source,
+        kind=kind,
+        stalls=tuple(_outline(stall, number) for stall in layout.stalls),
+        nodes=_nodes(layout.structure, graph, squares, config.bay),
+        edges=_edges(layout.structure, graph, squares, config.bay),
+        things=_things(layout),
+        structure=layout.structure,
+        lane_lux=lux.lanes.mean if lux.lanes else None,
+        stall_lux=lux.stalls.mean if lux.stalls else None,
+        faults=faults,
+    )
+
+
+def unlaid_subject(
+    structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
+) -> Subject:
+    """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
+    squares = sorted(graph.graph.nodes)
+    number = {square: index for index, square in enumerate(squares)}
+    return Subject(
+        source=source,
+        kind=kind,
+        stalls=tuple(_outline(stall, number) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
+        nodes=_nodes(structure, graph, squares, bay),
+        edges=_edges(structure, graph, squares, bay),
+        structure=structure,
+        faults=faults,
+    )
+
+
+def _outline(stall: Stall, number: dict[Square, int]) -> StallOutline:
+    left, right, rear_right, rear_left = stall.corners_m()
+    corners = (left, right, rear_right, rear_left)
+    return StallOutline(stall.name, corners, StallUse(stall.use), number[stall.access_square])
+
+
+def _nodes(structure: Structure, graph: LaneGraph, squares: list[Square], bay: BayConfig) -> tuple[LaneNode, ...]:
+    nodes = []
+    for row, col in squares:
+        at = graph.graph.nodes[row, col]
+        width, depth = _clear_m(structure, (row, col), bay)
+        nodes.append(LaneNode(graph.kind((row, col)).value, (at["x_m"], at["z_m"]), (width, depth), f"[{row}, {col}]"))
+    return tuple(nodes)
+
+
+def _edges(structure: Structure, graph: LaneGraph, squares: list[Square], bay: BayConfig) -> tuple[LaneEdge, ...]:
+    number = {square: index for index, square in enumerate(squares)}
+    edges = []
+    for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
+        first, second = pair
+        across = 0 if first[1] == second[1] else 1
+        width = min(_clear_m(structure, square, bay)[across] for square in pair)
+        kinds = graph.kind(first), graph.kind(second)
+        one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
+        if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
+            first, second = second, first
+        edges.append(LaneEdge(number[first], number[second], width, one_way))
+    return tuple(edges)
+
+
+def _clear_m(structure: Structure, square: Square, bay: BayConfig) -> tuple[float, float]:
+    """Metres between the columns across X and Z."""
+    sides = structure.column_widths_mm[square[1]], structure.row_depths_mm[square[0]]
+    width, depth = (float(side) / 1000 - 2 * bay.carriageway_setback_m for side in sides)
+    return width, depth
+
+
+def _things(layout: Layout) -> tuple[Thing, ...]:
+    paths = arrange(layout, nested=False).paths()
+    objects = layout.placements
+    rows = objects.rows_of(*(kind for kind in ObjectKind if kind not in _FLAT))
+    things = []
+    for row, placement in zip(rows.tolist(), objects.at(rows), strict=True):
+        matrix = turned_about_y(placement.yaw_rad, placement.position_m)
+        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(placement.spec))
+        things.append(Thing(paths[row], OBJECT_LABELS[placement.kind], bodies))
+    return tuple(things)
+
+
+@lru_cache(maxsize=1024)
+def _shapes(spec: Spec) -> tuple[tuple[Shape, bool], ...]:
+    """The meshes of a spec, and whether each has a collider."""
+    return tuple(
+        (
+            Shape(
+                part.points.astype(np.float64), part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
+            ),
+            part.collider is not None,
+        )
+        for part in asset_of(spec).parts
+    )

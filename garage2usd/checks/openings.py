@@ -1,0 +1,211 @@
+"""What meshes say of vehicle doors and ramps: the opening that cars drive through, and slopes along a ramp."""
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.checks.shapes import Array, Body, Thing
+
+__all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of"]
+
+_CUT_M = 1.0
+"""Height over the floor at which a door's width is measured."""
+_SHEET_M = 0.1
+"""What is thinner than this is the door itself or a sign, which do not narrow the opening."""
+_LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
+_STEP_M = 0.05
+
+
+class Stretch(NamedTuple):
+    """Part of a ramp with one slope.
+
+    Attributes
+    ----------
+    start_m, end_m
+        Runs along the ramp from its foot.
+    slope_percent
+        Rise over run.
+    """
+
+    start_m: float
+    end_m: float
+    slope_percent: float
+
+    @property
+    def length_m(self) -> float:
+        """Its run."""
+        return self.end_m - self.start_m
+
+
+class Door(NamedTuple):
+    """A vehicle door.
+
+    Attributes
+    ----------
+    name
+        Prim path.
+    position
+        Middle of its opening, (x, z) in metres.
+    clear_width_m, clear_height_m
+        Of its opening; None where the mesh shows none.
+    """
+
+    name: str
+    position: tuple[float, float]
+    clear_width_m: float | None
+    clear_height_m: float | None
+
+
+class Ramp(NamedTuple):
+    """A ramp.
+
+    Attributes
+    ----------
+    name
+        Prim path.
+    position
+        Middle of its ground, (x, z) in metres.
+    stretches
+        Its sloping parts from its foot on.
+    """
+
+    name: str
+    position: tuple[float, float]
+    stretches: tuple[Stretch, ...]
+
+
+def doors_of(things: Iterable[Thing]) -> Iterator[Door]:
+    """The vehicle doors among all objects."""
+    return (_door(thing) for thing in things if thing.label == "vehicle_door" and thing.bodies)
+
+
+def ramps_of(things: Iterable[Thing]) -> Iterator[Ramp]:
+    """The ramps among all objects."""
+    return (_ramp(thing) for thing in things if thing.label == "ramp" and thing.bodies)
+
+
+def _door(thing: Thing) -> Door:
+    axis = thing.bodies[0].matrix[0, [0, 2]]
+    axis = axis / (np.linalg.norm(axis) or 1.0)
+    across = np.array([-axis[1], axis[0]])
+    sides = [body for body in thing.bodies if np.ptp(body.world_points()[:, [0, 2]] @ across) >= _SHEET_M]
+    points = np.concatenate([body.world_points() for body in (sides or thing.bodies)])
+    middle = (points.min(axis=0) + points.max(axis=0))[[0, 2]] / 2
+    spans = sorted(span for body in sides for span in _spans(body, axis))
+    gap = _widest_gap(spans)
+    if gap is None:
+        return Door(thing.name, _point(middle), None, None)
+    centre = middle + axis * (sum(gap) / 2 - middle @ axis)
+    heads = [height for body in sides for height in _heights_over(body, axis, sum(gap) / 2)]
+    return Door(thing.name, _point(centre), gap[1] - gap[0], min(heads, default=None))
+
+
+def _spans(body: Body, axis: Array) -> Iterator[tuple[float, float]]:
+    """What each face covers along an axis at the height of the cut."""
+    for cut in _cuts(body, np.array([0.0, 1.0, 0.0]), _CUT_M):
+        along = cut[:, [0, 2]] @ axis
+        yield float(along.min()), float(along.max())
+
+
+def _heights_over(body: Body, axis: Array, place: float) -> Iterator[float]:
+    """Heights over the floor, from the cut on, of what lies over a place along an axis."""
+    for cut in _cuts(body, np.array([axis[0], 0.0, axis[1]]), place):
+        if cut[:, 1].min() > _CUT_M:
+            yield float(cut[:, 1].min())
+
+
+def _cuts(body: Body, normal: Array, level: float) -> Iterator[Array]:
+    """The points at which the sides of each face cross a plane; float64, shape (n, 3)."""
+    points = body.world_points()
+    height = points @ normal - level
+    edges = body.shape.edges
+    start, end = height[edges[:, 0]], height[edges[:, 1]]
+    crosses = start * end < 0
+    share = np.divide(start, start - end, out=np.zeros(len(start)), where=crosses)[:, None]
+    crossing = points[edges[:, 0]] + (points[edges[:, 1]] - points[edges[:, 0]]) * share
+    face = np.repeat(np.arange(len(body.shape.counts)), body.shape.counts)
+    for number in np.unique(face[crosses]).tolist():
+        yield crossing[crosses & (face == number)]
+
+
+def _widest_gap(spans: list[tuple[float, float]]) -> tuple[float, float] | None:
+    """The widest stretch between intervals in ascending order."""
+    best: tuple[float, float] | None = None
+    reach = spans[0][1] if spans else 0.0
+    for start, end in spans[1:]:
+        if start > reach and (best is None or start - reach > best[1] - best[0]):
+            best = reach, start
+        reach = max(reach, end)
+    return best
+
+
+class _Slope(NamedTuple):
+    """A sloping face: its runs, how wide it is, and its slope."""
+
+    start_m: float
+    end_m: float
+    width_m: float
+    slope: float
+
+
+def _ramp(thing: Thing) -> Ramp:
+    points = np.concatenate([body.world_points() for body in thing.bodies])
+    middle = (points.min(axis=0) + points.max(axis=0))[[0, 2]] / 2
+    normals, corners = _upward_faces(thing)
+    slopes = np.linalg.norm(normals[:, [0, 2]], axis=1) / normals[:, 1] if len(normals) else np.zeros(0)
+    sloping = (slopes > _LEVEL_SLOPE) & (slopes < _STEEPEST_SLOPE)
+    if not sloping.any():
+        return Ramp(thing.name, _point(middle), ())
+    uphill = -normals[sloping][:, [0, 2]].sum(axis=0)
+    uphill /= np.linalg.norm(uphill) or 1.0
+    across = np.array([-uphill[1], uphill[0]])
+    faces = [
+        _Slope(
+            float((flat @ uphill).min()),
+            float((flat @ uphill).max()),
+            float(np.ptp(flat @ across)),
+            float(slope),
+        )
+        for flat, slope in zip(
+            (corners[index][:, [0, 2]] for index in np.flatnonzero(sloping)), slopes[sloping], strict=True
+        )
+    ]
+    return Ramp(thing.name, _point(middle), tuple(_stretches(faces)))
+
+
+def _upward_faces(thing: Thing) -> tuple[Array, list[Array]]:
+    """Unit normals of the faces that look up, shape (n, 3), and their corners."""
+    normals, corners = [], []
+    for body in thing.bodies:
+        points = body.world_points()
+        starts = np.cumsum(body.shape.counts) - body.shape.counts
+        begin, end = (points[body.shape.edges[:, side]] for side in (0, 1))
+        sums = np.add.reduceat(np.cross(begin, end), starts)
+        lengths = np.linalg.norm(sums, axis=1)
+        for face in np.flatnonzero((lengths > 0) & (sums[:, 1] > 0)).tolist():
+            normals.append(sums[face] / lengths[face])
+            corners.append(begin[starts[face] : starts[face] + body.shape.counts[face]])
+    return np.array(normals).reshape(-1, 3), corners
+
+
+def _stretches(faces: list[_Slope]) -> Iterator[Stretch]:
+    """The slope of the widest face along the run, where equal slopes are one stretch."""
+    start = min(face.start_m for face in faces)
+    runs = np.arange(start + _STEP_M / 2, max(face.end_m for face in faces), _STEP_M)
+    best_width, slope = np.zeros(len(runs)), np.zeros(len(runs))
+    for face in faces:
+        better = (runs >= face.start_m) & (runs <= face.end_m) & (face.width_m > best_width)
+        best_width[better], slope[better] = face.width_m, face.slope
+    done = 0
+    for percent, samples in groupby(np.round(100 * slope, 1).tolist()):
+        count = len(list(samples))
+        if percent > 100 * _LEVEL_SLOPE:
+            yield Stretch(round(done * _STEP_M, 6), round((done + count) * _STEP_M, 6), percent)
+        done += count
+
+
+def _point(middle: NDArray[np.float64]) -> tuple[float, float]:
+    return round(float(middle[0]), 6), round(float(middle[1]), 6)

@@ -1,0 +1,169 @@
+"""Reports and plan files as a subject; a plan with faults is read as far as it goes, so that rules name them."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
+from garage2usd.checks.subject import Fault, Subject
+from garage2usd.config import GarageConfig, config_from_mapping, load_config
+from garage2usd.documents import read_json, read_text
+from garage2usd.errors import ConfigError, UnreachableStallError
+from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
+from garage2usd.lanes import build_lane_graph, unproven_lane_graph
+from garage2usd.layout import Layout, lay_out
+from garage2usd.profiles import Profile
+from garage2usd.site.given import check_structure
+
+__all__ = ["plan_subject"]
+
+_MAX_REPORT_BYTES = 256 * 1024 * 1024
+_FIELD = "PATH"
+_MOVED_M = 0.001
+
+
+def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject, GarageConfig]:
+    """Read a report, a configuration with a structure, or a plan.
+
+    Parameters
+    ----------
+    path
+        A report (``.json``), a configuration (``.toml``), or a structure as text or JSON.
+    profile
+        What the sizes of a plan without any are designed to.
+
+    Returns
+    -------
+    tuple
+        What is checked, and the configuration that it was laid out with.
+
+    Raises
+    ------
+    ConfigError
+        If it is none of these, or a setting cannot be used.
+    """
+    if path.suffix == ".toml":
+        config = load_config(path)
+        return _of_config(config, path, kind="plan"), config
+    if path.suffix != ".json":
+        text = read_text(path, field=_FIELD)
+        config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
+        return _of_config(config, path, kind="plan"), config
+    document = read_json(path, field=_FIELD, max_bytes=_MAX_REPORT_BYTES)
+    if isinstance(document, dict) and "config" in document:
+        return _of_report(document, path)
+    config = config_from_mapping(_given(profile) | _settings_of(document, path))
+    return _of_config(config, path, kind="plan"), config
+
+
+def _given(profile: Profile | None) -> dict[str, Any]:
+    return {} if profile is None else {"profile": profile}
+
+
+def _settings_of(document: Any, path: Path) -> dict[str, Any]:  # noqa: ANN401 - whatever JSON holds
+    """The settings that a structure as JSON stands for: rows of S, or S with R and C."""
+    matrices = document if isinstance(document, dict) else {"S": document}
+    settings: dict[str, Any] = {"site": {"structure": _drawing(matrices.get("S"), path)}}
+    sizes = {"column_widths_m": matrices.get("R"), "row_depths_m": matrices.get("C")}
+    return settings | {"bay": {name: value for name, value in sizes.items() if value is not None}}
+
+
+def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
+    if isinstance(rows, str):
+        return rows
+    if isinstance(rows, list) and rows and all(isinstance(row, str) for row in rows):
+        return "\n".join(rows)
+    if isinstance(rows, list) and rows and all(isinstance(row, list) for row in rows):
+        return "\n".join(" ".join(str(cell) for cell in row) for row in rows)
+    raise ConfigError(_FIELD, str(path), "a report, or S as rows of symbols or numbers")
+
+
+def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
+    if config.site.structure is None:
+        raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
+    cells = cells_from_text(config.site.structure, field="site.structure")
+    bay = config.bay
+    widths, depths = (
+        sides_mm(bay.square_side_m if sides is None else sides, field=field, shape=cells.shape, axis=axis)
+        for sides, field, axis in (
+            (bay.column_widths_m, "bay.column_widths_m", 1),
+            (bay.row_depths_m, "bay.row_depths_m", 0),
+        )
+    )
+    return _subject(Structure(cells, widths, depths), config, path, kind=kind)
+
+
+def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, GarageConfig]:
+    settings, drawing = document["config"], document.get("S")
+    if not isinstance(settings, dict) or "R" not in document or "C" not in document:
+        raise ConfigError(_FIELD, str(path), "a report with config, S, R and C")
+    config = config_from_mapping(settings)
+    structure = Structure.from_arrays(cells_from_text(_drawing(drawing, path), field="S"), document["R"], document["C"])
+    listed = document.get("stalls")
+    return _subject(structure, config, path, kind="report", listed=listed if isinstance(listed, list) else None), config
+
+
+def _subject(
+    structure: Structure, config: GarageConfig, path: Path, *, kind: str, listed: Sequence[Any] | None = None
+) -> Subject:
+    if not (structure.cells == Cell.LANE).any():
+        raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
+    graph = unproven_lane_graph(structure, config.bay)
+    layout, refusal = _laid_out(structure, config)
+    if layout is None:
+        faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
+        return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
+    differences = () if listed is None else tuple(_differences(layout, listed))
+    return layout_subject(layout, graph, config, source=str(path), kind=kind, faults=differences)
+
+
+def _laid_out(structure: Structure, config: GarageConfig) -> tuple[Layout | None, str | None]:
+    """The layout, or None and what refuses it; without words for faults that rules name."""
+    try:
+        check_structure(structure.cells)
+        graph = build_lane_graph(structure, config.bay)
+    except (ConfigError, UnreachableStallError):
+        return None, None
+    if not graph.stall_rows:
+        return None, "no square beside a lane takes a stall"
+    try:
+        return lay_out(structure, graph, config), None
+    except ConfigError as error:
+        if error.field.startswith("bay."):
+            return None, str(error)
+        raise
+
+
+def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
+    """Where a report's list of stalls is not what its configuration and matrices give."""
+    made = {stall.name: stall for stall in layout.stalls}
+    faults = []
+    for entry in listed:
+        name = str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
+        stall = made.pop(name, None)
+        if stall is None:
+            faults.append(Fault("report-stalls", name, None, "the report lists a stall that its plan does not have"))
+            continue
+        told = [*_numbers(entry.get("centre_m")), entry.get("width_m"), entry.get("length_m"), entry.get("use")]
+        real = [*stall.centre_m, stall.width_m, stall.length_m, str(stall.use)]
+        if not _alike(told, real):
+            faults.append(Fault("report-stalls", name, stall.centre_m, "the report tells another place, size or use"))
+    return faults + [
+        Fault("report-stalls", name, stall.centre_m, "the report does not list it") for name, stall in made.items()
+    ]
+
+
+def _numbers(values: Any) -> list[Any]:  # noqa: ANN401
+    return list(values) if isinstance(values, list) else [values]
+
+
+def _alike(told: list[Any], real: list[Any]) -> bool:
+    if len(told) != len(real):
+        return False
+    for one, other in zip(told, real, strict=True):
+        if isinstance(other, str):
+            if one != other:
+                return False
+        elif not isinstance(one, int | float) or not abs(one - other) <= _MOVED_M:
+            return False
+    return True

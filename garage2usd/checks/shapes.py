@@ -1,0 +1,180 @@
+"""Meshes as what stands or hangs in a garage: convex pieces with an outline seen from above and two heights."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+__all__ = ["Body", "Piece", "Shape", "Thing", "box_shape", "turned_about_y"]
+
+Array = NDArray[np.float64]
+
+_LEVEL = 1e-6
+
+
+class Piece(NamedTuple):
+    """A connected piece of a mesh.
+
+    Attributes
+    ----------
+    points
+        float64, shape (n, 3).
+    outline
+        Corners (x, z) of its convex outline seen from above; float64, shape (k, 2).
+    low_m, high_m
+        Its least and greatest height.
+    """
+
+    points: Array
+    outline: Array
+    low_m: float
+    high_m: float
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A mesh in its own coordinates.
+
+    Attributes
+    ----------
+    points
+        float64, shape (n, 3), metres.
+    counts, indices
+        Corners of each face and their points; int64, shapes (F,) and (I,).
+    """
+
+    points: Array
+    counts: NDArray[np.int64]
+    indices: NDArray[np.int64]
+
+    @cached_property
+    def edges(self) -> NDArray[np.int64]:
+        """Points of each side of each face; shape (I, 2)."""
+        after = np.arange(len(self.indices)) + 1
+        ends = np.cumsum(self.counts)
+        after[ends - 1] = ends - self.counts
+        return np.stack([self.indices, self.indices[after]], axis=1)
+
+    @cached_property
+    def lowest(self) -> float:
+        """Least height of its points."""
+        return float(self.points[:, 1].min())
+
+    @cached_property
+    def whole(self) -> Piece:
+        """All of it as one piece."""
+        return _piece(self.points)
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The connected pieces."""
+        if not len(self.indices):
+            return ()
+        size = len(self.points)
+        ones = np.ones(len(self.edges), dtype=np.int8)
+        count, label = connected_components(coo_array((ones, self.edges.T), (size, size)), directed=False)
+        used = np.zeros(size, dtype=bool)
+        used[self.indices] = True
+        found = (self.points[used & (label == number)] for number in range(count))
+        return tuple(_piece(points) for points in found if len(points))
+
+
+def _piece(points: Array) -> Piece:
+    heights = points[:, 1]
+    return Piece(points, _outline(points[:, [0, 2]]), float(heights.min()), float(heights.max()))
+
+
+def _outline(points: Array) -> Array:
+    """The convex outline; of what has none, as a line or a point, all points."""
+    hull = shapely.MultiPoint(points).convex_hull
+    if isinstance(hull, shapely.Polygon):
+        return np.asarray(hull.exterior.coords)[:-1]
+    return points
+
+
+def box_shape(low: Array, high: Array) -> Shape:
+    """A box by its corners."""
+    corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    faces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
+    return Shape(corners.astype(np.float64), np.full(6, 4), faces)
+
+
+def turned_about_y(yaw_rad: float, position_m: tuple[float, float, float]) -> Array:
+    """The matrix for row vectors of a turn about +Y and a move; float64, shape (4, 4)."""
+    cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
+    matrix = np.eye(4)
+    matrix[0, [0, 2]] = cos, -sin
+    matrix[2, [0, 2]] = sin, cos
+    matrix[3, :3] = position_m
+    return matrix
+
+
+class Body(NamedTuple):
+    """A placed mesh.
+
+    Attributes
+    ----------
+    shape
+        The mesh.
+    matrix
+        From its coordinates to the world's, for row vectors; float64, shape (4, 4).
+    touches
+        Whether it has a collider.
+    """
+
+    shape: Shape
+    matrix: Array
+    touches: bool
+
+    def world_points(self) -> Array:
+        """Its points in the world; float64, shape (n, 3)."""
+        world: Array = self.shape.points @ self.matrix[:3, :3] + self.matrix[3, :3]
+        return world
+
+    def low_m(self) -> float:
+        """Its least height in the world."""
+        if self._is_upright:
+            return float(self.shape.lowest * self.matrix[1, 1] + self.matrix[3, 1])
+        return float(self.world_points()[:, 1].min())
+
+    def pieces(self, *, whole: bool = False) -> list[tuple[Array, float, float]]:
+        """Outline (x, z), least and greatest height in the world of each connected piece, or of all in one."""
+        return [self._placed(piece) for piece in ((self.shape.whole,) if whole else self.shape.pieces)]
+
+    def _placed(self, piece: Piece) -> tuple[Array, float, float]:
+        turn, move = self.matrix[:3, :3], self.matrix[3, :3]
+        if self._is_upright:
+            flat, rise = turn[::2, ::2], float(turn[1, 1])
+            return piece.outline @ flat + move[::2], piece.low_m * rise + move[1], piece.high_m * rise + move[1]
+        return _piece(piece.points @ turn + move)[1:]
+
+    @property
+    def _is_upright(self) -> bool:
+        """Whether it is turned about the vertical only."""
+        turn = self.matrix
+        tilt = max(abs(turn[1, 0]), abs(turn[1, 2]), abs(turn[0, 1]), abs(turn[2, 1]))
+        return bool(tilt < _LEVEL and turn[1, 1] > 0)
+
+
+@dataclass(frozen=True, eq=False)
+class Thing:
+    """One object of a garage.
+
+    Attributes
+    ----------
+    name
+        Prim path.
+    label
+        Semantic class; empty where it has none.
+    bodies
+        Its meshes.
+    """
+
+    name: str
+    label: str
+    bodies: tuple[Body, ...]

@@ -1,0 +1,130 @@
+"""What a car can touch or people can bump into: pieces of all objects, found by place."""
+
+from collections.abc import Collection, Iterable, Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.checks.shapes import Thing
+
+__all__ = ["HANGS_FROM_M", "Solid", "Solids"]
+
+HANGS_FROM_M = 1.0
+"""What begins higher than this hangs; all else stands."""
+_FLAT_M = 0.03
+_NO_SOLIDS = {"floor", "parking_stall", "stall_number", "floor_stain", "sky", "zone_plate"}
+
+
+class Solid(NamedTuple):
+    """A piece of an object.
+
+    Attributes
+    ----------
+    name, label
+        Prim path and semantic class of the object.
+    footprint
+        Its convex outline (x, z) in metres, seen from above.
+    bottom_m, top_m
+        Its least and greatest height.
+    """
+
+    name: str
+    label: str
+    footprint: shapely.Polygon
+    bottom_m: float
+    top_m: float
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """(x, z) of its middle, to the millimetre."""
+        return round(self.footprint.centroid.x, 3), round(self.footprint.centroid.y, 3)
+
+    @property
+    def kind(self) -> str:
+        """Its class in words."""
+        return self.label.replace("_", " ") or "object without a label"
+
+
+class Solids:
+    """The solid pieces of all objects.
+
+    An object that stands counts by its colliders, if it has any; one that hangs counts with everything that it has.
+    """
+
+    def __init__(self, things: Iterable[Thing]) -> None:
+        """Take the pieces of all objects apart from what lies on the floor or clads a column."""
+        self._names: list[str] = []
+        self._labels: list[str] = []
+        corners, owners, lows, highs, hangs = [], [], [], [], []
+        for thing in things:
+            if thing.label in _NO_SOLIDS:
+                continue
+            hanging = min((body.low_m() for body in thing.bodies), default=0.0) > HANGS_FROM_M
+            touched = [body for body in thing.bodies if body.touches]
+            bodies = thing.bodies if hanging or not touched else touched
+            for outline, low, high in (piece for body in bodies for piece in body.pieces(whole=hanging)):
+                if len(outline) >= 3 and high >= _FLAT_M:  # noqa: PLR2004
+                    corners.append(outline)
+                    owners.append(len(self._names))
+                    lows.append(low)
+                    highs.append(high)
+                    hangs.append(hanging)
+            self._names.append(thing.name)
+            self._labels.append(thing.label)
+        self._owner = np.array(owners, dtype=np.int64)
+        self._low, self._high = np.array(lows), np.array(highs)
+        self._hangs = np.array(hangs, dtype=bool)
+        self._footprints = _polygons(corners)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(self._footprints)
+
+    @cached_property
+    def labels(self) -> frozenset[str]:
+        """The classes that there are."""
+        return frozenset(self._labels)
+
+    def standing(self, *labels: str) -> Iterator[Solid]:
+        """The pieces of objects of some classes that do not hang."""
+        wanted = self._with_labels(labels)
+        return (self._solid(index) for index in np.flatnonzero(~self._hangs & wanted).tolist())
+
+    def hanging(self) -> Iterator[Solid]:
+        """The lowest piece of each object that hangs."""
+        rows = np.flatnonzero(self._hangs)
+        rows = rows[np.lexsort((self._low[rows], self._owner[rows]))]
+        _, first = np.unique(self._owner[rows], return_index=True)
+        return (self._solid(index) for index in rows[first].tolist())
+
+    def at(self, area: shapely.Polygon, *, hanging: bool = False, within_m: float = 0.0) -> list[Solid]:
+        """The pieces of what stands, or of what hangs, that meet an area or lie within a distance of it."""
+        found = self._tree.query(area, predicate="dwithin", distance=within_m)
+        return [self._solid(index) for index in sorted(found[self._hangs[found] == hanging].tolist())]
+
+    def _with_labels(self, labels: Collection[str]) -> NDArray[np.bool_]:
+        wanted = np.array([label in labels for label in self._labels], dtype=bool)
+        return wanted[self._owner] if len(wanted) else np.zeros(0, dtype=bool)
+
+    def _solid(self, index: int) -> Solid:
+        owner = self._owner[index]
+        return Solid(
+            self._names[owner],
+            self._labels[owner],
+            self._footprints[index],
+            float(self._low[index]),
+            float(self._high[index]),
+        )
+
+
+def _polygons(corners: list[NDArray[np.float64]]) -> NDArray[np.object_]:
+    """Polygons of corners (x, z), made all at once."""
+    if not corners:
+        return np.empty(0, dtype=object)
+    sizes = [len(outline) for outline in corners]
+    owner = np.repeat(np.arange(len(corners)), sizes)
+    polygons: NDArray[np.object_] = shapely.polygons(shapely.linearrings(np.concatenate(corners), indices=owner))
+    return polygons

@@ -1,0 +1,141 @@
+"""Rules of single stalls: their size, and that nothing but one car stands in each."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.solids import Solid
+from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.profiles import Length, Profile
+
+__all__ = ["BOOK", "home_of", "standing_in"]
+
+BOOK = RuleBook()
+_TOUCH_M = 0.02
+_BELONGS = {"car", "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
+"""What may stand in a stall, or has a rule of its own."""
+_AT_HOME = 0.5
+
+
+@BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
+def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    return _short(subject, profile.stall_width, "width_m", "narrow")
+
+
+@BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
+def _length(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    return _short(subject, profile.stall_length, "length_m", "short")
+
+
+def _short(subject: Subject, clause: Length | None, side: str, word: str) -> Iterator[Miss]:
+    if clause is None:
+        return
+    for stall in subject.parking_stalls:
+        measured = getattr(stall, side)
+        if measured < clause.amount - ROUNDING_M:
+            yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)
+
+
+@BOOK.rule("stall-overlap", asks="stalls do not overlap")
+def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
+    stalls = subject.stalls
+    shrunk = np.array([stall.polygon.buffer(-_TOUCH_M) for stall in stalls], dtype=object)
+    first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
+    for one, other in zip(first.tolist(), second.tolist(), strict=True):
+        if one < other:
+            yield Miss(stalls[one].name, stalls[one].centre, f"the stall overlaps {stalls[other].name}")
+
+
+@BOOK.rule("column-in-stall", asks="no column stands in a stall")
+def _column(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for stall in subject.stalls:
+        for solid in standing_in(stall, subject):
+            if solid.label == "column":
+                yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall")
+                break
+
+
+@BOOK.rule("stall-blocked", asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars")
+def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for stall in subject.parking_stalls:
+        for solid in standing_in(stall, subject):
+            if solid.label not in _BELONGS:
+                yield Miss(stall.name, stall.centre, f"a {solid.kind} stands in the stall: {solid.name}")
+                break
+
+
+@BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall")
+def _outside(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for name, ground in _cars(subject).items():
+        stall = home_of(ground, subject)
+        if stall is not None and not stall.polygon.buffer(_TOUCH_M).covers(ground):
+            yield Miss(name, _centre(ground), f"the car stands out of {stall.name}")
+
+
+@BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")
+def _kept_free(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for name, ground in _cars(subject).items():
+        stall = home_of(ground, subject)
+        if stall is not None and not stall.takes_cars:
+            yield Miss(stall.name, stall.centre, f"{name} stands in a stall of the use {stall.use.value}")
+
+
+@BOOK.rule("stall-two-cars", asks="a stall holds one car at most")
+def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
+    first: dict[str, str] = {}
+    for name, ground in _cars(subject).items():
+        stall = home_of(ground, subject)
+        if stall is not None and first.setdefault(stall.name, name) != name:
+            yield Miss(stall.name, stall.centre, f"{first[stall.name]} and {name} stand in one stall")
+
+
+@BOOK.rule("wheel-stop-height", "wheel_stop_height", asks="a wheel stop is low enough for a car's front")
+def _wheel_stops(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    return _too_high(subject, profile.wheel_stop_height, "wheel_stop")
+
+
+@BOOK.rule("speed-bump-height", "speed_bump_height", asks="a speed bump is low enough for a car's floor")
+def _speed_bumps(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    return _too_high(subject, profile.speed_bump_height, "speed_bump")
+
+
+def _too_high(subject: Subject, clause: Length | None, label: str) -> Iterator[Miss]:
+    if clause is None:
+        return
+    highest: dict[str, Solid] = {}
+    for solid in subject.solids.standing(label):
+        if solid.name not in highest or solid.top_m > highest[solid.name].top_m:
+            highest[solid.name] = solid
+    for name, solid in highest.items():
+        if solid.top_m > clause.amount + ROUNDING_M:
+            yield Miss(name, solid.centre, f"the {solid.kind} is too high", solid.top_m, clause.amount)
+
+
+def standing_in(stall: StallOutline, subject: Subject) -> list[Solid]:
+    """The pieces of what stands in a stall, not only on its lines."""
+    return subject.solids.at(stall.polygon.buffer(-_TOUCH_M))
+
+
+def home_of(ground: shapely.Polygon, subject: Subject) -> StallOutline | None:
+    """The stall that more than half of a car stands in."""
+    best, most = None, _AT_HOME * ground.area
+    for index in subject.stall_tree.query(ground, predicate="intersects").tolist():
+        area = subject.stalls[index].polygon.intersection(ground).area
+        if area > most:
+            best, most = subject.stalls[index], area
+    return best
+
+
+def _cars(subject: Subject) -> dict[str, shapely.Polygon]:
+    """The convex ground of each car."""
+    pieces: dict[str, list[shapely.Polygon]] = {}
+    for solid in subject.solids.standing("car"):
+        pieces.setdefault(solid.name, []).append(solid.footprint)
+    return {name: shapely.union_all(parts).convex_hull for name, parts in pieces.items()}
+
+
+def _centre(shape: shapely.Polygon) -> tuple[float, float]:
+    x, z = np.round((shape.centroid.x, shape.centroid.y), 3).tolist()
+    return x, z

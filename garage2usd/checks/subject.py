@@ -1,0 +1,248 @@
+"""What is checked: a garage as far as a stage, a report or a plan tells it, in metres, Y up."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import shapely
+from pxr import Usd
+
+from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
+from garage2usd.checks.shapes import Thing
+from garage2usd.checks.solids import Solids
+from garage2usd.grid import Structure
+from garage2usd.layout import StallUse
+
+__all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
+
+Point = tuple[float, float]
+"""(x, z) in metres."""
+
+
+class Fault(NamedTuple):
+    """What a file says of its lanes and stalls that contradicts itself.
+
+    Attributes
+    ----------
+    rule
+        Id of the rule that reports it.
+    place, position
+        Where; the position is None where it has none.
+    message
+        What is wrong.
+    """
+
+    rule: str
+    place: str
+    position: Point | None
+    message: str
+
+
+@dataclass(frozen=True)
+class StallOutline:
+    """A stall.
+
+    Attributes
+    ----------
+    name
+        Its id.
+    corners
+        Mouth left, mouth right, rear right, rear left as a driver sees them.
+    use
+        What it is for.
+    access
+        Number of the lane node that its mouth opens onto.
+    """
+
+    name: str
+    corners: tuple[Point, Point, Point, Point]
+    use: StallUse
+    access: int
+
+    @property
+    def takes_cars(self) -> bool:
+        """Whether cars park there."""
+        return self.use.takes_cars
+
+    @property
+    def width_m(self) -> float:
+        """From line to line."""
+        left, right, rear_right, rear_left = self.corners
+        return min(math.dist(left, right), math.dist(rear_left, rear_right))
+
+    @property
+    def length_m(self) -> float:
+        """From mouth to rear."""
+        left, right, rear_right, rear_left = self.corners
+        return min(math.dist(left, rear_left), math.dist(right, rear_right))
+
+    @property
+    def centre(self) -> Point:
+        """Its middle."""
+        return _middle(*self.corners)
+
+    @property
+    def mouth(self) -> Point:
+        """Middle of its mouth."""
+        return _middle(*self.corners[:2])
+
+    @property
+    def outwards(self) -> Point:
+        """Unit vector from its rear to its mouth."""
+        rear, mouth = _middle(*self.corners[2:]), self.mouth
+        length = math.dist(rear, mouth) or 1.0
+        return (mouth[0] - rear[0]) / length, (mouth[1] - rear[1]) / length
+
+    @cached_property
+    def polygon(self) -> shapely.Polygon:
+        """Its ground."""
+        return shapely.Polygon(self.corners)
+
+
+@dataclass(frozen=True)
+class LaneNode:
+    """A lane square or a portal.
+
+    Attributes
+    ----------
+    kind
+        ``crossroads``, ``t_junction``, ``straight``, ``entrance`` or ``exit``.
+    position
+        Its middle.
+    widths_m
+        Metres between the columns across X and Z.
+    name
+        Its square.
+    """
+
+    kind: str
+    position: Point
+    widths_m: tuple[float, float]
+    name: str
+
+    @property
+    def is_portal(self) -> bool:
+        """Whether cars enter or leave the garage here."""
+        return self.kind in {"entrance", "exit"}
+
+
+@dataclass(frozen=True)
+class LaneEdge:
+    """A way from node to node, by their numbers.
+
+    Attributes
+    ----------
+    width_m
+        Of the carriageway between the columns.
+    one_way
+        Whether it is driven from `start` to `end` only.
+    """
+
+    start: int
+    end: int
+    width_m: float
+    one_way: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """A garage that is checked.
+
+    Attributes
+    ----------
+    source
+        The file.
+    kind
+        ``stage``, ``report`` or ``plan``.
+    stalls, nodes, edges
+        Stalls and lane graph.
+    things
+        All objects; none where a plan could not be laid out.
+    structure
+        S, R and C, where they are known.
+    lane_lux, stall_lux
+        Mean illuminance of the floor; None where it is not known.
+    faults
+        What it says of its lanes and stalls that contradicts itself.
+    stage
+        The stage, where it is one.
+    """
+
+    source: str
+    kind: str
+    stalls: tuple[StallOutline, ...]
+    nodes: tuple[LaneNode, ...]
+    edges: tuple[LaneEdge, ...]
+    things: tuple[Thing, ...] = ()
+    structure: Structure | None = None
+    lane_lux: float | None = None
+    stall_lux: float | None = None
+    faults: tuple[Fault, ...] = ()
+    stage: Usd.Stage | None = None
+
+    @cached_property
+    def solids(self) -> Solids:
+        """Everything that a car can touch."""
+        return Solids(self.things)
+
+    @cached_property
+    def doors(self) -> tuple[Door, ...]:
+        """The vehicle doors."""
+        return tuple(doors_of(self.things))
+
+    @cached_property
+    def ramps(self) -> tuple[Ramp, ...]:
+        """The ramps."""
+        return tuple(ramps_of(self.things))
+
+    @cached_property
+    def parking_stalls(self) -> tuple[StallOutline, ...]:
+        """The stalls that cars park in."""
+        return tuple(stall for stall in self.stalls if stall.takes_cars)
+
+    @cached_property
+    def stall_tree(self) -> shapely.STRtree:
+        """The ground of all stalls, by place."""
+        return shapely.STRtree([stall.polygon for stall in self.stalls])
+
+    @cached_property
+    def onward(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that are driven to from it."""
+        ways: list[list[int]] = [[] for _ in self.nodes]
+        for edge in self.edges:
+            ways[edge.start].append(edge.end)
+            if not edge.one_way:
+                ways[edge.end].append(edge.start)
+        return tuple(map(tuple, ways))
+
+    @cached_property
+    def backward(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that are driven from to it."""
+        ways: list[list[int]] = [[] for _ in self.nodes]
+        for node, others in enumerate(self.onward):
+            for other in others:
+                ways[other].append(node)
+        return tuple(map(tuple, ways))
+
+    @cached_property
+    def beside(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that it is joined to, whichever way it is driven."""
+        joined: list[list[int]] = [[] for _ in self.nodes]
+        for edge in self.edges:
+            joined[edge.start].append(edge.end)
+            joined[edge.end].append(edge.start)
+        return tuple(map(tuple, joined))
+
+    @property
+    def has_whole_graph(self) -> bool:
+        """Whether nodes and edges fit together, so that what is cut off is cut off."""
+        return all(fault.rule != "lane-graph" for fault in self.faults)
+
+    def portals(self, *kinds: str) -> list[int]:
+        """Numbers of the nodes of some kinds."""
+        return [number for number, node in enumerate(self.nodes) if node.kind in kinds]
+
+
+def _middle(*points: Point) -> Point:
+    return sum(x for x, _ in points) / len(points), sum(z for _, z in points) / len(points)

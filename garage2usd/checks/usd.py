@@ -1,0 +1,188 @@
+"""Rules of USD: what validators find, and what they let pass."""
+
+from collections.abc import Iterator
+from pathlib import Path, PureWindowsPath
+
+from pxr import Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdUtils, UsdValidation
+
+from garage2usd.checks.finding import Severity
+from garage2usd.checks.rule import Miss, RuleBook
+from garage2usd.checks.subject import Subject
+from garage2usd.profiles import Profile
+
+__all__ = ["BOOK"]
+
+BOOK = RuleBook()
+_LABELS = "semantics:labels"
+_LABELS_SCHEMA = "SemanticsLabelsAPI:"
+_UNRESOLVED = "UnresolvableDependency"
+_APPROXIMATIONS = {
+    "none",
+    "boundingCube",
+    "boundingSphere",
+    "convexHull",
+    "convexDecomposition",
+    "meshSimplification",
+}
+
+
+def _prims(stage: Usd.Stage | None) -> Iterator[Usd.Prim]:
+    """Every prim, and in place of the instances' contents those of the prototypes that they share."""
+    if stage is None:
+        return
+    yield from stage.Traverse()
+    for prototype in stage.GetPrototypes():
+        for prim in Usd.PrimRange(prototype):
+            if prim != prototype:
+                yield prim
+
+
+@BOOK.rule("stage-units", asks="a stage is in metres, Y up, and has a default prim", severity=Severity.WARNING)
+def _units(subject: Subject, _: Profile) -> Iterator[Miss]:
+    stage = subject.stage
+    if stage is None:
+        return
+    metres, axis = UsdGeom.GetStageMetersPerUnit(stage), UsdGeom.GetStageUpAxis(stage)
+    if not UsdGeom.LinearUnitsAre(metres, UsdGeom.LinearUnits.meters):
+        yield Miss("/", None, "the stage is not in metres", metres, 1.0)
+    if axis != UsdGeom.Tokens.y:
+        yield Miss("/", None, f"{axis} is up, not Y")
+    if not stage.GetDefaultPrim():
+        yield Miss("/", None, "the stage has no default prim")
+
+
+@BOOK.rule("nested-rigid-body", asks="no rigid body lies in another one")
+def _nested_rigid_bodies(subject: Subject, _: Profile) -> Iterator[Miss]:
+    # a body above an instance is seen from the instances' contents alone
+    stage = subject.stage
+    prims = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()) if stage else ()
+    for prim in prims:
+        if prim.HasAPI(UsdPhysics.RigidBodyAPI):
+            above = prim.GetParent()
+            while above and not above.HasAPI(UsdPhysics.RigidBodyAPI):
+                above = above.GetParent()
+            if above:
+                yield _miss(prim, f"a rigid body inside the rigid body {above.GetPath()}")
+
+
+@BOOK.rule("collider-approximation", asks="a collision mesh names an approximation that physics engines know")
+def _approximations(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(subject.stage):
+        if prim.HasAPI(UsdPhysics.CollisionAPI) and prim.IsA(UsdGeom.Mesh):
+            token = UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr()
+            named = prim.HasAPI(UsdPhysics.MeshCollisionAPI) and token.HasAuthoredValue()
+            if not named:
+                yield _miss(prim, "a collision mesh without an approximation")
+            elif token.Get() not in _APPROXIMATIONS:
+                yield _miss(prim, f"a collision mesh with the unknown approximation {token.Get()!r}")
+
+
+@BOOK.rule("collider-without-shape", asks="a collider is a shape")
+def _colliders_without_shape(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(subject.stage):
+        if prim.HasAPI(UsdPhysics.CollisionAPI) and not prim.IsA(UsdGeom.Gprim):
+            yield _miss(prim, f"a collider on a prim of the type {prim.GetTypeName() or 'none'}")
+
+
+@BOOK.rule("empty-label", asks="a semantic label is not empty")
+def _empty_labels(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(subject.stage):
+        for schema in prim.GetAppliedSchemas():
+            if schema.startswith(_LABELS_SCHEMA):
+                labels = prim.GetAttribute(f"{_LABELS}:{schema.removeprefix(_LABELS_SCHEMA)}").Get()
+                if not labels or not all(labels):
+                    yield _miss(prim, "an empty label")
+
+
+@BOOK.rule("label-without-schema", asks="a semantic label has its schema, so that readers find it")
+def _labels_without_schema(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(subject.stage):
+        authored = prim.GetAuthoredPropertiesInNamespace(_LABELS)
+        schemas = prim.GetAppliedSchemas() if authored else ()
+        for label in authored:
+            if f"{_LABELS_SCHEMA}{label.GetBaseName()}" not in schemas:
+                yield _miss(prim, f"the label {label.GetBaseName()!r} without its schema")
+
+
+@BOOK.rule("unlabelled-shape", asks="every shape belongs to something with a semantic label", severity=Severity.WARNING)
+def _unlabelled(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for thing in subject.things if subject.stage else ():
+        if not thing.label:
+            yield Miss(thing.name, None, "a shape without a label of the taxonomy 'class', on it or above it")
+
+
+@BOOK.rule("opinion-in-instance", asks="no layer says anything below an instance, which composition ignores")
+def _opinions_inside_instances(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for layer in subject.stage.GetUsedLayers() if subject.stage else ():
+        found: list[Sdf.Path] = []
+
+        def visit(path: Sdf.Path, layer: Sdf.Layer = layer, found: list[Sdf.Path] = found) -> None:
+            spec = layer.GetPrimAtPath(path) if path.IsPrimPath() else None
+            if spec is not None and spec.instanceable and spec.nameChildren:
+                found.append(path)
+
+        layer.Traverse(Sdf.Path.absoluteRootPath, visit)
+        for path in found:
+            yield Miss(str(path), None, f"opinions below an instance in {Path(layer.identifier).name}")
+
+
+@BOOK.rule("absolute-path", asks="no file is referred to by an absolute path, which is missing on other machines")
+def _absolute_paths(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for path, layer in _absolute(subject.stage):
+        yield Miss(path, None, f"an absolute path in {layer}")
+
+
+def _absolute(stage: Usd.Stage | None) -> Iterator[tuple[str, str]]:
+    """Each absolute path, and the name of the layer that it stands in."""
+    for layer in stage.GetUsedLayers() if stage else ():
+        if layer.anonymous:
+            continue
+        for paths in UsdUtils.ExtractExternalReferences(layer.identifier):
+            for path in paths:
+                if Path(path).is_absolute() or PureWindowsPath(path).is_absolute():
+                    yield path, Path(layer.identifier).name
+
+
+@BOOK.rule("unbound-mesh", asks="every mesh has a material")
+def _unbound_meshes(subject: Subject, _: Profile) -> Iterator[Miss]:
+    for prim in _prims(subject.stage):
+        if prim.IsA(UsdGeom.Mesh) and not UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]:
+            yield _miss(prim, "a mesh without a material")
+
+
+@BOOK.rule("usd-validation", asks="UsdValidation finds nothing")
+def _validation(subject: Subject, _: Profile) -> Iterator[Miss]:
+    if subject.stage is None:
+        return
+    registry = UsdValidation.ValidationRegistry()
+    context = UsdValidation.ValidationContext(registry.GetOrLoadAllValidators())
+    shared = [
+        prim for prototype in subject.stage.GetPrototypes() for prim in Usd.PrimRange(prototype) if prim != prototype
+    ]
+    errors = [*context.Validate(subject.stage, Usd.PrimDefaultPredicate), *(context.Validate(shared) if shared else ())]
+    seen = set()
+    absolute = [path for path, _ in _absolute(subject.stage)]
+    for error in errors:
+        # a path that is absolute, and so missing here, has a rule of its own
+        if error.GetName() == _UNRESOLVED and any(path in error.GetMessage() for path in absolute):
+            continue
+        sites = [str(site.GetPrim().GetPath()) for site in error.GetSites() if site.IsPrim()]
+        miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {' '.join(error.GetMessage().split())}")
+        if miss not in seen:
+            seen.add(miss)
+            yield miss
+
+
+def _miss(prim: Usd.Prim, message: str) -> Miss:
+    return Miss(_place(prim), None, message)
+
+
+def _place(prim: Usd.Prim) -> str:
+    """Path of a prim, or where the first instance has it if a prototype holds it."""
+    if not prim.IsInPrototype():
+        return str(prim.GetPath())
+    prototype = prim
+    while not prototype.IsPrototype():
+        prototype = prototype.GetParent()
+    first = min((str(instance.GetPath()) for instance in prototype.GetInstances()), default="")
+    return first + str(prim.GetPath()).removeprefix(str(prototype.GetPath()))

@@ -1,0 +1,49 @@
+"""``garage2usd check``."""
+
+import json
+from collections import Counter
+from pathlib import Path
+
+import click
+
+__all__ = ["check"]
+
+_MOST_OF_A_RULE = 10
+
+
+@click.command()
+@click.argument("path", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--profile", help="The standard to check against: a name, or a TOML file of your own.")
+@click.option("--json", "as_json", is_flag=True, help="Print all findings as JSON.")
+@click.pass_context
+def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool) -> None:
+    """Check a stage, a report or a plan against a standard.
+
+    PATH is a stage, also one that other tools have edited, the report of a build, a configuration with a structure, or
+    a structure as text or JSON. Ends in 1 if there are errors.
+
+    \b
+    Examples:
+      garage2usd check garage.usdz
+      garage2usd check garage_report.json --profile us-ada --json
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd import checks  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.profiles import load_profile  # noqa: PLC0415
+
+    findings, against = checks.check_file(path, profile=None if profile is None else load_profile(profile))
+    counts = Counter(finding.severity.value for finding in findings)
+    if as_json:
+        document = {
+            "path": str(path),
+            "checked_against": against.name,
+            "counts": {severity.value: counts[severity.value] for severity in checks.Severity},
+            "findings": checks.as_json(findings),
+        }
+        click.echo(json.dumps(document, indent=1))
+    else:
+        for line in checks.as_table(findings, most=_MOST_OF_A_RULE):
+            click.echo(line)
+        figures = ", ".join(f"{counts[severity.value]} {severity.value}" for severity in checks.Severity)
+        click.echo(f"checked against {against.name}: {figures}")
+    if counts["error"]:
+        ctx.exit(1)

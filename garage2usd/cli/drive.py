@@ -1,0 +1,87 @@
+"""``garage2usd drive``."""
+
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garage2usd.cli.bars import Bars
+from garage2usd.errors import ConfigError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from garage2usd.driving import StallProof
+
+__all__ = ["drive"]
+
+_FORMATS = (".json", ".usda", ".usdc")
+
+
+@click.command()
+@click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(path_type=Path),
+    help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage.",
+)
+def drive(*, config: Path | None, seed: int | None, output: Path | None) -> None:
+    """Prove that a car drives into each stall and out again without a touch.
+
+    The garage is the one that `build` makes of the same CONFIG and seed. The car is 4.8 x 1.8 m with a turning radius
+    of 6 m. Stalls without ways are named with what is in the way, and the exit code is 1.
+    """
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.driving import prove_stalls  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+
+    if output is not None and output.suffix not in _FORMATS:
+        raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+    with Bars(sys.stderr) as progress:
+        garage = generate(load_config(config) if config else None, seed=seed, progress=progress)
+        setback_m = garage.config.bay.carriageway_setback_m
+        proofs = prove_stalls(garage.layout, garage.graph, setback_m=setback_m, progress=progress)
+    if output is not None:
+        _write(output, proofs)
+    _describe(proofs)
+    if not all(proof.is_proven for proof in proofs):
+        raise click.exceptions.Exit(1)
+
+
+def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
+    from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
+
+    check_writable(output.parent)
+    with staging_folder() as staging:
+        file = staging / output.name
+        if output.suffix == ".json":
+            write_witness(file, proofs)
+        else:
+            write_driving_layer(file, proofs)
+        publish([file], output.parent)
+
+
+def _describe(proofs: "Sequence[StallProof]") -> None:
+    proven = [proof for proof in proofs if proof.way_in is not None and proof.way_out is not None]
+    click.echo(f"{len(proven)} of {len(proofs)} stalls are driven into and out of without a touch")
+    noses = Counter(f"nose {proof.nose}" for proof in proven)
+    changes = Counter(proof.way_in.gear_changes for proof in proven if proof.way_in)
+    for name, count in noses.most_common():
+        click.echo(f"{count:6}  {name}")
+    for number, count in sorted(changes.items()):
+        click.echo(f"{count:6}  with {number} changes of gear on the way in")
+    for proof in proven:
+        if not proof.is_full:
+            click.echo(f"{proof.stall}: only with the stalls free that are free")
+        if proof.backs_out:
+            click.echo(f"{proof.stall}: backs out along a dead-end aisle")
+    for proof in proofs:
+        if not proof.is_proven:
+            alone = "in the way" if proof.is_single_cause else "touched"
+            click.echo(f"{proof.stall}: no way; {alone}: {', '.join(proof.touched[:6]) or 'no lane to begin at'}")

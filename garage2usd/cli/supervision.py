@@ -1,0 +1,67 @@
+"""A process of its own for commands that read USD: a damaged stage can crash the library, not the command."""
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from types import FrameType
+from typing import NoReturn
+
+from garage2usd.limits import enforce
+
+__all__ = ["CRASHES", "SUPERVISED", "supervise"]
+
+SUPERVISED = frozenset({"check", "render", "view"})
+"""The commands that open stages which anybody may have written."""
+CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
+_FAILED = 1
+
+
+def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
+    """Run a command in a child process and end as it ends; if it crashes, that is an error in one line and exit code 1.
+
+    The child has the limits of `garage2usd.limits`, and gets the signals that ask this process to end. It is forked
+    before any library is loaded, so nothing is loaded twice and no thread is lost.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    supervisor = os.getpid()
+    child = os.fork()
+    if child == 0:
+        _become_child(supervisor)
+        command()
+        sys.exit(0)
+
+    def pass_on(number: int, _frame: FrameType | None) -> None:
+        with suppress(ProcessLookupError):
+            os.kill(child, number)
+
+    signal.signal(signal.SIGTERM, pass_on)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to the child too
+    _, status = os.waitpid(child, 0)
+    if not os.WIFSIGNALED(status):
+        sys.exit(os.waitstatus_to_exitcode(status))
+    number = os.WTERMSIG(status)
+    if number == signal.SIGXCPU:
+        sys.stderr.write(f"Error: {name} takes too long for so small a stage: it composes without an end in sight\n")
+        sys.exit(_FAILED)
+    if number in CRASHES:
+        said = signal.strsignal(number) or f"signal {number}"
+        sys.stderr.write(
+            f"Error: {name} crashed ({said.lower()}): the stage is damaged, or too large for this machine\n"
+        )
+        sys.exit(_FAILED)
+    sys.exit(128 + number)
+
+
+def _become_child(supervisor: int) -> None:
+    """Set limits, and die with the supervisor, even where that is killed."""
+    enforce()
+    if sys.platform == "linux":
+        import ctypes  # noqa: PLC0415 - no other command needs it
+
+        parent_death_signal = 1
+        ctypes.CDLL(None).prctl(parent_death_signal, signal.SIGTERM)
+        if os.getppid() != supervisor:  # it was gone before
+            sys.exit(_FAILED)

@@ -1,0 +1,49 @@
+"""``garage2usd view``."""
+
+import threading
+import time
+import webbrowser
+from pathlib import Path
+
+import click
+
+__all__ = ["view"]
+
+_MOST_PORT = 65535
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@click.option("--port", type=click.IntRange(0, _MOST_PORT), default=0, help="TCP port; any that is free if left out.")
+@click.option("--no-browser", is_flag=True, help="Say the address only; open no browser.")
+def view(*, path: Path, port: int, no_browser: bool) -> None:
+    """Show the stage at PATH (.usd, .usda, .usdc or .usdz) in a browser until Ctrl-C.
+
+    Only this machine can see it, and nothing is fetched from elsewhere. Drag to orbit, or walk with W A S D; click an
+    object for its class, id and prim, and on a stall for its number, use and type.
+
+    \b
+    Examples:
+      garage2usd view garage.usdz
+      garage2usd view out/garage.usdc --port 8000 --no-browser
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.limits import lift_seconds  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.stage.reading import open_stage  # noqa: PLC0415
+    from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
+
+    start = time.perf_counter()
+    stage = open_stage(path)
+    with ViewerServer(port) as server:
+        try:
+            click.echo(f"{path.name} at {server.url}")
+            scene = read_scene(stage, path)
+            server.show(scene)
+            # not before: the browser would inherit the limits of a process that reads a stage
+            lift_seconds()
+            if not no_browser:
+                threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
+            shown = f"{len(scene.objects)} objects of {len(scene.counts())} classes"
+            click.echo(f"{shown}, read in {time.perf_counter() - start:.1f} s; Ctrl-C ends")
+            threading.Event().wait()
+        except KeyboardInterrupt:
+            click.echo("\nstopped", err=True)

@@ -1,0 +1,225 @@
+"""The proof that a car gets from a lane into a stall and out again without a touch, by ways that do it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from garage2usd.driving.car import DesignCar, Point, Pose
+from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move
+from garage2usd.driving.obstacles import Obstacles
+from garage2usd.driving.search import HEADINGS, least_clearance, search
+from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
+from garage2usd.errors import ConfigError
+
+__all__ = ["LanePose", "Limits", "Search", "find_way", "least_clearance_m"]
+
+_QUARTER = math.pi / 2
+_HEADING_ERROR = 1e-6
+_SAME = 1e-9
+_FINE_RAD = math.radians(1.0)
+_FINE_M = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class LanePose:
+    """Where on a lane a car may begin or end: in line with it, anywhere on a rectangle along it.
+
+    Attributes
+    ----------
+    middle_m
+        (x, z) of the rectangle's middle.
+    yaw_rad
+        Direction of driving, right-handed about +Y; at 0 to -Z.
+    length_m, width_m
+        Of the rectangle in which the middle of the car's footprint lies, along the direction and across it.
+    """
+
+    middle_m: Point
+    yaw_rad: float
+    length_m: float
+    width_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a driver is asked for.
+
+    Attributes
+    ----------
+    margin_m
+        What is kept clear around the car all the way.
+    gear_changes
+        Most of them, between lane and stall.
+    reach_m
+        How far from the stall the rear axle goes along either axis of the lanes.
+    is_thorough
+        Whether fine steps are tried where coarse ones found nothing; it takes about half a second a stall.
+    """
+
+    margin_m: float = 0.05
+    gear_changes: int = 4
+    reach_m: float = 12.0
+    is_thorough: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """What a search for a way out found.
+
+    Attributes
+    ----------
+    way
+        The way from the stall to the lane, if there is one.
+    touched
+        Names of what stood in the way, most often first.
+    is_exhausted
+        Whether there is no way at the search's resolution; False where it was given up or succeeded.
+    """
+
+    way: Manoeuvre | None
+    touched: tuple[str, ...] = ()
+    is_exhausted: bool = False
+
+
+_PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 131_072))
+"""Length of a straight step in metres and most places looked at: coarse first, then fine."""
+
+
+def find_way(
+    car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits | None = None
+) -> Search:
+    """Find a way from a parked pose to any of some lane poses.
+
+    Parameters
+    ----------
+    car
+        The car.
+    parked
+        Where it stands.
+    obstacles
+        What it must not touch.
+    lanes
+        Where the way may end; directions differ by quarter turns.
+    limits
+        Margin, gear changes, reach and effort.
+
+    Returns
+    -------
+    Search
+        Driven backwards in time, `Manoeuvre.reversed`, the way leads in, from the lane in the same direction.
+
+    Raises
+    ------
+    ConfigError
+        If the lanes' directions differ by other than quarter turns.
+    """
+    limits = limits or Limits()
+    if not lanes:
+        return Search(None, (), is_exhausted=True)
+    frame = lanes[0].yaw_rad
+    goals = np.array([_goal(car, parked, lane, frame) for lane in lanes])
+    start = np.array([0.0, 0.0, math.remainder(parked.yaw_rad - frame, math.tau)])
+    reach = limits.reach_m + car.length_m
+    near = obstacles.near((parked.x_m, parked.z_m), math.sqrt(2) * reach)
+    local = near.seen_from(parked.x_m, parked.z_m, frame).near((0.0, 0.0), reach)
+    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
+    touched = np.zeros(len(local.pieces), np.int64)
+    standing = _standing(start, local, body, limits.margin_m)
+    if standing:
+        return Search(None, standing, is_exhausted=True)
+
+    def look(goals: Floats, straight_m: float, effort: int) -> tuple[int, Floats]:
+        return search(
+            start,
+            goals,
+            local.pieces,
+            local.boxes,
+            body,
+            car.rear_axle_radius_m,
+            limits.margin_m,
+            limits.reach_m,
+            straight_m,
+            limits.gear_changes,
+            effort,
+            touched,
+        )
+
+    found, steps = 0, np.empty((0, 3))
+    for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
+        touched[:] = 0
+        found, steps = look(goals, straight_m, effort)
+        headings = np.unique(goals[:, 0])
+        if found < 0 and len(headings) > 1:
+            # a lane that is out of reach may draw the search away from another one: each direction for itself
+            outcomes = []
+            for heading in headings:
+                outcome, steps = look(goals[goals[:, 0] == heading], straight_m, effort)
+                outcomes.append(outcome)
+                if outcome > 0:
+                    break
+            found = 1 if 1 in outcomes else min(outcomes)
+        if found > 0:
+            break
+    if found <= 0:
+        order = np.argsort(-touched, kind="stable")
+        return Search(None, local.named(order[touched[order] > 0]), is_exhausted=found == 0)
+    way = Manoeuvre(parked, _moves(steps, car.rear_axle_radius_m), 0.0)
+    return Search(Manoeuvre(parked, way.moves, least_clearance_m(car, way, near)))
+
+
+def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, most_m: float = 1.0) -> float:
+    """What is left at least between a car and all obstacles on a way: a lower bound, at most `most_m`."""
+    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
+    step_m = min(_FINE_M, _FINE_RAD * car.rear_axle_radius_m)
+    waypoints = list(way.waypoints(step_m))
+    poses = np.array([(at.pose.x_m, at.pose.z_m, at.pose.yaw_rad) for at in waypoints])
+    if not len(poses):
+        poses = np.array([[way.start.x_m, way.start.z_m, way.start.yaw_rad]] * 2)
+        return float(least_clearance(poses, np.zeros(1), obstacles.pieces, obstacles.boxes, body, most_m))
+    turns = np.abs(np.diff(poses[:, 2]))
+    radii = np.array([1 / abs(at.curvature_per_m) if at.curvature_per_m else 0.0 for at in waypoints[:-1]])
+    bulges = np.array([bulge(radius, turn, body) for radius, turn in zip(radii, turns, strict=True)])
+    return float(least_clearance(poses, bulges, obstacles.pieces, obstacles.boxes, body, most_m))
+
+
+def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:
+    """Heading number, and least and most x and z of the rear axle's middle, in the frame of the search."""
+    turned = lane.yaw_rad - frame
+    quarters = round(turned / _QUARTER)
+    if abs(turned - quarters * _QUARTER) > _HEADING_ERROR:
+        raise ConfigError("lanes", turned, "directions that differ by quarter turns")
+    axle = car.centred(lane.middle_m, lane.yaw_rad)
+    x, z = axle.x_m - parked.x_m, axle.z_m - parked.z_m
+    cos, sin = math.cos(frame), math.sin(frame)
+    x, z = x * cos - z * sin, x * sin + z * cos
+    half_x, half_z = lane.width_m / 2, lane.length_m / 2
+    if quarters % 2:
+        half_x, half_z = half_z, half_x
+    heading = (quarters * HEADINGS // 4) % HEADINGS
+    return heading, x - half_x - _SAME, z - half_z - _SAME, x + half_x + _SAME, z + half_z + _SAME
+
+
+def _standing(start: Floats, local: Obstacles, body: Floats, margin_m: float) -> tuple[str, ...]:
+    """Names of what a car touches where it is parked."""
+    corners = np.empty((8, 2))
+    x, z, yaw = start.tolist()
+    corners_at(x, z, yaw, body, corners, 0)
+    corners_at(x, z, yaw, body, corners, 4)
+    gaps = [clearance(corners, piece, margin_m) for piece in local.pieces]
+    return local.named(piece for piece, gap in enumerate(gaps) if gap < margin_m)
+
+
+def _moves(steps: Floats, radius_m: float) -> tuple[Move, ...]:
+    """Steps as moves: equal ones in a row are one."""
+    moves: list[Move] = []
+    previous = None
+    for gear, steering, length in steps.tolist():
+        if (gear, steering) == previous:
+            last = moves[-1]
+            moves[-1] = Move(last.gear, last.curvature_per_m, last.length_m + length)
+        else:
+            moves.append(Move(Gear.FORWARD if gear > 0 else Gear.REVERSE, steering / radius_m, length))
+        previous = (gear, steering)
+    return tuple(moves)

@@ -1,0 +1,77 @@
+"""The ways of a garage's proof as JSON, for programs that drive or draw them."""
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.garage import StallProof
+from garage2usd.driving.manoeuvre import Manoeuvre
+from garage2usd.driving.proof import Limits
+from garage2usd.version import VERSION
+
+__all__ = ["write_witness"]
+
+_STEP_M = 0.25
+_DIGITS = 6
+
+
+def write_witness(
+    path: Path, proofs: Sequence[StallProof], *, car: DesignCar | None = None, limits: Limits | None = None
+) -> None:
+    """Write what was proven for each stall.
+
+    Notes
+    -----
+    ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they are
+    the way itself. ``poses`` sample it at most 0.25 m apart: way driven (m), x, z (m), yaw (right-handed about +Y,
+    0 looks to -Z), gear (1 or -1) and curvature. All are of the middle of the rear axle. Stalls without ways say what
+    was touched.
+    """
+    car = car or DesignCar()
+    document = {
+        "version": VERSION,
+        "car": {**asdict(car), "rear_axle_radius_m": round(car.rear_axle_radius_m, _DIGITS)},
+        "limits": asdict(limits or Limits()),
+        "stalls": [_stall(proof) for proof in proofs],
+    }
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+def _stall(proof: StallProof) -> dict[str, Any]:
+    return {
+        "name": proof.stall,
+        "proven": proof.is_proven,
+        "nose": proof.nose and proof.nose.value,
+        "clear_with_all_stalls_taken": proof.is_full,
+        "backs_out_of_dead_end": proof.backs_out,
+        "touched": proof.touched,
+        "touched_alone_in_the_way": proof.is_single_cause,
+        "in": proof.way_in and _way(proof.way_in),
+        "out": proof.way_out and _way(proof.way_out),
+    }
+
+
+def _way(way: Manoeuvre) -> dict[str, Any]:
+    return {
+        "clearance_m": round(way.clearance_m, _DIGITS),
+        "length_m": round(way.length_m, _DIGITS),
+        "gear_changes": way.gear_changes,
+        "start": _pose(way.start),
+        "moves": [[move.gear.value, round(move.curvature_per_m, 9), round(move.length_m, 9)] for move in way.moves],
+        "poses": [
+            [round(at.arc_m, _DIGITS), *_pose(at.pose), at.gear.sign, round(at.curvature_per_m, _DIGITS)]
+            for at in way.waypoints(_STEP_M)
+        ],
+    }
+
+
+def _pose(pose: Pose) -> list[float]:
+    return [
+        round(pose.x_m, _DIGITS),
+        round(pose.z_m, _DIGITS),
+        round(math.remainder(pose.yaw_rad, math.tau), _DIGITS),
+    ]

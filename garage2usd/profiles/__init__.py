@@ -1,0 +1,99 @@
+"""Standards as data: which sizes a garage is designed to and checked against, each with its source."""
+
+import tomllib
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from garage2usd.documents import read_toml
+from garage2usd.errors import ConfigError
+from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
+from garage2usd.profiles.profile import Profile
+
+__all__ = [
+    "DEFAULT_PROFILE",
+    "PROFILE_NAMES",
+    "Area",
+    "Clause",
+    "Confidence",
+    "Length",
+    "LengthRange",
+    "Profile",
+    "Severity",
+    "Steps",
+    "is_profile_file",
+    "load_profile",
+    "read_profile",
+]
+
+DEFAULT_PROFILE = "cn-jgj100"
+PROFILE_NAMES = ("cn-jgj100", "uk-istructe", "us-ada")
+"""The profiles that are shipped."""
+
+
+def is_profile_file(name: str) -> bool:
+    """Whether a profile is told by a file instead of a name."""
+    return name not in PROFILE_NAMES and (name.endswith(".toml") or "/" in name or "\\" in name)
+
+
+def load_profile(name_or_file: str | Path, *, folder: Path | None = None) -> Profile:
+    """A shipped profile by its name, or one of a user's own from a TOML file.
+
+    Parameters
+    ----------
+    name_or_file
+        One of `PROFILE_NAMES`, or a path.
+    folder
+        Where a relative path starts; the working directory if left out.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such profile, or the file cannot be read or holds what no profile has.
+    """
+    name = str(name_or_file)
+    if name in PROFILE_NAMES:
+        return _shipped(name)
+    if not is_profile_file(name):
+        raise ConfigError("profile", name, f"one of {', '.join(PROFILE_NAMES)}, or a path that ends in .toml")
+    return read_profile(read_toml((folder or Path()) / name, field="profile"))
+
+
+def read_profile(settings: dict[str, Any]) -> Profile:
+    """Validate a profile given as nested mappings, as TOML reads them.
+
+    Raises
+    ------
+    ConfigError
+        With the clause, its value and what is allowed.
+    """
+    try:
+        return Profile(**settings)
+    except ValidationError as error:
+        raise _config_error(error) from None
+
+
+@cache
+def _shipped(name: str) -> Profile:
+    text = (resources.files("garage2usd.profiles") / f"{name}.toml").read_text(encoding="utf-8")
+    return read_profile(tomllib.loads(text))
+
+
+def _config_error(error: ValidationError) -> ConfigError:
+    finding = error.errors(include_url=False)[0]
+    location = [str(part) for part in finding["loc"]]
+    field = ".".join(["profile", *location])
+    if finding["type"] == "extra_forbidden":
+        keys = list(Profile.model_fields)
+        if len(location) > 1:
+            clause = Profile.model_fields[location[0]].annotation
+            models = [model for model in getattr(clause, "__args__", ()) if hasattr(model, "model_fields")]
+            keys = list(models[0].model_fields) if models else keys
+        return ConfigError(field, finding["input"], f"one of the keys {', '.join(keys)}")
+    if finding["type"] == "missing":
+        return ConfigError(field, "nothing", "a value; each clause has a value, unit, source and confidence")
+    message = finding["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
+    return ConfigError(field, finding["input"], message)

@@ -1,0 +1,177 @@
+"""What one clause of a standard asks for: a value with its unit, source and confidence."""
+
+import math
+from enum import StrEnum
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from garage2usd.settings import Settings
+
+__all__ = [
+    "Amount",
+    "Area",
+    "Clause",
+    "Confidence",
+    "Count",
+    "Illuminance",
+    "Length",
+    "LengthRange",
+    "Ratio",
+    "Severity",
+    "Steps",
+]
+
+_METRES = {"m": 1.0, "mm": 0.001, "cm": 0.01, "ft": 0.3048, "in": 0.0254}
+LengthUnit = Literal["m", "mm", "cm", "ft", "in"]
+
+
+class Confidence(StrEnum):
+    """How well a value is known."""
+
+    HIGH = "high"
+    """Several sources agree."""
+    MEDIUM = "medium"
+    """One or two sources."""
+    LOW = "low"
+    """A weak source."""
+
+
+class Severity(StrEnum):
+    """How grave it is to miss a clause."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+class Clause(Settings):
+    """What every clause says of itself."""
+
+    source: str = Field(min_length=1, max_length=500)
+    """Where the value was found."""
+    confidence: Confidence
+    """'high': several sources agree, 'medium': one or two, 'low': a weak one."""
+    severity: Severity = Severity.ERROR
+    """'error', 'warning' or 'info': what a finding of this clause is."""
+    text: str = Field("", max_length=2000)
+    """What the clause asks for, in words."""
+
+
+class Amount(Clause):
+    """A clause with one value, the least or the most that is allowed."""
+
+    value: float = Field(gt=0, le=1e6)
+    """The value, in `unit`."""
+
+    @property
+    def amount(self) -> float:
+        """The value in the unit of `reported_in`."""
+        return self.value
+
+    @property
+    def reported_in(self) -> str:
+        """The unit of `amount`."""
+        unit: str = self.unit  # type: ignore[attr-defined]
+        return unit
+
+
+class Length(Amount):
+    """A length."""
+
+    unit: LengthUnit
+    """'m', 'mm', 'cm', 'ft' or 'in'."""
+
+    @property
+    def amount(self) -> float:
+        """The length in metres."""
+        return round(self.value * _METRES[self.unit], 9)
+
+    @property
+    def reported_in(self) -> str:
+        """Metres."""
+        return "m"
+
+
+class Area(Amount):
+    """A floor area."""
+
+    unit: Literal["m2"]
+    """'m2'."""
+
+
+class Illuminance(Amount):
+    """A mean illuminance."""
+
+    unit: Literal["lx"]
+    """'lx'."""
+
+
+class Ratio(Amount):
+    """A slope."""
+
+    unit: Literal["%"]
+    """'%'."""
+
+
+class Count(Amount):
+    """A number of things."""
+
+    value: Annotated[int, Field(ge=1, le=1_000_000)]
+    """The number."""
+    unit: Literal["count"]
+    """'count'."""
+
+
+class LengthRange(Clause):
+    """A length between two values."""
+
+    least: float = Field(gt=0, le=1e6)
+    """The least, in `unit`."""
+    most: float = Field(gt=0, le=1e6)
+    """The most, in `unit`."""
+    unit: LengthUnit
+    """'m', 'mm', 'cm', 'ft' or 'in'."""
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        if self.most < self.least:
+            raise ValueError(f"most of at least {self.least}")
+        return self
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and most in metres."""
+        factor = _METRES[self.unit]
+        return round(self.least * factor, 9), round(self.most * factor, 9)
+
+
+class Steps(Clause):
+    """A least number that grows with the number of stalls."""
+
+    steps: tuple[tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=0)]], ...] = Field(min_length=1)
+    """[number of stalls, least number up to it], ascending."""
+    above: Annotated[int, Field(ge=0)] | None = None
+    """Least number over the last step."""
+    above_percent: float | None = Field(None, gt=0, le=100)
+    """Least number over the last step, as a share of the stalls."""
+    unit: Literal["count"]
+    """'count'."""
+
+    @model_validator(mode="after")
+    def _ascending(self) -> Self:
+        ends = [end for end, _ in self.steps]
+        if ends != sorted(set(ends)):
+            raise ValueError("steps in ascending order, each number of stalls once")
+        if (self.above is None) == (self.above_percent is None):
+            raise ValueError("one of above and above_percent")
+        return self
+
+    def required(self, stalls: int) -> int:
+        """Least number for so many stalls."""
+        for end, number in self.steps:
+            if stalls <= end:
+                return number
+        if self.above is not None:
+            return self.above
+        return math.ceil((self.above_percent or 0.0) * stalls / 100 - 1e-9)

@@ -1,0 +1,109 @@
+"""A profile: the clauses of a standard that a garage is designed to and checked against."""
+
+from collections.abc import Iterator
+
+from pydantic import Field
+
+from garage2usd.profiles.clauses import Area, Clause, Count, Illuminance, Length, LengthRange, Ratio, Steps
+from garage2usd.settings import Settings
+
+__all__ = ["Profile"]
+
+
+class Profile(Settings):
+    """Clauses of a standard; those that are left out ask for nothing.
+
+    A report says "checked against" a profile; it certifies nothing.
+    """
+
+    name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")
+    """Short name of the profile."""
+    title: str = Field("", max_length=500)
+    """What it is taken from."""
+
+    design_car_length: Length | None = None
+    """Length of the car that a stall is designed for."""
+    design_car_width: Length | None = None
+    """Its width, without mirrors."""
+    design_car_height: Length | None = None
+    """Its height."""
+    turning_radius: Length | None = None
+    """Least turning radius of that car."""
+
+    stall_width: Length | None = None
+    """Least width of a stall at right angles to its aisle."""
+    stall_length: Length | None = None
+    """Least length of it."""
+    wall_clearance: Length | None = None
+    """Least distance of the design car's sides from walls."""
+    end_clearance: Length | None = None
+    """Least distance of its front and rear from what stands before and behind it."""
+    column_clearance: Length | None = None
+    """Least distance of it from columns."""
+    column_spacing: LengthRange | None = None
+    """Distance of the columns on the two sides of a row of stalls."""
+
+    aisle_width: Length | None = None
+    """Least clear width of an aisle that serves stalls at right angles to it."""
+    dead_end_length: Length | None = None
+    """Length over which a dead-end aisle keeps a turning stall free."""
+
+    clear_height: Length | None = None
+    """Least height that nothing hangs below."""
+    van_clear_height: Length | None = None
+    """The same on the ways to and from accessible stalls for vans."""
+
+    portals: Steps | None = None
+    """Least number of vehicle entrances and exits together."""
+    portal_distance: Length | None = None
+    """Distance between two of them that must be exceeded."""
+    portal_width: Length | None = None
+    """Least clear width of one with one-way traffic."""
+
+    ramp_slope: Ratio | None = None
+    """Steepest slope of a straight ramp."""
+    ramp_transition_slope: Ratio | None = None
+    """Slope over which a ramp needs gentler pieces at its foot and its top."""
+    ramp_transition_length: Length | None = None
+    """Least length of each of those."""
+
+    accessible_stalls: Steps | None = None
+    """Least number of accessible stalls."""
+    accessible_stall_width: Length | None = None
+    """Least width of one."""
+    access_aisle_width: Length | None = None
+    """Least width of the access aisle beside one."""
+    stalls_per_van_stall: Count | None = None
+    """One in so many accessible stalls, and one at least, takes vans."""
+    van_stall_width: Length | None = None
+    """Least width of an accessible stall for vans."""
+    van_access_aisle_width: Length | None = None
+    """Width of the access aisle beside an accessible stall with which it takes vans too."""
+
+    lane_illuminance: Illuminance | None = None
+    """Least mean illuminance of the lanes' floor."""
+    stall_illuminance: Illuminance | None = None
+    """The same of the stalls."""
+
+    fire_compartment_area: Area | None = None
+    """Largest fire compartment without sprinklers."""
+    fire_compartment_area_sprinklered: Area | None = None
+    """Largest one with sprinklers."""
+    personnel_exits: Count | None = None
+    """Least number of exits on foot."""
+    exit_distance: Length | None = None
+    """Largest distance of a stall to an exit on foot without sprinklers."""
+    exit_distance_sprinklered: Length | None = None
+    """The same with sprinklers."""
+
+    speed_bump_height: Length | None = None
+    """Largest height of a speed bump."""
+    wheel_stop_height: Length | None = None
+    """Largest height of a wheel stop."""
+
+    def clauses(self) -> Iterator[tuple[str, Clause]]:
+        """Name and clause of all that it has."""
+        for name in type(self).model_fields:
+            clause = getattr(self, name)
+            if isinstance(clause, Clause):
+                yield name, clause

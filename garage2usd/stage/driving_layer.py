@@ -1,0 +1,78 @@
+"""The ways into the stalls and out of them as guide curves, in a layer to put over a garage's stage."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from pxr import Kind, Sdf, UsdGeom, Vt
+
+from garage2usd.driving import Manoeuvre, StallProof, Waypoint
+from garage2usd.stage.authoring import attribute, define, set_units
+
+__all__ = ["write_driving_layer"]
+
+_LIFT_M = 0.06
+_LINE_WIDTH_M = 0.06
+_STEP_M = 0.25
+_TYPES = Sdf.ValueTypeNames
+
+
+def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
+    """Write the layer: ``over /Garage`` with the curves ``Ways/In`` and ``Ways/Out``.
+
+    Notes
+    -----
+    A curve is the way of the rear axle's middle for one stall that is proven, 0.06 m over the floor. With one value a
+    curve: ``garage:way:stall``, ``garage:way:nose`` (``in`` or ``out``), ``garage:way:clearance`` (metres). With one
+    value a point: ``garage:way:arc`` (metres driven), ``garage:way:yaw`` (radians, 0 looks to -Z),
+    ``garage:way:gear`` (1 or -1) and ``garage:way:curvature`` (1/m, positive to the driver's left).
+    """
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = "Garage"
+        garage = Sdf.CreatePrimInLayer(layer, "/Garage")
+        garage.specifier = Sdf.SpecifierOver
+        group = define(layer, garage.path.AppendChild("Ways"), "Xform", kind=Kind.Tokens.group)
+        attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
+        for name in ("In", "Out"):
+            ways = [
+                (proof, way)
+                for proof in proofs
+                if (way := proof.way_in if name == "In" else proof.way_out) is not None and proof.is_proven
+            ]
+            _author_ways(layer, group.path.AppendChild(name), ways)
+    layer.Export(str(path))
+
+
+def _author_ways(layer: Sdf.Layer, path: Sdf.Path, ways: Sequence[tuple[StallProof, Manoeuvre]]) -> None:
+    prim = define(layer, path, "BasisCurves")
+    attribute(prim, "type", _TYPES.Token, UsdGeom.Tokens.linear, uniform=True)
+    attribute(prim, "wrap", _TYPES.Token, UsdGeom.Tokens.nonperiodic, uniform=True)
+    sampled: list[list[Waypoint]] = [list(way.waypoints(_STEP_M)) for _, way in ways]
+    counts = np.array([len(samples) for samples in sampled], dtype=np.int32)
+    attribute(prim, "curveVertexCounts", _TYPES.IntArray, Vt.IntArray.FromNumpy(counts))
+    every = [at for samples in sampled for at in samples]
+    points = np.array([(at.pose.x_m, _LIFT_M, at.pose.z_m) for at in every], dtype=np.float32).reshape(-1, 3)
+    attribute(prim, "points", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
+    width = attribute(prim, "widths", _TYPES.FloatArray, Vt.FloatArray([_LINE_WIDTH_M]))
+    width.SetInfo("interpolation", UsdGeom.Tokens.constant)
+    extent = UsdGeom.Curves.ComputeExtent(Vt.Vec3fArray.FromNumpy(points), Vt.FloatArray([_LINE_WIDTH_M]))
+    attribute(prim, "extent", _TYPES.Float3Array, extent)
+
+    proofs = [proof for proof, _ in ways]
+    names = [proof.stall for proof in proofs]
+    attribute(prim, "garage:way:stall", _TYPES.TokenArray, Vt.TokenArray(names))
+    noses = [proof.nose.value if proof.nose else "" for proof in proofs]
+    attribute(prim, "garage:way:nose", _TYPES.TokenArray, Vt.TokenArray(noses))
+    of_points = {
+        "arc": [at.arc_m for at in every],
+        "yaw": [math.remainder(at.pose.yaw_rad, math.tau) for at in every],
+        "curvature": [at.curvature_per_m for at in every],
+    }
+    for name, values in {"clearance": [way.clearance_m for _, way in ways], **of_points}.items():
+        array = Vt.FloatArray.FromNumpy(np.array(values, dtype=np.float32))
+        attribute(prim, f"garage:way:{name}", _TYPES.FloatArray, array)
+    gears = np.array([at.gear.sign for at in every], dtype=np.int32)
+    attribute(prim, "garage:way:gear", _TYPES.IntArray, Vt.IntArray.FromNumpy(gears))

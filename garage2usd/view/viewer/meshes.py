@@ -1,0 +1,271 @@
+"""Meshes and simple shapes of a stage as triangles with one normal and one texture coordinate a vertex."""
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Sdf, Usd, UsdGeom
+
+from garage2usd.view.viewer.solids import solid_faces
+
+__all__ = ["DRAWN_TYPES", "FaceSet", "Triangles", "display_colour", "face_sets", "triangles_of"]
+
+DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
+"""Types of prims that have triangles."""
+
+_SMALLEST_M2 = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Triangles of one mesh in its own space.
+
+    Attributes
+    ----------
+    positions_m, normals, coordinates
+        float32 of shape (vertices, 3), (vertices, 3) and (vertices, 2); normals are of unit length.
+    indices
+        uint32, shape (triangles, 3), counter-clockwise seen from outside.
+    face_of
+        int32, shape (triangles,): number of the face that each triangle is a part of.
+    double_sided
+        Whether its back is seen as well.
+    """
+
+    positions_m: NDArray[np.float32]
+    normals: NDArray[np.float32]
+    coordinates: NDArray[np.float32]
+    indices: NDArray[np.uint32]
+    face_of: NDArray[np.int32]
+    double_sided: bool
+
+    def key(self) -> bytes:
+        """Equal for triangles that are equal in all."""
+        digest = hashlib.blake2b(bytes([self.double_sided]), digest_size=16)
+        for values in (self.positions_m, self.normals, self.coordinates, self.indices):
+            digest.update(np.array(values.shape).tobytes())
+            digest.update(np.ascontiguousarray(values).tobytes())
+        return digest.digest()
+
+    def of_faces(self, faces: NDArray[np.intp]) -> "Triangles":
+        """The triangles of some faces alone."""
+        kept = np.isin(self.face_of, faces)
+        used, indices = np.unique(self.indices[kept], return_inverse=True)
+        return Triangles(
+            self.positions_m[used],
+            self.normals[used],
+            self.coordinates[used],
+            indices.reshape(-1, 3).astype(np.uint32),
+            self.face_of[kept],
+            self.double_sided,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class FaceSet:
+    """What of a mesh has one material.
+
+    Attributes
+    ----------
+    prim
+        The mesh, or the subset of it, that the material is bound to.
+    faces
+        Numbers of its faces; None for all.
+    """
+
+    prim: Usd.Prim
+    faces: NDArray[np.intp] | None
+
+
+def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "st") -> Triangles | None:
+    """Triangles of a prim of one of `DRAWN_TYPES`; None where it has none that can be drawn.
+
+    Parameters
+    ----------
+    prim
+        The mesh or shape.
+    time
+        When.
+    coordinate_name
+        Name of the primvar with the texture coordinates.
+
+    Notes
+    -----
+    Polygons are cut into fans. Without authored normals a mesh is faceted, or smooth where it asks to be subdivided,
+    which is not done. Faces that name missing points are left out, as a renderer would.
+    """
+    if prim.GetTypeName() != "Mesh":
+        return _of_solid(prim, time)
+    mesh = UsdGeom.Mesh(prim)
+    points = np.asarray(mesh.GetPointsAttr().Get(time) or (), dtype=np.float32).reshape(-1, 3)
+    counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get(time) or (), dtype=np.int64)
+    corners = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(time) or (), dtype=np.int64)
+    if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(points):
+        return None
+    fans, face_of = _fans(counts)
+    points_of = corners[fans]
+    sound = ((points_of >= 0) & (points_of < len(points))).all(axis=1)
+    sound &= np.isfinite(points[np.clip(points_of, 0, len(points) - 1)]).all(axis=(1, 2))
+    fans, face_of = fans[sound], face_of[sound]
+    if not len(fans):
+        return None
+    if mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded:
+        fans = fans[:, [0, 2, 1]]
+    normals = _normals(mesh, time, points, corners, fans, face_of)
+    coordinates = _coordinates(prim, time, coordinate_name, len(points), corners, fans)
+    return _welded(
+        points[corners[fans]].reshape(-1, 3),
+        normals.reshape(-1, 3),
+        coordinates.reshape(-1, 2),
+        face_of,
+        double_sided=bool(mesh.GetDoubleSidedAttr().Get(time)),
+    )
+
+
+def face_sets(prim: Usd.Prim, time: Usd.TimeCode) -> Iterator[FaceSet]:
+    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left."""
+    subsets = [child for child in prim.GetChildren() if child.GetTypeName() == "GeomSubset"]
+    subsets = [child for child in subsets if child.GetRelationship("material:binding").HasAuthoredTargets()]
+    if not subsets:
+        yield FaceSet(prim, None)
+        return
+    faces_of = [np.asarray(UsdGeom.Subset(child).GetIndicesAttr().Get(time) or (), dtype=np.intp) for child in subsets]
+    count = len(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr().Get(time) or ())
+    for child, faces in zip(subsets, faces_of, strict=True):
+        yield FaceSet(child, faces)
+    rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
+    if len(rest):
+        yield FaceSet(prim, rest)
+
+
+def _of_solid(prim: Usd.Prim, time: Usd.TimeCode) -> Triangles | None:
+    solid = solid_faces(prim, time)
+    if solid is None:
+        return None
+    positions, normals = solid
+    face_of = np.arange(len(positions) // 3, dtype=np.int32)
+    return _welded(positions, normals, np.zeros((len(positions), 2), np.float32), face_of, double_sided=False)
+
+
+def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """Corners of each triangle, shape (triangles, 3), as numbers into the face vertices, and the face of each."""
+    triangles = np.maximum(counts - 2, 0)
+    face_of = np.repeat(np.arange(len(counts)), triangles)
+    first = (np.cumsum(counts) - counts)[face_of]
+    step = np.arange(len(face_of)) - (np.cumsum(triangles) - triangles)[face_of]
+    return np.stack([first, first + step + 1, first + step + 2], axis=1), face_of.astype(np.int32)
+
+
+def _normals(
+    mesh: UsdGeom.Mesh,
+    time: Usd.TimeCode,
+    points: NDArray[np.float32],
+    corners: NDArray[np.int64],
+    fans: NDArray[np.int64],
+    face_of: NDArray[np.int32],
+) -> NDArray[np.float32]:
+    """Normal of each corner of each triangle, shape (triangles, 3, 3)."""
+    primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
+    if primvar.HasAuthoredValue():
+        values, interpolation = primvar.ComputeFlattened(time), primvar.GetInterpolation()
+    else:
+        values, interpolation = mesh.GetNormalsAttr().Get(time), mesh.GetNormalsInterpolation()
+    authored = _at_corners(values, interpolation, 3, len(points), corners, fans, face_of)
+    if authored is not None:
+        return _unit(authored)
+    places = points[corners[fans]].astype(np.float64)
+    areas = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    if mesh.GetSubdivisionSchemeAttr().Get(time) != UsdGeom.Tokens.none:
+        sums = np.zeros((len(points), 3))
+        np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
+        smooth: NDArray[np.float32] = _unit(sums)[corners[fans]]
+        return smooth
+    return np.repeat(_unit(areas)[:, None], 3, axis=1)
+
+
+def _coordinates(
+    prim: Usd.Prim, time: Usd.TimeCode, name: str, points: int, corners: NDArray[np.int64], fans: NDArray[np.int64]
+) -> NDArray[np.float32]:
+    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero where there is none."""
+    primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
+    values = primvar.ComputeFlattened(time) if primvar and primvar.HasValue() else None
+    found = None
+    if values is not None and primvar.GetTypeName().type.typeName.startswith("VtArray<GfVec2"):
+        found = _at_corners(values, primvar.GetInterpolation(), 2, points, corners, fans, None)
+    return np.zeros((len(fans), 3, 2), np.float32) if found is None else found
+
+
+def _at_corners(
+    values: object,
+    interpolation: str,
+    width: int,
+    points: int,
+    corners: NDArray[np.int64],
+    fans: NDArray[np.int64],
+    face_of: NDArray[np.int32] | None,
+) -> NDArray[np.float32] | None:
+    """Values of a primvar at each corner of each triangle; None where their number does not fit."""
+    if values is None:
+        return None
+    found = np.asarray(values, dtype=np.float32).reshape(-1, width)
+    tokens = UsdGeom.Tokens
+    taken: NDArray[np.float32]
+    if interpolation == tokens.faceVarying and len(found) == len(corners):
+        taken = found[fans]
+        return taken
+    if interpolation in {tokens.vertex, tokens.varying} and len(found) == points:
+        taken = found[corners[fans]]
+        return taken
+    if interpolation == tokens.uniform and face_of is not None and len(found) > face_of.max():
+        return np.repeat(found[face_of][:, None], 3, axis=1)
+    if interpolation == tokens.constant and len(found) == 1:
+        return np.broadcast_to(found[0], (len(fans), 3, width)).astype(np.float32)
+    return None
+
+
+def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    unit: NDArray[np.float32] = np.where(
+        lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]
+    ).astype(np.float32)
+    return unit
+
+
+def _welded(
+    positions: NDArray[np.float32],
+    normals: NDArray[np.float32],
+    coordinates: NDArray[np.float32],
+    face_of: NDArray[np.int32],
+    *,
+    double_sided: bool,
+) -> Triangles:
+    """Corners of triangles as vertices, those that are equal in all made one."""
+    rows = np.ascontiguousarray(np.hstack([positions, normals, coordinates]).astype(np.float32) + np.float32(0))
+    _, first, inverse = np.unique(
+        rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel(), return_index=True, return_inverse=True
+    )
+    order = np.argsort(first)  # vertices in the order of their first use
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    kept = rows[first[order]]
+    return Triangles(
+        kept[:, :3].copy(),
+        kept[:, 3:6].copy(),
+        kept[:, 6:].copy(),
+        rank[inverse].reshape(-1, 3).astype(np.uint32),
+        face_of,
+        double_sided,
+    )
+
+
+def display_colour(prim: Usd.Prim, time: Usd.TimeCode) -> tuple[float, float, float] | None:
+    """Mean of the colours that a prim without a material says of itself; None where it says none."""
+    primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
+    values = primvar.Get(time) if primvar and primvar.HasValue() else None
+    if not values or primvar.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
+        return None
+    red, green, blue = np.clip(np.nan_to_num(np.asarray(values, dtype=np.float64)), 0, 1).mean(axis=0).tolist()
+    return red, green, blue

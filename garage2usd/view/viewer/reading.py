@@ -1,0 +1,99 @@
+"""A stage's file read as a scene."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.documents import read_json
+from garage2usd.errors import StageError
+from garage2usd.view.viewer.guides import lane_curves
+from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
+from garage2usd.view.viewer.walk import StageWalk
+
+__all__ = ["read_scene"]
+
+_FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
+_MOST_LABEL_BYTES = 1 << 30
+
+
+def read_scene(stage: Usd.Stage, path: Path) -> Scene:
+    """Everything that the viewer shows of a stage.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    path
+        Its file; ``<stem>_labels.json`` beside it gives the instance ids.
+
+    Raises
+    ------
+    StageError
+        If nothing in the stage can be drawn, or the table of labels is none.
+    """
+    to_metres = _to_metres(stage)
+    walk = StageWalk(stage)
+    objects = walk.objects(to_metres)
+    if not objects:
+        raise StageError(path, "nothing in it can be drawn")
+    remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(walk.undrawn.items())]
+    return Scene(
+        name=path.name,
+        facts=_facts(stage),
+        objects=objects,
+        shapes=walk.shapes,
+        palettes=walk.palettes,
+        surfaces=walk.surfaces,
+        lanes=lane_curves(walk.hidden, to_metres),
+        ids=_ids(path),
+        bounds_m=_bounds_m(objects, walk.shapes),
+        remarks=remarks,
+    )
+
+
+def _to_metres(stage: Usd.Stage) -> NDArray[np.float64]:
+    """From the stage's units and axes to metres, Y up."""
+    matrix = np.eye(4)
+    matrix[:3, :3] *= UsdGeom.GetStageMetersPerUnit(stage)
+    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
+        matrix = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=float) @ matrix
+    return matrix
+
+
+def _facts(stage: Usd.Stage) -> dict[str, str]:
+    root = stage.GetDefaultPrim()
+    data = root.GetCustomData() if root else {}
+    return {name: str(data[name]) for name in _FACTS if name in data}
+
+
+def _ids(path: Path) -> dict[str, int]:
+    """Instance id of each object by its path; empty without a table."""
+    table = path.with_name(f"{path.stem}_labels.json")
+    if not table.exists():
+        return {}
+    document = read_json(table, field="labels", max_bytes=_MOST_LABEL_BYTES)
+    try:
+        return {str(entry["path"]): int(entry["id"]) for entry in document["objects"]}
+    except (ValueError, KeyError, TypeError, OverflowError) as error:
+        raise StageError(table, f"no table of labels ({error!r})") from None
+
+
+def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:
+    boxes = np.array([_corners(shape) for shape in shapes])
+    matrices = np.array([placed.matrix for placed in objects])
+    corners = boxes[[placed.shape for placed in objects]] @ matrices[:, :3, :3] + matrices[:, 3:, :3]
+    bounds: NDArray[np.float64] = np.stack([corners.min(axis=(0, 1)), corners.max(axis=(0, 1))])
+    return bounds
+
+
+def _corners(shape: Shape) -> NDArray[np.float64]:
+    """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
+    points: list[NDArray[Any]] = [light.matrix[3:, :3] for light in shape.lights]
+    if shape.parts:
+        points = [moved(part.positions_m, place) for part, place in zip(shape.parts, shape.matrices, strict=True)]
+    every = np.concatenate(points)
+    pair = np.stack([every.min(axis=0), every.max(axis=0)])
+    return np.array([[pair[c >> axis & 1, axis] for axis in range(3)] for c in range(8)], dtype=np.float64)

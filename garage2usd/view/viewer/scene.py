@@ -1,0 +1,208 @@
+"""A stage as the viewer draws it: every object with its class and place, every shape once."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.view.viewer.meshes import Triangles
+from garage2usd.view.viewer.surfaces import Surface
+
+__all__ = ["UNLABELLED", "Collider", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallOutline", "moved"]
+
+UNLABELLED = "unlabelled"
+"""Class of what the stage gives no semantic label."""
+
+
+def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Points, shape (..., 3), in another space; `place` is of shape (4, 4), points as rows."""
+    found: NDArray[np.float32] = (points_m @ place[:3, :3] + place[3, :3]).astype(np.float32)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Collider:
+    """What a physics engine makes of a mesh.
+
+    Attributes
+    ----------
+    approximation
+        UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``, ``boundingCube`` and others.
+    mesh, matrix
+        The triangles, and where they stand in the object; float64, shape (4, 4), points as rows.
+    """
+
+    approximation: str
+    mesh: Triangles
+    matrix: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """A light in its object's space.
+
+    Attributes
+    ----------
+    kind
+        Its UsdLux type.
+    matrix
+        float64, shape (4, 4), points as rows.
+    width_m, height_m
+        Its sides, or its diameter twice.
+    colour_rgb
+        Linear.
+    intensity
+        UsdLux intensity with its exposure.
+    """
+
+    kind: str
+    matrix: NDArray[np.float64]
+    width_m: float
+    height_m: float
+    colour_rgb: tuple[float, float, float]
+    intensity: float
+
+    def moved(self, place: NDArray[np.float64]) -> "Light":
+        """The same elsewhere."""
+        return replace(self, matrix=self.matrix @ place)
+
+    def key(self) -> tuple[object, ...]:
+        """Equal for lights that are equal in all."""
+        return (
+            self.kind,
+            self.matrix.tobytes(),
+            self.width_m,
+            self.height_m,
+            self.colour_rgb,
+            self.intensity,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What an object looks like in its own space; objects that differ in colour alone share one.
+
+    Attributes
+    ----------
+    parts
+        Triangles of each part.
+    matrices
+        Where each part stands; float64, shape (4, 4), points as rows.
+    slots
+        Which of the surfaces of an object's palette each part has.
+    blended
+        Whether what is behind each part shows through.
+    colliders, lights
+        What else it has.
+    """
+
+    parts: Sequence[Triangles]
+    matrices: Sequence[NDArray[np.float64]]
+    slots: Sequence[int]
+    blended: Sequence[bool]
+    colliders: Sequence[Collider] = ()
+    lights: Sequence[Light] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Where an object stands and what it is.
+
+    Attributes
+    ----------
+    path
+        Its prim, or ``path[index]`` for a point of an instancer.
+    label
+        Its semantic class, or `UNLABELLED`.
+    square
+        What the label of the square says that it stands on; empty for none.
+    shape, palette
+        Numbers of its shape and palette in the scene.
+    matrix
+        To the world; float64, shape (4, 4), points as rows.
+    """
+
+    path: str
+    label: str
+    square: str
+    shape: int
+    palette: int
+    matrix: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class StallOutline:
+    """A stall as the lane graph describes it: `facts` by name, corners (x, z) in metres from the mouth's left on."""
+
+    facts: Mapping[str, str | int]
+    corners_m: NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class LaneCurves:
+    """The lane graph.
+
+    Attributes
+    ----------
+    nodes_m
+        Middles; float32, shape (nodes, 3).
+    kinds
+        Kind of each node.
+    edges
+        Numbers of the nodes that each edge joins; shape (edges, 2).
+    forward
+        Whether each edge goes one way only.
+    stalls
+        All stalls.
+    """
+
+    nodes_m: NDArray[np.float32]
+    kinds: Sequence[str]
+    edges: NDArray[np.int32]
+    forward: Sequence[bool]
+    stalls: Sequence[StallOutline]
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A stage, ready to be drawn; metres, Y up.
+
+    Attributes
+    ----------
+    name
+        The stage's file name.
+    facts
+        What the stage says of itself, by name.
+    objects
+        Every object.
+    shapes, palettes, surfaces
+        What they look like: a palette is the numbers of surfaces by slot.
+    lanes
+        The lane graph, if there is one.
+    ids
+        Instance id of each object by its path, where a label table stands beside the stage.
+    bounds_m
+        Least and greatest corner of all; float64, shape (2, 3).
+    remarks
+        What is not shown, in words.
+    """
+
+    name: str
+    facts: Mapping[str, str]
+    objects: Sequence[Placed]
+    shapes: Sequence[Shape]
+    palettes: Sequence[Sequence[int]]
+    surfaces: Sequence[Surface]
+    lanes: LaneCurves | None
+    ids: Mapping[str, int]
+    bounds_m: NDArray[np.float64]
+    remarks: Sequence[str] = field(default_factory=tuple)
+
+    def counts(self) -> dict[str, int]:
+        """How many objects each class has, the most first."""
+        counts: dict[str, int] = {}
+        for placed in self.objects:
+            counts[placed.label] = counts.get(placed.label, 0) + 1
+        return dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))

@@ -1,0 +1,142 @@
+"""The simple shapes of UsdGeom as triangles."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+__all__ = ["solid_faces"]
+
+_SIDES = 24
+_CAP_RINGS = 6
+_Ring = tuple[float, float, float, float]
+_Corners = tuple[NDArray[np.float32], NDArray[np.float32]]
+
+
+def solid_faces(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners | None:
+    """Positions and normals of the corners of a shape's triangles.
+
+    Parameters
+    ----------
+    prim
+        A Cube, Sphere, Cylinder, Cone, Capsule or Plane.
+    time
+        When.
+
+    Returns
+    -------
+    tuple or None
+        Both float32, shape (3 x triangles, 3), in metres of the stage; None for any other type of prim.
+    """
+    make = _MAKERS.get(prim.GetTypeName())
+    return None if make is None else make(prim, time)
+
+
+def _cube_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    return _cube(float(UsdGeom.Cube(prim).GetSizeAttr().Get(time)) / 2)
+
+
+def _plane_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    plane = UsdGeom.Plane(prim)
+    return _plane(plane.GetWidthAttr().Get(time) / 2, plane.GetLengthAttr().Get(time) / 2, _axis(plane, time))
+
+
+def _sphere_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    return _revolved(_arc(float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(time)), math.pi), 2)
+
+
+def _cylinder_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    cylinder = UsdGeom.Cylinder(prim)
+    radius, half = cylinder.GetRadiusAttr().Get(time), cylinder.GetHeightAttr().Get(time) / 2
+    top = [(0.0, half, 0.0, 1.0), (radius, half, 0.0, 1.0), (radius, half, 1.0, 0.0)]
+    return _revolved(top + _upside_down(top), _axis(cylinder, time))
+
+
+def _cone_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    cone = UsdGeom.Cone(prim)
+    radius, height = cone.GetRadiusAttr().Get(time), cone.GetHeightAttr().Get(time)
+    slope = math.hypot(radius, height) or 1.0
+    side, up = height / slope, radius / slope
+    bottom = [(radius, -height / 2, 0.0, -1.0), (0.0, -height / 2, 0.0, -1.0)]
+    return _revolved([(0.0, height / 2, side, up), (radius, -height / 2, side, up), *bottom], _axis(cone, time))
+
+
+def _capsule_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    capsule = UsdGeom.Capsule(prim)
+    radius, half = float(capsule.GetRadiusAttr().Get(time)), capsule.GetHeightAttr().Get(time) / 2
+    top = [(r, y + half, nr, ny) for r, y, nr, ny in _arc(radius, math.pi / 2)]
+    return _revolved(top + _upside_down(top), _axis(capsule, time))
+
+
+_MAKERS: dict[str, Callable[[Usd.Prim, Usd.TimeCode], _Corners]] = {
+    "Cube": _cube_of,
+    "Plane": _plane_of,
+    "Sphere": _sphere_of,
+    "Cylinder": _cylinder_of,
+    "Cone": _cone_of,
+    "Capsule": _capsule_of,
+}
+
+
+def _upside_down(profile: list[_Ring]) -> list[_Ring]:
+    return [(radius, -y, outwards, -upwards) for radius, y, outwards, upwards in reversed(profile)]
+
+
+def _axis(shape: UsdGeom.Gprim, time: Usd.TimeCode) -> int:
+    return "XYZ".index(shape.GetAxisAttr().Get(time))
+
+
+def _cube(half: float) -> _Corners:
+    positions, normals = [], []
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            normal = np.zeros(3)
+            normal[axis] = sign
+            across, along = np.roll(np.eye(3), 1, axis=0)[axis], np.roll(np.eye(3), 2, axis=0)[axis]
+            across, along = (across, along) if np.dot(np.cross(across, along), normal) > 0 else (along, across)
+            square = [normal + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            positions += [square[corner] for corner in (0, 1, 2, 0, 2, 3)]
+            normals += [normal] * 6
+    return (np.array(positions) * half).astype(np.float32), np.array(normals, dtype=np.float32)
+
+
+def _plane(half_width: float, half_length: float, axis: int) -> _Corners:
+    # width runs along x, or y for the axis x; length along y, or z for the axes x and y
+    spans = {0: (2, 1), 1: (0, 2), 2: (0, 1)}[axis]
+    normal = np.eye(3)[axis]
+    across, along = np.eye(3)[spans[0]] * half_width, np.eye(3)[spans[1]] * half_length
+    if np.dot(np.cross(across, along), normal) < 0:
+        across, along = along, across
+    square = [a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    positions = np.array([square[corner] for corner in (0, 1, 2, 0, 2, 3)], dtype=np.float32)
+    return positions, np.tile(normal, (6, 1)).astype(np.float32)
+
+
+def _arc(radius: float, end: float) -> list[_Ring]:
+    """The profile of a sphere from its top to an angle."""
+    angles = np.linspace(0, end, round(_CAP_RINGS * end / (math.pi / 2)) + 1).tolist()
+    return [(radius * math.sin(a), radius * math.cos(a), math.sin(a), math.cos(a)) for a in angles]
+
+
+def _revolved(profile: list[_Ring], axis: int) -> _Corners:
+    """A profile of (radius, height, normal outwards, normal upwards), from the top down, turned about an axis."""
+    radius, height, outwards, upwards = np.array(profile).T
+    angles = np.arange(_SIDES + 1) * math.tau / _SIDES
+    cos, sin = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    # turned about Z here: x, y across, z along
+    places = np.stack([cos * radius, sin * radius, np.broadcast_to(height, (_SIDES + 1, len(height)))], axis=2)
+    normals = np.stack([cos * outwards, sin * outwards, np.broadcast_to(upwards, (_SIDES + 1, len(height)))], axis=2)
+    places, normals = (np.roll(values, axis - 2, axis=2) for values in (places, normals))
+
+    def faces(values: NDArray[np.float64]) -> NDArray[np.float32]:
+        here, right, below, across = values[:-1, :-1], values[1:, :-1], values[:-1, 1:], values[1:, 1:]
+        corners: NDArray[np.float32] = np.stack([here, below, across, here, across, right], axis=2).astype(np.float32)
+        return corners.reshape(-1, 3)
+
+    positions, directions = faces(places), faces(normals)
+    corners = positions.reshape(-1, 3, 3)
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    kept = np.repeat(areas > 0, 3)
+    return positions[kept], directions[kept]

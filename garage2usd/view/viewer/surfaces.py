@@ -1,0 +1,139 @@
+"""Materials of a stage as the few values that the viewer's surface takes."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from pxr import Sdf, Usd, UsdShade
+
+__all__ = ["PLAIN", "Surface", "surface_of"]
+
+Rgb = tuple[float, float, float]
+_PREVIEW = "UsdPreviewSurface"
+_DEFAULT_ROUGHNESS = 0.5
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A surface.
+
+    Attributes
+    ----------
+    colour_rgb, emissive_rgb
+        Linear.
+    roughness, metallic, opacity, clearcoat
+        0 to 1.
+    colour_texture, roughness_texture, metallic_texture
+        Resolved asset paths, empty for none.
+    roughness_channel, metallic_channel
+        Which channel of its texture each is: 0 to 3.
+    has_alpha
+        Whether the colour texture's alpha is the opacity.
+    coordinate_name
+        Primvar of the texture coordinates.
+    """
+
+    colour_rgb: Rgb = (0.5, 0.5, 0.5)
+    emissive_rgb: Rgb = (0.0, 0.0, 0.0)
+    roughness: float = _DEFAULT_ROUGHNESS
+    metallic: float = 0.0
+    opacity: float = 1.0
+    clearcoat: float = 0.0
+    colour_texture: str = ""
+    roughness_texture: str = ""
+    roughness_channel: int = 0
+    metallic_texture: str = ""
+    metallic_channel: int = 0
+    has_alpha: bool = False
+    coordinate_name: str = "st"
+
+    @property
+    def is_blended(self) -> bool:
+        """Whether what lies behind it shows."""
+        return self.has_alpha or self.opacity < 1
+
+
+PLAIN = Surface()
+"""What has no material."""
+
+
+def surface_of(material: UsdShade.Material, time: Usd.TimeCode) -> Surface:
+    """What a material's UsdPreviewSurface says; `PLAIN` where it has none."""
+    shader, _, _ = material.ComputeSurfaceSource()
+    if not shader or shader.GetIdAttr().Get() != _PREVIEW:
+        return PLAIN
+    colour, colour_reader, _ = _colour(shader, "diffuseColor", (0.18, 0.18, 0.18), time)
+    emissive, _, _ = _colour(shader, "emissiveColor", (0.0, 0.0, 0.0), time)
+    roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS, time)
+    metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0, time)
+    opacity, opacity_reader, _ = _number(shader, "opacity", 1.0, time)
+    clearcoat, _, _ = _number(shader, "clearcoat", 0.0, time)
+    return Surface(
+        colour_rgb=colour,
+        emissive_rgb=emissive,
+        roughness=roughness,
+        metallic=metallic,
+        opacity=opacity,
+        clearcoat=clearcoat,
+        colour_texture=_file(colour_reader, time),
+        roughness_texture=_file(roughness_reader, time),
+        roughness_channel=channel,
+        metallic_texture=_file(metallic_reader, time),
+        metallic_channel=metallic_channel,
+        has_alpha=opacity_reader is not None,
+        coordinate_name=_coordinate_name(colour_reader or roughness_reader, time),
+    )
+
+
+def _colour(
+    shader: UsdShade.Shader, name: str, default: Rgb, time: Usd.TimeCode
+) -> tuple[Rgb, UsdShade.Shader | None, int]:
+    value, reader, channel = _input(shader, name, time)
+    if reader is not None:
+        return (1.0, 1.0, 1.0), reader, channel
+    if value is None:
+        return default, None, 0
+    red, green, blue = np.clip(np.nan_to_num(np.asarray(value, dtype=np.float64)), 0, 1e4).tolist()
+    return (red, green, blue), None, 0
+
+
+def _number(
+    shader: UsdShade.Shader, name: str, default: float, time: Usd.TimeCode
+) -> tuple[float, UsdShade.Shader | None, int]:
+    value, reader, channel = _input(shader, name, time)
+    if reader is not None:
+        return 1.0, reader, channel
+    number = default if value is None else float(np.clip(np.nan_to_num(float(value)), 0, 1))
+    return number, None, 0
+
+
+def _input(shader: UsdShade.Shader, name: str, time: Usd.TimeCode) -> tuple[Any, UsdShade.Shader | None, int]:
+    """Value of an input, or the texture reader that it comes from and which channel of it."""
+    given = shader.GetInput(name)
+    if not given:
+        return None, None, 0
+    for attribute in given.GetValueProducingAttributes():
+        if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
+            return attribute.Get(time), None, 0
+        reader = UsdShade.Shader(attribute.GetPrim())
+        if reader and reader.GetIdAttr().Get() == "UsdUVTexture":
+            channel = {"r": 0, "g": 1, "b": 2, "a": 3}.get(UsdShade.Output(attribute).GetBaseName(), 0)
+            return None, reader, channel
+    return None, None, 0
+
+
+def _file(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
+    if reader is None:
+        return ""
+    value, _, _ = _input(reader, "file", time)
+    return value.resolvedPath if isinstance(value, Sdf.AssetPath) else ""
+
+
+def _coordinate_name(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
+    given = reader.GetInput("st") if reader is not None else None
+    for attribute in given.GetValueProducingAttributes() if given else ():
+        source = UsdShade.Shader(attribute.GetPrim())
+        if source and source.GetIdAttr().Get() == "UsdPrimvarReader_float2":
+            value, _, _ = _input(source, "varname", time)
+            return str(value or "st")
+    return "st"

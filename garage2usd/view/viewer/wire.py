@@ -1,0 +1,188 @@
+"""The bytes in which a scene goes to the page: a JSON header, then arrays.
+
+``G2UV``, the header's length in bytes as uint32 (little endian), the header padded with blanks to four bytes, and the
+arrays one after the other, each at a multiple of four bytes. The header names each as ``{"at", "count"}`` in elements
+of its type.
+"""
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.view.viewer.colliders import collider_lines
+from garage2usd.view.viewer.scene import LaneCurves, Scene, Shape, moved
+
+__all__ = ["encode_colliders", "encode_scene", "texture_paths"]
+
+_MAGIC = b"G2UV"
+_ALIGNMENT = 4
+
+
+def texture_paths(scene: Scene) -> list[str]:
+    """Resolved paths of all textures; the page asks for them by number."""
+    names = {
+        path: None
+        for surface in scene.surfaces
+        for path in (surface.colour_texture, surface.roughness_texture, surface.metallic_texture)
+        if path
+    }
+    return list(names)
+
+
+def encode_scene(scene: Scene) -> bytes:
+    """A scene as the page reads it (``web/src/scene_file.ts``)."""
+    buffers = _Buffers()
+    shapes = _shapes(scene.shapes, buffers)
+    labels = list(scene.counts())
+    paths, squares = [placed.path for placed in scene.objects], sorted({placed.square for placed in scene.objects})
+    square_of = {square: number for number, square in enumerate(squares)}
+    label_of = {label: number for number, label in enumerate(labels)}
+    matrices = np.array([placed.matrix for placed in scene.objects])
+    header: dict[str, Any] = {
+        "name": scene.name,
+        "facts": dict(scene.facts),
+        "remarks": list(scene.remarks),
+        "boundsM": np.round(scene.bounds_m, 4).tolist(),
+        "labels": labels,
+        "squares": squares,
+        "textures": len(texture_paths(scene)),
+        "surfaces": _surfaces(scene),
+        "palettes": [list(palette) for palette in scene.palettes],
+        "shapes": shapes,
+        "objects": {
+            "paths": paths,
+            "ids": [scene.ids.get(path, 0) for path in paths],
+            "label": buffers.add(np.array([label_of[placed.label] for placed in scene.objects], np.uint32)),
+            "square": buffers.add(np.array([square_of[placed.square] for placed in scene.objects], np.uint32)),
+            "shape": buffers.add(np.array([placed.shape for placed in scene.objects], np.uint32)),
+            "palette": buffers.add(np.array([placed.palette for placed in scene.objects], np.uint32)),
+            # points as rows: the first three columns, one after the other, are the rows that a shader multiplies with
+            "matrix": buffers.add(matrices[:, :, :3].transpose(0, 2, 1).astype(np.float32)),
+        },
+        "lanes": None if scene.lanes is None else _lanes(scene.lanes, buffers),
+        "arrays": buffers.places,
+    }
+    text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % _ALIGNMENT)
+    return b"".join([_MAGIC, len(text).to_bytes(4, "little"), text, *buffers.parts])
+
+
+def encode_colliders(scene: Scene) -> bytes:
+    """The lines that draw each shape's colliders: a uint32 a shape, the number of its points, then all as float32."""
+    lines = [[collider_lines(collider) for collider in shape.colliders] for shape in scene.shapes]
+    counts = np.array([sum(2 * len(own) for own in shape) for shape in lines], dtype=np.uint32)
+    return counts.tobytes() + b"".join(own.tobytes() for shape in lines for own in shape)
+
+
+class _Buffers:
+    """Arrays on their way into the file."""
+
+    def __init__(self) -> None:
+        self.parts: list[bytes] = []
+        self.places: list[dict[str, int]] = []
+        self._bytes = 0
+
+    def add(self, values: NDArray[Any]) -> int:
+        """Number of an array that is appended."""
+        data = np.ascontiguousarray(values).tobytes()
+        data += bytes(-len(data) % _ALIGNMENT)
+        self.places.append({"at": self._bytes, "count": int(values.size)})
+        self.parts.append(data)
+        self._bytes += len(data)
+        return len(self.places) - 1
+
+
+def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
+    """All shapes, their vertices and indices one after the other; what is blended comes last in each."""
+    entries = []
+    positions: list[NDArray[Any]] = []
+    normals: list[NDArray[Any]] = []
+    coordinates: list[NDArray[Any]] = []
+    slots: list[NDArray[Any]] = []
+    indices: list[NDArray[Any]] = []
+    vertices = triangles = 0
+    for shape in shapes:
+        opaque: list[NDArray[np.uint32]] = []
+        blended: list[NDArray[np.uint32]] = []
+        first = 0
+        for part, matrix, slot, is_blended in zip(shape.parts, shape.matrices, shape.slots, shape.blended, strict=True):
+            turn = np.linalg.inv(matrix[:3, :3]).T if np.linalg.det(matrix[:3, :3]) else np.eye(3)
+            directions = part.normals @ turn
+            directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-12)
+            mirrored = np.linalg.det(matrix[:3, :3]) < 0
+            corners = part.indices[:, [0, 2, 1]] if mirrored else part.indices
+            positions.append(moved(part.positions_m, matrix))
+            normals.append(np.rint(directions * 127).astype(np.int8))
+            coordinates.append(part.coordinates)
+            slots.append(np.full(len(part.positions_m), min(slot, 255), np.uint8))
+            (blended if is_blended else opaque).append(corners + np.uint32(first))
+            first += len(part.positions_m)
+        ordered = [*opaque, *blended]
+        indices += ordered
+        count, opaque_count = (sum(len(group) for group in groups) for groups in (ordered, opaque))
+        entries.append(
+            {
+                "vertices": [vertices, first],
+                "opaque": [3 * triangles, 3 * opaque_count],
+                "blended": [3 * (triangles + opaque_count), 3 * (count - opaque_count)],
+                "colliders": len(shape.colliders),
+                "doubleSided": any(part.double_sided for part in shape.parts),
+                "lights": [
+                    {
+                        "kind": light.kind,
+                        "matrix": light.matrix[:, :3].T.ravel().tolist(),
+                        "size": [light.width_m, light.height_m],
+                        "rgb": list(light.colour_rgb),
+                        "intensity": light.intensity,
+                    }
+                    for light in shape.lights
+                ],
+            }
+        )
+        vertices, triangles = vertices + first, triangles + count
+    return {
+        "entries": entries,
+        "positions": buffers.add(_joined(positions, np.float32, 3)),
+        "normals": buffers.add(np.pad(_joined(normals, np.int8, 3), ((0, 0), (0, 1)))),
+        "coordinates": buffers.add(_joined(coordinates, np.float32, 2)),
+        "slots": buffers.add(_joined(slots, np.uint8)),
+        "indices": buffers.add(_joined(indices, np.uint32, 3)),
+    }
+
+
+def _joined(parts: Sequence[NDArray[Any]], kind: type, *shape: int) -> NDArray[Any]:
+    return np.concatenate(parts).astype(kind) if parts else np.zeros((0, *shape), kind)
+
+
+def _surfaces(scene: Scene) -> list[dict[str, Any]]:
+    number_of = {path: number for number, path in enumerate(texture_paths(scene))}
+    return [
+        {
+            "rgb": list(surface.colour_rgb),
+            "emissive": list(surface.emissive_rgb),
+            "roughness": surface.roughness,
+            "metallic": surface.metallic,
+            "opacity": surface.opacity,
+            "clearcoat": surface.clearcoat,
+            "colourTexture": number_of.get(surface.colour_texture, -1),
+            "roughnessTexture": number_of.get(surface.roughness_texture, -1),
+            "roughnessChannel": surface.roughness_channel,
+            "metallicTexture": number_of.get(surface.metallic_texture, -1),
+            "metallicChannel": surface.metallic_channel,
+            "hasAlpha": surface.has_alpha,
+        }
+        for surface in scene.surfaces
+    ]
+
+
+def _lanes(lanes: LaneCurves, buffers: _Buffers) -> dict[str, Any]:
+    return {
+        "nodes": buffers.add(lanes.nodes_m),
+        "kinds": list(lanes.kinds),
+        "edges": buffers.add(lanes.edges.astype(np.uint32)),
+        "forward": list(lanes.forward),
+        "stalls": [{**stall.facts, "corners": np.round(stall.corners_m, 4).tolist()} for stall in lanes.stalls],
+    }

@@ -1,0 +1,252 @@
+/** All objects, drawn as instances of their shapes: what cannot be seen is left out, what is far is drawn coarsely. */
+
+import { MeshoptSimplifier } from "meshoptimizer/simplifier";
+import * as THREE from "three";
+import type { Boxes, Chunk } from "./boxes";
+import type { SceneFile } from "./scene_file";
+import type { SurfaceMaterials } from "./surface_material";
+
+const STRIDE = 16;
+/** A shape is drawn at its full, second, third ... level where it is at least so many pixels across. */
+const LEVEL_PX = [200, 60, 22, 9];
+/** Share of the triangles and greatest error, as a share of its size, that each coarser level has. */
+const COARSER = [
+  { share: 0.3, error: 0.006 },
+  { share: 0.08, error: 0.035 },
+  { share: 0.03, error: 0.12 },
+  { share: 0.01, error: 0.3 },
+];
+const FEWEST_TRIANGLES = 40;
+const [SHEET_M, SHEET_RADIUS_M] = [0.05, 1.5];
+/** What is smaller is not drawn. */
+const LEAST_PX = 1.5;
+
+/** Instances of one shape at one level. */
+class Batch {
+  readonly mesh: THREE.Mesh;
+  readonly list: Uint32Array;
+  private shown: Uint32Array;
+  private shownCount = -1;
+  count = 0;
+  private readonly buffer: THREE.InstancedInterleavedBuffer;
+
+  constructor(
+    source: THREE.BufferGeometry,
+    index: THREE.BufferAttribute,
+    material: THREE.Material,
+    readonly triangles: number,
+    capacity: number,
+  ) {
+    const geometry = new THREE.InstancedBufferGeometry();
+    for (const [name, attribute] of Object.entries(source.attributes)) geometry.setAttribute(name, attribute);
+    geometry.setIndex(index);
+    this.buffer = new THREE.InstancedInterleavedBuffer(new Float32Array(STRIDE * capacity), STRIDE, 1);
+    this.buffer.setUsage(THREE.DynamicDrawUsage);
+    ["row0", "row1", "row2", "info"].forEach((name, k) =>
+      geometry.setAttribute(name, new THREE.InterleavedBufferAttribute(this.buffer, 4, 4 * k)),
+    );
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.matrixAutoUpdate = false;
+    this.list = new Uint32Array(capacity);
+    this.shown = new Uint32Array(capacity);
+  }
+
+  /** Put the listed objects before the graphics card, unless they are what it has. */
+  commit(instances: Float32Array): void {
+    const { count, list } = this;
+    this.mesh.visible = count > 0;
+    (this.mesh.geometry as THREE.InstancedBufferGeometry).instanceCount = count;
+    let same = count === this.shownCount;
+    for (let k = 0; same && k < count; k++) same = list[k] === this.shown[k];
+    if (same || count === 0) return;
+    const data = this.buffer.array as Float32Array;
+    for (let k = 0; k < count; k++) {
+      const from = STRIDE * list[k];
+      for (let i = 0; i < STRIDE; i++) data[STRIDE * k + i] = instances[from + i];
+    }
+    this.shown.set(list.subarray(0, count));
+    this.shownCount = count;
+    this.buffer.clearUpdateRanges();
+    this.buffer.addUpdateRange(0, STRIDE * count);
+    this.buffer.needsUpdate = true;
+  }
+}
+
+interface ShapeBatches {
+  levels: Batch[];
+  blended: Batch | null;
+  radius: number;
+}
+
+export interface Drawn {
+  objects: number;
+  triangles: number;
+  calls: number;
+}
+
+export class Instances {
+  readonly group = new THREE.Group();
+  readonly drawn: Drawn = { objects: 0, triangles: 0, calls: 0 };
+  /** Whether each object is in a layer that is on. */
+  readonly visible: Uint8Array;
+  private readonly instances: Float32Array;
+  private readonly shapes: ShapeBatches[] = [];
+  private readonly frustum = new THREE.Frustum();
+  private readonly projection = new THREE.Matrix4();
+  private readonly box = new THREE.Box3();
+
+  private constructor(
+    private readonly scene: SceneFile,
+    private readonly boxes: Boxes,
+    private readonly chunks: Chunk[],
+    materials: SurfaceMaterials,
+  ) {
+    this.visible = new Uint8Array(scene.count).fill(1);
+    this.instances = new Float32Array(STRIDE * scene.count);
+    const members = new Uint32Array(scene.shapes.length);
+    for (let object = 0; object < scene.count; object++) {
+      members[scene.shape[object]] += 1;
+      this.instances.set(scene.matrix.subarray(12 * object, 12 * object + 12), STRIDE * object);
+      this.instances.set([materials.paletteStart[scene.palette[object]], scene.label[object], object, 0], STRIDE * object + 12);
+    }
+    scene.shapes.forEach((_, number) => this.shapes.push(this.batchesOf(number, members[number], materials)));
+    for (const { levels, blended } of this.shapes) for (const batch of [...levels, blended]) if (batch) this.group.add(batch.mesh);
+  }
+
+  static async create(scene: SceneFile, boxes: Boxes, chunks: Chunk[], materials: SurfaceMaterials): Promise<Instances> {
+    await MeshoptSimplifier.ready;
+    return new Instances(scene, boxes, chunks, materials);
+  }
+
+  private batchesOf(number: number, members: number, materials: SurfaceMaterials): ShapeBatches {
+    const { scene } = this;
+    const { vertices, opaque, blended, doubleSided } = scene.shapes[number];
+    const [first, count] = vertices;
+    const geometry = new THREE.BufferGeometry();
+    const positions = scene.positions.subarray(3 * first, 3 * (first + count));
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(scene.normals.subarray(4 * first, 4 * (first + count)), 4, true));
+    geometry.setAttribute("uv", new THREE.BufferAttribute(scene.coordinates.subarray(2 * first, 2 * (first + count)), 2));
+    geometry.setAttribute("slot", new THREE.BufferAttribute(scene.slots.subarray(first, first + count), 1));
+    const box = this.boxes.local.subarray(6 * number, 6 * number + 6);
+    const radius = Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]) / 2;
+    const material = doubleSided ? materials.opaqueTwoSided : materials.opaque;
+    const levels: Batch[] = [];
+    if (opaque[1]) {
+      const full = scene.indices.subarray(opaque[0], opaque[0] + opaque[1]);
+      // a floor has few triangles, and each is seen from afar
+      const isSheet = radius > SHEET_RADIUS_M && Math.min(box[3] - box[0], box[4] - box[1], box[5] - box[2]) < SHEET_M;
+      const slots = scene.slots.subarray(first, first + count);
+      for (const indices of isSheet ? [full] : [full, ...coarser(full, positions, slots)]) {
+        const index = new THREE.BufferAttribute(narrow(indices, count), 1);
+        const batch = new Batch(geometry, index, material, indices.length / 3, members);
+        // the large and the far last: what stands before it hides it
+        batch.mesh.renderOrder = radius;
+        levels.push(batch);
+      }
+    }
+    let glass: Batch | null = null;
+    if (blended[1]) {
+      const indices = scene.indices.subarray(blended[0], blended[0] + blended[1]);
+      const index = new THREE.BufferAttribute(narrow(indices, count), 1);
+      glass = new Batch(geometry, index, materials.blended, indices.length / 3, members);
+      glass.mesh.renderOrder = 1e6;
+    }
+    return { levels, blended: glass, radius };
+  }
+
+  /** Choose what is drawn, and how finely; `coarse` from 1 on makes it coarser. */
+  update(camera: THREE.PerspectiveCamera, heightPx: number, coarse: number): void {
+    const { scene, boxes, box, frustum } = this;
+    this.projection.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    frustum.setFromProjectionMatrix(this.projection);
+    const [finest, least] = [coarse ** 1.5, coarse > 1 ? 2 * LEAST_PX : LEAST_PX];
+    const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360));
+    const { x, y, z } = camera.position;
+    for (const { levels, blended } of this.shapes) {
+      for (const batch of levels) batch.count = 0;
+      if (blended) blended.count = 0;
+    }
+    for (const chunk of this.chunks) {
+      box.min.fromArray(chunk.box, 0);
+      box.max.fromArray(chunk.box, 3);
+      if (!frustum.intersectsBox(box)) continue;
+      for (const object of chunk.objects) {
+        if (!this.visible[object]) continue;
+        const at = 6 * object;
+        box.min.fromArray(boxes.world, at);
+        box.max.fromArray(boxes.world, at + 3);
+        if (!frustum.intersectsBox(box)) continue;
+        const w = boxes.world;
+        const dx = Math.max(w[at] - x, 0, x - w[at + 3]);
+        const dy = Math.max(w[at + 1] - y, 0, y - w[at + 4]);
+        const dz = Math.max(w[at + 2] - z, 0, z - w[at + 5]);
+        const distance = Math.max(0.05, Math.hypot(dx, dy, dz));
+        const reach = Math.hypot(w[at + 3] - w[at], w[at + 4] - w[at + 1], w[at + 5] - w[at + 2]);
+        const size = (pixels * reach) / distance;
+        if (size < least) continue;
+        const { levels, blended } = this.shapes[scene.shape[object]];
+        if (levels.length) {
+          let level = 0;
+          while (level < levels.length - 1 && size / finest < LEVEL_PX[level]) level += 1;
+          const batch = levels[level];
+          batch.list[batch.count++] = object;
+        }
+        if (blended) blended.list[blended.count++] = object;
+      }
+    }
+    const { drawn } = this;
+    drawn.objects = drawn.triangles = drawn.calls = 0;
+    for (const { levels, blended } of this.shapes)
+      for (const batch of [...levels, blended]) {
+        if (!batch) continue;
+        batch.commit(this.instances);
+        drawn.objects += batch === blended && levels.length ? 0 : batch.count;
+        drawn.triangles += batch.count * batch.triangles;
+        drawn.calls += batch.count ? 1 : 0;
+      }
+  }
+}
+
+/** Indices of the same triangles, ever fewer; none where that is not worth it. */
+function coarser(indices: Uint32Array, positions: Float32Array, slots: Uint8Array): Uint32Array[] {
+  const levels: Uint32Array[] = [];
+  let last = indices;
+  for (const { share, error } of COARSER) {
+    if (last.length / 3 < FEWEST_TRIANGLES) break;
+    // one surface at a time, so that none takes the colour of another
+    const parts = bySlot(indices, slots).map((part) => simplified(part, positions, share, error));
+    const found = Uint32Array.from(parts.flatMap((part) => [...part]));
+    if (found.length === 0 || found.length > 0.75 * last.length) continue;
+    levels.push(found);
+    last = found;
+  }
+  return levels;
+}
+
+function simplified(indices: Uint32Array, positions: Float32Array, share: number, error: number): Uint32Array {
+  const target = 3 * Math.max(6, Math.floor((share * indices.length) / 3));
+  if (indices.length <= target) return indices;
+  const [found] = MeshoptSimplifier.simplify(indices, positions, 3, target, error, ["Prune"]);
+  if (found.length <= 1.6 * target) return found;
+  // seams between flat faces bind many meshes; far away nobody sees them
+  const [rough] = MeshoptSimplifier.simplifySloppy(indices, positions, 3, null, target, 1.5 * error);
+  return rough.length && rough.length < found.length ? rough : found;
+}
+
+/** The triangles of each surface. */
+function bySlot(indices: Uint32Array, slots: Uint8Array): Uint32Array[] {
+  const groups = new Map<number, number[]>();
+  for (let k = 0; k < indices.length; k += 3) {
+    const slot = slots[indices[k]];
+    const group = groups.get(slot) ?? [];
+    if (!group.length) groups.set(slot, group);
+    group.push(indices[k], indices[k + 1], indices[k + 2]);
+  }
+  return [...groups.values()].map((group) => Uint32Array.from(group));
+}
+
+function narrow(indices: Uint32Array, vertices: number): Uint16Array | Uint32Array {
+  return vertices <= 0xffff ? Uint16Array.from(indices) : Uint32Array.from(indices);
+}

@@ -1,0 +1,149 @@
+/** The scene as the server sends it (garage2usd/view/viewer/wire.py). */
+
+const MAGIC = 0x56553247; // "G2UV"
+
+export interface Surface {
+  rgb: [number, number, number];
+  emissive: [number, number, number];
+  roughness: number;
+  metallic: number;
+  opacity: number;
+  clearcoat: number;
+  colourTexture: number;
+  roughnessTexture: number;
+  roughnessChannel: number;
+  metallicTexture: number;
+  metallicChannel: number;
+  hasAlpha: boolean;
+}
+
+export interface Light {
+  kind: string;
+  /** Three rows of four that multiply (x, y, z, 1). */
+  matrix: number[];
+  size: [number, number];
+  rgb: [number, number, number];
+  intensity: number;
+}
+
+/** Ranges are of the first element and the number of elements. */
+export interface Shape {
+  vertices: [number, number];
+  opaque: [number, number];
+  blended: [number, number];
+  /** How many colliders it has. */
+  colliders: number;
+  doubleSided: boolean;
+  lights: Light[];
+}
+
+export interface Stall {
+  id?: string;
+  number?: string;
+  type?: string;
+  use?: string;
+  row?: number;
+  column?: number;
+  entryEdge?: string;
+  accessNode?: number;
+  /** (x, z) in metres: mouth left, mouth right, rear right, rear left. */
+  corners: [number, number][];
+}
+
+interface Header {
+  name: string;
+  facts: Record<string, string>;
+  remarks: string[];
+  boundsM: [[number, number, number], [number, number, number]];
+  labels: string[];
+  squares: string[];
+  textures: number;
+  surfaces: Surface[];
+  palettes: number[][];
+  shapes: {
+    entries: Shape[];
+    positions: number;
+    normals: number;
+    coordinates: number;
+    slots: number;
+    indices: number;
+  };
+  objects: {
+    paths: string[];
+    ids: number[];
+    label: number;
+    square: number;
+    shape: number;
+    palette: number;
+    matrix: number;
+  };
+  lanes: { nodes: number; kinds: string[]; edges: number; forward: boolean[]; stalls: Stall[] } | null;
+  arrays: { at: number; count: number }[];
+}
+
+export interface Lanes {
+  nodes: Float32Array;
+  kinds: string[];
+  edges: Uint32Array;
+  forward: boolean[];
+  stalls: Stall[];
+}
+
+export class SceneFile {
+  readonly header: Header;
+  readonly shapes: Shape[];
+  readonly positions: Float32Array;
+  readonly normals: Int8Array;
+  readonly coordinates: Float32Array;
+  readonly slots: Uint8Array;
+  readonly indices: Uint32Array;
+  readonly paths: string[];
+  readonly ids: number[];
+  readonly label: Uint32Array;
+  readonly square: Uint32Array;
+  readonly shape: Uint32Array;
+  readonly palette: Uint32Array;
+  /** Twelve numbers an object: three rows that multiply (x, y, z, 1). */
+  readonly matrix: Float32Array;
+  readonly lanes: Lanes | null;
+
+  constructor(data: ArrayBuffer) {
+    const head = new DataView(data);
+    if (head.getUint32(0, true) !== MAGIC) throw new Error("This is no scene of garage2usd.");
+    const size = head.getUint32(4, true);
+    this.header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 8, size))) as Header;
+    const { arrays, shapes, objects, lanes } = this.header;
+    const at = (number: number) => 8 + size + arrays[number].at;
+    const floats = (number: number) => new Float32Array(data, at(number), arrays[number].count);
+    const words = (number: number) => new Uint32Array(data, at(number), arrays[number].count);
+    this.shapes = shapes.entries;
+    this.positions = floats(shapes.positions);
+    this.normals = new Int8Array(data, at(shapes.normals), arrays[shapes.normals].count);
+    this.coordinates = floats(shapes.coordinates);
+    this.slots = new Uint8Array(data, at(shapes.slots), arrays[shapes.slots].count);
+    this.indices = words(shapes.indices);
+    this.paths = objects.paths;
+    this.ids = objects.ids;
+    this.label = words(objects.label);
+    this.square = words(objects.square);
+    this.shape = words(objects.shape);
+    this.palette = words(objects.palette);
+    this.matrix = floats(objects.matrix);
+    this.lanes = lanes && { ...lanes, nodes: floats(lanes.nodes), edges: words(lanes.edges) };
+  }
+
+  get count(): number {
+    return this.paths.length;
+  }
+
+  labelOf(object: number): string {
+    return this.header.labels[this.label[object]];
+  }
+
+  /** How many objects each class has, in the order of `header.labels`. */
+  counts(): number[] {
+    const counts = this.header.labels.map(() => 0);
+    for (const label of this.label) counts[label] += 1;
+    return counts;
+  }
+}

@@ -1,0 +1,191 @@
+/** The one program that draws every surface. */
+
+import * as THREE from "three";
+import { colourOf } from "./classes";
+import type { LightPlan } from "./light_plan";
+import type { SceneFile } from "./scene_file";
+import type { Layers } from "./textures";
+
+const ENTRIES_A_ROW = 64;
+const TEXELS = 3;
+
+const VERTEX = /* glsl */ `
+attribute float slot;
+attribute vec4 row0;
+attribute vec4 row1;
+attribute vec4 row2;
+attribute vec4 info;
+flat varying vec3 vInfo;
+varying vec3 vPlace;
+varying vec3 vNormalW;
+varying vec2 vCoordinate;
+
+void main() {
+  vec4 p = vec4(position, 1.0);
+  vPlace = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
+  // cofactors turn normals whatever the scale
+  vNormalW = vec3(
+    dot(cross(row1.xyz, row2.xyz), normal), dot(cross(row2.xyz, row0.xyz), normal), dot(cross(row0.xyz, row1.xyz), normal));
+  vInfo = vec3(info.x + slot, info.yz);
+  vCoordinate = uv;
+  gl_Position = projectionMatrix * viewMatrix * vec4(vPlace, 1.0);
+}`;
+
+const FRAGMENT = /* glsl */ `
+uniform mediump sampler2DArray layers;
+uniform highp sampler2D palette;
+uniform highp sampler2D labels;
+uniform sampler2D plan;
+uniform vec4 frame;
+uniform vec3 heights; // lights, floor, whether anything shines
+uniform float byLabel;
+uniform float selected;
+uniform float gloss;
+flat varying vec3 vInfo; // entry of the palette, label, object
+varying vec3 vPlace;
+varying vec3 vNormalW;
+varying vec2 vCoordinate;
+
+float lightOf(float stored) { return 4.0 * stored * stored; }
+
+vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
+
+void main() {
+  vec3 normal = normalize(vNormalW) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 view = normalize(cameraPosition - vPlace);
+  // rounded, as some renderers interpolate even what is flat where they clip
+  int entry = int(vInfo.x + 0.5);
+  ivec2 first = ivec2(${TEXELS} * (entry % ${ENTRIES_A_ROW}), entry / ${ENTRIES_A_ROW});
+  vec4 tint = texelFetch(palette, first, 0);
+  vec4 finish = texelFetch(palette, first + ivec2(1, 0), 0);
+  vec3 colour = tint.rgb;
+  float roughness = finish.x;
+  float opacity = finish.z;
+  if (tint.a > -0.5) {
+    int code = int(tint.a + 0.5);
+    vec4 texel = texture(layers, vec3(vCoordinate, float(code >> 1)));
+    colour *= texel.rgb;
+    if ((code & 1) == 1) opacity *= texel.a; else roughness *= texel.a;
+  }
+  vec3 shown;
+  if (byLabel > 0.5) {
+    shown = texelFetch(labels, ivec2(int(vInfo.y + 0.5), 0), 0).rgb * (0.72 + 0.2 * normal.y + 0.08 * normal.x);
+  } else {
+    float lit = heights.z;
+    vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
+    vec4 here = texture2D(plan, at);
+    float bounce = mix(0.9, max(lightOf(textureLod(plan, at, 5.0).r), 0.2), lit);
+    // as on a photograph, pools of light and what lies between them are nearer to each other than they are
+    float direct = mix(0.9, max(0.62 * lightOf(here.r) + 0.38 * bounce, 0.2), lit);
+    float above = vPlace.y - heights.y;
+    float shade = mix(here.b, 1.0, smoothstep(0.0, 0.7, above));
+    float low = mix(0.62, 1.0, smoothstep(-0.2, 1.4, above));
+    float side = (0.40 * direct + 0.42 * bounce) * low * mix(shade, 1.0, 0.4);
+    float top = direct * shade + 0.18 * bounce;
+    float under = 0.62 * bounce + 0.06;
+    float light = normal.y > 0.0 ? mix(side, top, normal.y) : mix(side, under, -normal.y);
+    light = light * (1.0 + 0.07 * normal.x) + 0.02;
+
+    // what it mirrors: the tubes and the ceiling between them, or the floor
+    vec3 away = reflect(-view, normal);
+    float rise = away.y;
+    float mirrored = 0.24 * bounce;
+    float clear = mirrored;
+    if (gloss > 0.0 && rise > 0.02 && heights.x > vPlace.y) {
+      float far = min((heights.x - vPlace.y) / rise, 80.0);
+      vec2 there = (vPlace.xz + away.xz * far - frame.xy) * frame.zw;
+      float spread = log2(1.0 + roughness * roughness * far * 24.0);
+      float ceiling = 0.24 * bounce;
+      mirrored = ceiling + 9.0 * textureLod(plan, there, spread).g;
+      clear = finish.w > 0.0 ? ceiling + 9.0 * textureLod(plan, there, 0.0).g : mirrored;
+    }
+    float metallic = finish.y;
+    float grazing = pow(1.0 - max(dot(normal, view), 0.0), 5.0);
+    vec3 base = mix(vec3(0.04), colour, metallic);
+    vec3 fresnel = base + (max(vec3(1.0 - roughness), base) - base) * grazing;
+    float coat = finish.w * (0.04 + 0.96 * grazing) * gloss;
+    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + texelFetch(palette, first + ivec2(2, 0), 0).rgb;
+    shown = filmic(0.82 * shown);
+  }
+  if (abs(vInfo.z - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);
+  gl_FragColor = vec4(shown, opacity);
+  #include <colorspace_fragment>
+}`;
+
+export type Uniforms = Record<"byLabel" | "selected" | "gloss", { value: number }>;
+
+export class SurfaceMaterials {
+  readonly opaque: THREE.ShaderMaterial;
+  readonly opaqueTwoSided: THREE.ShaderMaterial;
+  readonly blended: THREE.ShaderMaterial;
+  /** First entry of each palette. */
+  readonly paletteStart: number[] = [];
+  readonly uniforms: Uniforms;
+
+  constructor(scene: SceneFile, layers: Layers, light: LightPlan) {
+    const uniforms = {
+      palette: { value: this.paletteTexture(scene, layers) },
+      labels: { value: labelTexture(scene) },
+      layers: { value: layers.texture },
+      plan: { value: light.texture },
+      frame: { value: light.frame },
+      heights: { value: new THREE.Vector3(light.height, light.floor, light.lit ? 1 : 0) },
+      byLabel: { value: 0 },
+      selected: { value: -1 },
+      gloss: { value: 1 },
+    };
+    this.uniforms = uniforms;
+    const common = { vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms };
+    this.opaque = new THREE.ShaderMaterial(common);
+    this.opaqueTwoSided = new THREE.ShaderMaterial({ ...common, side: THREE.DoubleSide });
+    this.blended = new THREE.ShaderMaterial({
+      ...common,
+      side: THREE.DoubleSide,
+      transparent: true,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -1,
+      polygonOffsetUnits: -2,
+    });
+  }
+
+  private paletteTexture(scene: SceneFile, layers: Layers): THREE.DataTexture {
+    const { palettes, surfaces } = scene.header;
+    let entries = 0;
+    for (const palette of palettes) {
+      this.paletteStart.push(entries);
+      entries += palette.length;
+    }
+    const rows = Math.max(1, Math.ceil(entries / ENTRIES_A_ROW));
+    const data = new Float32Array(4 * TEXELS * ENTRIES_A_ROW * rows);
+    palettes.flat().forEach((number, entry) => {
+      const surface = surfaces[number];
+      const layer = layers.layerOf[number];
+      data.set(
+        [
+          ...surface.rgb,
+          layer < 0 ? -1 : 2 * layer + (surface.hasAlpha ? 1 : 0),
+          surface.roughness,
+          layers.metallicOf[number],
+          surface.opacity,
+          surface.clearcoat,
+          ...surface.emissive,
+          0,
+        ],
+        4 * TEXELS * entry,
+      );
+    });
+    const texture = new THREE.DataTexture(data, TEXELS * ENTRIES_A_ROW, rows, THREE.RGBAFormat, THREE.FloatType);
+    texture.needsUpdate = true;
+    return texture;
+  }
+}
+
+function labelTexture(scene: SceneFile): THREE.DataTexture {
+  const data = new Float32Array(
+    scene.header.labels.flatMap((label) => [...new THREE.Color(colourOf(label)).toArray(), 1]),
+  );
+  const texture = new THREE.DataTexture(data, scene.header.labels.length, 1, THREE.RGBAFormat, THREE.FloatType);
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,231 @@
+import json
+import math
+
+import networkx as nx
+import numpy as np
+import pytest
+import shapely
+from driving_simulation import World, drive_stalls, ground
+from pxr import Usd, UsdGeom
+from sample_files import REPOSITORY
+
+import garage2usd
+from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_stalls
+from garage2usd.driving.lane_poses import LaneDirections
+from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
+from garage2usd.driving.witness import write_witness
+from garage2usd.grid import Cell
+from garage2usd.layout import StallUse
+from garage2usd.stage.driving_layer import write_driving_layer
+
+DRAWN = """
+##########
+E====....#
+#..=.....X
+#..=======
+#..=.....#
+#..=.....#
+##########
+"""
+
+
+def drawn(*, structure=DRAWN, **sections):
+    sections = {"fittings": {"no_parking_sign_rate": 0.0}, **sections}
+    return garage2usd.generate(garage2usd.GarageConfig(site={"structure": structure}, **sections))
+
+
+def proofs_of(garage, **settings):
+    setback_m = garage.config.bay.carriageway_setback_m
+    return prove_stalls(garage.layout, garage.graph, setback_m=setback_m, **settings)
+
+
+@pytest.fixture(scope="module")
+def garage():
+    return drawn()
+
+
+@pytest.fixture(scope="module")
+def proofs(garage):
+    return proofs_of(garage)
+
+
+def test_a_simulated_car_drives_150_stalls_of_default_garages_as_claimed():
+    driven, faults, unproven = drive_stalls(150, seed=400)
+    assert (driven, faults, unproven) == (150, [], [])
+
+
+def test_the_simulation_sees_ways_that_are_not_as_claimed(garage, proofs):
+    """The check of the check: each way moved by half a metre, or with its first move left out, is found at fault."""
+    world = World(garage)
+    for stall, proof in zip([s for s in garage.layout.stalls if s.use.takes_cars], proofs, strict=True):
+        start, moves = proof.way_in.start, proof.way_in.moves
+        aside = Manoeuvre(type(start)(start.x_m + 0.5, start.z_m + 0.5, start.yaw_rad), moves, 0.0)
+        short = Manoeuvre(start, moves[1:], 0.0)
+        for way in (aside, short):
+            damaged = type(proof)(proof.stall, proof.nose, way, proof.way_out, proof.is_full, proof.backs_out)
+            assert world.faults(stall, damaged), proof.stall
+
+
+def test_every_stall_that_takes_a_car_has_its_proof(garage, proofs):
+    assert [proof.stall for proof in proofs] == [s.name for s in garage.layout.stalls if s.use.takes_cars]
+    assert all(proof.is_proven and proof.is_full for proof in proofs)
+
+
+def test_what_a_car_could_touch_is_held_by_its_outline():
+    garage = garage2usd.generate(garage2usd.load_config(REPOSITORY / "samples" / "irregular.toml"))
+    obstacles = fixed_objects(garage.layout).joined(parked_cars(garage.layout))
+    outline = {
+        name: shapely.union_all(
+            [shapely.MultiPoint(piece).convex_hull for piece in obstacles.pieces[obstacles.owner == number]]
+        )
+        for number, name in enumerate(obstacles.names)
+    }
+    kinds = set()
+    for place in garage.layout.placements:
+        if object_name(place) in outline:
+            beyond = ground(place).difference(outline[object_name(place)].buffer(0.001, join_style="mitre"))
+            assert beyond.area < 1e-6, (place.name, beyond.bounds)
+            kinds.add(place.kind)
+    world = {place.kind for place, _ in World(garage).items if hasattr(place, "kind")}
+    assert kinds == world
+
+
+def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
+    for seed in range(3):
+        made = garage2usd.generate(seed=seed)
+        cells, graph = made.plan.structure.cells, made.graph.graph
+        lines = nx.line_graph(nx.DiGraph(graph))
+        lines.remove_edges_from([(a, b) for a, b in lines.edges if a[0] == b[1] or cells[a[1]] != Cell.LANE])
+        directions = LaneDirections(made.plan.structure, made.graph, made.config.bay.carriageway_setback_m)
+        starts = [edge for edge in lines if cells[edge[0]] == Cell.ENTRANCE]
+        ends = [edge for edge in lines if cells[edge[1]] == Cell.EXIT]
+        assert directions.arriving == {b for b in lines if any(nx.has_path(lines, a, b) for a in starts)}
+        assert directions.leaving == {a for a in lines if any(nx.has_path(lines, a, b) for b in ends)}
+
+
+def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, proofs):
+    directions = LaneDirections(garage.plan.structure, garage.graph, garage.config.bay.carriageway_setback_m)
+    assert {((3, 3), (4, 3)), ((4, 3), (5, 3))} <= directions.backing
+    assert not {((4, 3), (3, 3)), ((5, 3), (4, 3))} & directions.backing
+    for proof in proofs:
+        if not proof.backs_out:
+            end = proof.way_out.end
+            assert World(garage).leads_to_exit((end.x_m, end.z_m, end.yaw_rad))
+
+
+def test_lane_poses_keep_the_whole_car_on_the_carriageway(garage):
+    car, setback_m = DesignCar(), garage.config.bay.carriageway_setback_m
+    directions = LaneDirections(garage.plan.structure, garage.graph, setback_m)
+    x, z = garage.plan.structure.column_edges_m, garage.plan.structure.row_edges_m
+    for edge in directions.near((3, 3)):
+        squares = [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in edge]
+        for pose in directions.poses([edge], car):
+            along = np.array([-math.sin(pose.yaw_rad), -math.cos(pose.yaw_rad)])
+            across = np.array([along[1], -along[0]])
+            for end in (-0.5, 0.5):
+                for side in (-0.5, 0.5):
+                    middle = np.array(pose.middle_m) + end * pose.length_m * along + side * pose.width_m * across
+                    corners = car.corners(car.centred(tuple(middle.tolist()), pose.yaw_rad))
+                    body = shapely.Polygon(corners)
+                    assert shapely.union_all(squares).buffer(1e-6).contains(body)
+                    sides = body.buffer(setback_m - 1e-6, cap_style="square", join_style="mitre")
+                    wide = sides.intersection(body.buffer(9, join_style="mitre")).bounds
+                    low, high = (wide[1], wide[3]) if abs(along[0]) > 0.5 else (wide[0], wide[2])
+                    box = shapely.union_all(squares).bounds
+                    least, most = (box[1], box[3]) if abs(along[0]) > 0.5 else (box[0], box[2])
+                    assert least <= low
+                    assert high <= most
+
+
+NARROW = {
+    "structure": """
+#######
+E====.#
+#..=..X
+#..====
+#..=..#
+#######
+""",
+    "bay": {"row_depths_m": [8.1, 8.1, 5.4, 3.2, 5.4, 8.1], "column_widths_m": 8.1},
+}
+
+
+def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
+    narrow = drawn(**NARROW)
+    failed = [proof for proof in proofs_of(narrow) if not proof.is_proven]
+    stalls = {stall.name: stall for stall in narrow.layout.stalls}
+    assert failed
+    assert {stalls[proof.stall].access_square[0] for proof in failed} == {3}
+    for proof in failed:
+        assert (proof.nose, proof.way_in, proof.way_out, proof.is_single_cause) == (None, None, None, True)
+        row, col = stalls[proof.stall].square
+        beside = {f"Column_r{row + down:02d}_c{col + right:02d}" for down in (0, 1) for right in (0, 1)}
+        cars = {f"r{r:02d}_c{c:02d}/Car_{n}" for r in (2, 4) for c in (col - 1, col, col + 1) for n in (1, 2, 3)}
+        assert set(proof.touched) <= beside | cars
+
+
+def test_stalls_without_ways_are_marked_and_hold_nothing():
+    kept, marked = drawn(**NARROW), drawn(**NARROW, plan={"unreachable_stalls": "mark"})
+    failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
+    unreachable = [stall for stall in marked.layout.stalls if stall.use is StallUse.UNREACHABLE]
+    assert failed <= {stall.name for stall in unreachable}
+    assert len(marked.layout.stalls) == len(kept.layout.stalls)
+    assert all(proof.is_proven for proof in proofs_of(marked))
+    held = {(place.square, place.name) for place in marked.layout.placements}
+    for stall in unreachable:
+        assert not {(stall.square, stall.named(kind)) for kind in ("Car", "WheelStop", "StallNumber")} & held
+        assert not stall.number
+
+
+def test_where_all_is_proven_marking_changes_nothing(garage):
+    marked = drawn(plan={"unreachable_stalls": "mark"})
+    assert list(marked.layout.stalls) == list(garage.layout.stalls)
+    assert list(marked.layout.placements) == list(garage.layout.placements)
+
+
+def test_a_single_cause_is_named():
+    """A sign on a square at the end of a row of stalls is far from all; a column set before a mouth is the cause."""
+    garage = drawn()
+    proofs = proofs_of(garage)
+    stall = next(s for s in garage.layout.stalls if s.name == proofs[4].stall)
+    x, z = np.mean(stall.corners_m()[:2], axis=0)
+    from garage2usd.driving import garage as module
+
+    shared = module._Garage(
+        garage.layout, garage.graph, garage.config.bay.carriageway_setback_m, DesignCar(), module.Limits()
+    )
+    pillar = Obstacles.of([("new pillar", shapely.box(x - 0.3, z - 0.3, x + 0.3, z + 0.3))])
+    shared.full, shared.as_it_stands = shared.full.joined(pillar), shared.as_it_stands.joined(pillar)
+    proof = shared.proof_of(stall)
+    assert (proof.is_proven, proof.touched, proof.is_single_cause) == (False, ("new pillar",), True)
+
+
+def test_the_witness_says_in_json_what_was_proven(proofs, tmp_path):
+    write_witness(tmp_path / "ways.json", proofs)
+    document = json.loads((tmp_path / "ways.json").read_text())
+    assert document["car"]["turning_radius_m"] == 6.0
+    for proof, stall in zip(proofs, document["stalls"], strict=True):
+        assert (stall["name"], stall["proven"], stall["nose"]) == (proof.stall, True, str(proof.nose))
+        for name, way in (("in", proof.way_in), ("out", proof.way_out)):
+            poses = np.array(stall[name]["poses"])
+            assert poses[-1, 0] == pytest.approx(way.length_m, abs=1e-5)
+            assert poses[-1, 1:3] == pytest.approx((way.end.x_m, way.end.z_m), abs=1e-5)
+            # each pose follows from the one before it by its gear and curvature
+            turned = np.diff(poses[:, 3]) - np.diff(poses[:, 0]) * poses[:-1, 4] * poses[:-1, 5]
+            assert np.abs(np.remainder(turned + np.pi, math.tau) - np.pi).max() < 1e-4
+
+
+def test_the_layer_of_the_ways_goes_over_the_stage(proofs, tmp_path):
+    write_driving_layer(tmp_path / "ways.usdc", proofs)
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.Xform.Define(stage, "/Garage")
+    stage.GetRootLayer().subLayerPaths.append(str(tmp_path / "ways.usdc"))
+    for name, ways in (("In", [p.way_in for p in proofs]), ("Out", [p.way_out for p in proofs])):
+        curves = UsdGeom.BasisCurves(stage.GetPrimAtPath(f"/Garage/Ways/{name}"))
+        assert curves.ComputePurpose() == UsdGeom.Tokens.guide
+        counts = np.array(curves.GetCurveVertexCountsAttr().Get())
+        points = np.array(curves.GetPointsAttr().Get())
+        assert counts.sum() == len(points) == len(curves.GetPrim().GetAttribute("garage:way:yaw").Get())
+        ends = points[np.cumsum(counts) - 1][:, [0, 2]]
+        assert ends == pytest.approx(np.array([(way.end.x_m, way.end.z_m) for way in ways]), abs=1e-4)
+        assert list(curves.GetPrim().GetAttribute("garage:way:stall").Get()) == [p.stall for p in proofs]
