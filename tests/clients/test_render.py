@@ -218,18 +218,32 @@ def test_a_kill_in_mid_render_leaves_no_file_and_no_blender(builds, tmp_path):
     process = subprocess.Popen(
         command, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
-    deadline = time.monotonic() + 60
-    while not (found := children(process.pid)) and time.monotonic() < deadline:
+    deadline = time.monotonic() + 120
+    while not (blender := [child for child in descendants(process.pid) if "blender.py" in command_line(child)]):
+        assert time.monotonic() < deadline
         time.sleep(0.1)
     time.sleep(2.0)
+    found = descendants(process.pid)
+    assert set(blender) <= set(found)
     process.send_signal(signal.SIGTERM)
-    assert process.wait(timeout=30) == 128 + signal.SIGTERM
-    assert found
-    assert not any(os.path.exists(f"/proc/{child}") for child in found)
+    assert process.wait(timeout=60) == 128 + signal.SIGTERM
+    assert not any("garage2usd" in command_line(child) for child in found)
     assert list(temporary.iterdir()) == []
     assert not out.exists()
 
 
-def children(parent):
-    with open(f"/proc/{parent}/task/{parent}/children") as file:
-        return file.read().split()
+def descendants(parent):
+    try:
+        with open(f"/proc/{parent}/task/{parent}/children") as file:
+            children = file.read().split()
+    except FileNotFoundError:  # it has ended
+        return []
+    return [*children, *(inner for child in children for inner in descendants(child))]
+
+
+def command_line(process):
+    try:
+        with open(f"/proc/{process}/cmdline") as file:
+            return file.read()
+    except FileNotFoundError:
+        return ""
