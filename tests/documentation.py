@@ -23,7 +23,8 @@ from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.profiles import read_profile
 
-PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").rglob("*.md"))]
+README = REPOSITORY / "README.md"
+PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]
 RUN = {"sh", "python", "toml"}
 SHOWN = {"", "csharp", "json"}
 
@@ -189,3 +190,18 @@ def check_unrun(block):
                 group = click.Context(main)
                 name, command, rest = main.resolve_command(group, words[1:])
                 command.make_context(name, rest, parent=group)
+
+
+def follow_page(page, folder):
+    """Do all that a page says."""
+    reader = Reader(folder)
+    to_run = [block for block in blocks(page) if block.language in RUN and block.reason is None]
+    if any("garage.usdz" in block.text for block in to_run):
+        reader.start_with_a_garage()
+    for block in to_run:
+        reader.follow(block)
+
+
+if __name__ == "__main__":
+    follow_page(Path(sys.argv[1]), Path(sys.argv[2]))
+    print(Path(garage2usd.__file__).parent)
