@@ -84,10 +84,20 @@ def test_the_readme_can_be_followed_with_the_wheel_alone(installed, tmp_path):
     assert (tmp_path / "ways.usda").exists()
 
 
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_shells_complete_commands(installed, tmp_path, shell):
-    words = {"bash": "garage2usd ", "zsh": "garage2usd ", "fish": "garage2usd "}[shell]
-    os_environment = {"_GARAGE2USD_COMPLETE": f"{shell}_complete", "COMP_WORDS": words, "COMP_CWORD": "1"}
-    code = f"import os, subprocess; os.environ |= {os_environment}; subprocess.run(['garage2usd'])"
-    run = installed(sys.executable, "-c", code, folder=tmp_path)
-    assert run.returncode == 0
+def test_bash_completes_commands_and_options(installed, tmp_path):
+    from garage2usd.cli import main
+
+    def completions(*words, begun=""):
+        script = f"""
+            PATH="{installed.packages}/bin:$PATH"
+            eval "$(_GARAGE2USD_COMPLETE=bash_source garage2usd)"
+            COMP_WORDS=({" ".join(words)} "{begun}") COMP_CWORD={len(words)}
+            _garage2usd_completion garage2usd
+            printf '%s\\n' "${{COMPREPLY[@]}}"
+        """
+        run = installed("bash", "-ec", script, folder=tmp_path)
+        assert run.returncode == 0, run.stderr
+        return set(run.stdout.split())
+
+    assert completions("garage2usd") == set(main.commands)
+    assert completions("garage2usd", "build", begun="--se") == {"--seed"}
