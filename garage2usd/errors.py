@@ -9,6 +9,7 @@ __all__ = [
     "MissingExtraError",
     "OutputError",
     "RenderError",
+    "ReportError",
     "StageError",
     "UnreachableStallError",
 ]
@@ -102,6 +103,23 @@ class OutputError(Garage2UsdError, OSError):
 
 class StageError(Garage2UsdError):
     """A stage, or a file that belongs to it, that cannot be read.
+
+    Parameters
+    ----------
+    path
+        The file.
+    reason
+        What is wrong with it.
+    """
+
+    def __init__(self, path: object, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"{path}: {reason}")
+
+
+class ReportError(Garage2UsdError):
+    """A report of a build that cannot be used.
 
     Parameters
     ----------

@@ -9,17 +9,16 @@ import resource
 
 __all__ = ["allow_seconds", "enforce", "lift_seconds"]
 
-_MAX_MEMORY_BYTES = 16 * 1024**3
+_MAX_MEMORY_BYTES = 8 * 1024**3
 _enforced = False
 
 
 def enforce() -> None:
-    """Let this process take 16 GB of memory, leave no core file, and heed `allow_seconds` from now on."""
+    """Let this process take 8 GB of memory, leave no core file, and heed `allow_seconds` from now on."""
     global _enforced  # noqa: PLW0603 - limits are the process's own
     _enforced = True
     most = resource.getrlimit(resource.RLIMIT_DATA)[1]
-    limit = _MAX_MEMORY_BYTES if most == resource.RLIM_INFINITY else min(most, _MAX_MEMORY_BYTES)
-    resource.setrlimit(resource.RLIMIT_DATA, (limit, most))
+    resource.setrlimit(resource.RLIMIT_DATA, (_lower(_MAX_MEMORY_BYTES, most), most))
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
 
 
@@ -38,4 +37,9 @@ def lift_seconds() -> None:
 
 def _set_seconds(limit: int) -> None:
     most = resource.getrlimit(resource.RLIMIT_CPU)[1]
-    resource.setrlimit(resource.RLIMIT_CPU, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))
+    resource.setrlimit(resource.RLIMIT_CPU, (_lower(limit, most), most))
+
+
+def _lower(limit: int, most: int) -> int:
+    """The lower of two limits; infinity is a negative number."""
+    return min((value for value in (limit, most) if value != resource.RLIM_INFINITY), default=resource.RLIM_INFINITY)

@@ -9,6 +9,7 @@ from pathlib import Path
 from PIL import Image
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.plan import UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
@@ -22,10 +23,11 @@ from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.raster import to_image
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
-_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f]")
+_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 """What USD cannot say of a file that a layer refers to."""
 
 
@@ -150,7 +152,7 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     if _UNSPEAKABLE.search(path.name):
-        raise ConfigError("output", str(output), "a file name without '@', '\\' and control characters")
+        raise ConfigError("output", str(output), "a file name in UTF-8 without '@', '\\' and control characters")
     check_writable(path.parent)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
@@ -216,9 +218,26 @@ def _generate(
             "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
         )
     layout = lay_out(plan.structure, graph, config)
+    if config.plan.unreachable_stalls is UnreachableStalls.MARK:
+        layout = _with_marked_stalls(layout, graph, config, progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _with_marked_stalls(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
+    """The layout with all stalls marked that cars do not get into and out of."""
+    from garage2usd.driving import prove_stalls  # noqa: PLC0415 - compiled code that only this setting needs
+
+    marked: set[str] = set()
+    while True:
+        proofs = prove_stalls(layout, graph, setback_m=config.bay.carriageway_setback_m, progress=progress)
+        unreachable = {proof.stall for proof in proofs if not proof.is_proven}
+        if not unreachable:
+            return layout
+        # a charger, an access aisle or a car that went elsewhere may stand in another's way
+        marked |= unreachable
+        layout = lay_out(layout.structure, graph, config, unreachable=marked)
 
 
 def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
@@ -237,7 +256,7 @@ def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:
 def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[str, Image.Image]:
     """The pictures of a build by their name."""
     plan = garage.plan
-    pictures = {"plan": draw_plan(garage.layout)}
+    pictures = {"plan": to_image(draw_plan(garage.layout, garage.graph))}
     if learning_curve:
         pictures["learning"] = draw_learning_curve(plan.learning_curve)
     if best_plans:

@@ -5,16 +5,21 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
-from garage2usd.config import GarageConfig
-from garage2usd.errors import ConfigError
+from pydantic import BaseModel, ValidationError
+
+from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.errors import ConfigError, ReportError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.planning import Plan, area_per_stall_m2, principles, rank_of, tape_of
 from garage2usd.version import VERSION
 
-__all__ = ["write_report"]
+__all__ = ["read_report", "write_report"]
+
+_MAX_FILE_BYTES = 512 * 1024 * 1024
 
 
 def write_report(
@@ -82,6 +87,48 @@ def write_report(
         "seconds": {step: round(value, 4) for step, value in seconds.items()},
     }
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+class _Report(BaseModel):
+    """What makes the garage of a report again."""
+
+    seed: int
+    config: dict[str, Any]
+    S: list[str]
+    R: list[float]
+    C: list[float]
+
+
+def read_report(path: Path) -> GarageConfig:
+    """Settings that make the garage of a report again, without planning: its lanes and sizes are given.
+
+    Raises
+    ------
+    ReportError
+        If the file cannot be read, or is no report.
+    ConfigError
+        If a setting in it is not allowed by this version.
+    """
+    try:
+        if path.stat().st_size > _MAX_FILE_BYTES:
+            raise ReportError(path, f"a report has at most {_MAX_FILE_BYTES} bytes")
+        report = _Report.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise ReportError(path, error.strerror or str(error)) from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"])) or "JSON"
+        raise ReportError(path, f"no report of a build: {place}: {first['msg']}") from None
+    bay = {**_section(report, "bay", path), "column_widths_m": report.R, "row_depths_m": report.C, "dimensioned": False}
+    site = {"structure": "\n".join(report.S)}
+    return config_from_mapping({**report.config, "seed": report.seed, "bay": bay, "site": site})
+
+
+def _section(report: _Report, name: str, path: Path) -> dict[str, Any]:
+    section = report.config.get(name)
+    if not isinstance(section, dict):
+        raise ReportError(path, f"no report of a build: config.{name}: not a table")
+    return section
 
 
 def _tape(structure: Structure) -> str | None:

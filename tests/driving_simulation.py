@@ -143,7 +143,7 @@ class World:
             self.items[item][0].name
             for item in set(found.tolist())
             if not (
-                self.items[item][0] is stall
+                self.items[item][0].name == stall.name
                 or (self.items[item][0].square == stall.square and self.items[item][0].name.startswith(names))
             )
         }

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Asset, Collider, Face, box_faces, frame_faces, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, frame_faces, make_part
 
 __all__ = ["beam", "beam_node", "ceiling_panel", "column", "obstacle_block", "portal_wall", "wall_panel", "wall_post"]
 
@@ -17,6 +17,7 @@ _BEVEL_M = 0.03
 _LAMELLA_M = 0.12
 _GROOVE_M = 0.012
 _FRAME_M = 0.08
+_LEAST_SIGN_M = 0.06
 
 
 def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
@@ -68,15 +69,6 @@ def portal_wall(
         if is_open
         else [make_part("Door", _lamellae(opening, head, -thickness_m / 2), "door_steel", collider=Collider.BOX)]
     )
-    sign_low = door_height_m + 0.08
-    sign_high = min(sign_low + 0.28, height_m - 0.04)
-    sign = box_faces((-0.6, sign_low, 0), (0.6, sign_high, 0.06))
-    middle, reach = (sign_low + sign_high) / 2, (sign_high - sign_low) * 0.36
-    tip = -reach if is_entrance else reach
-    arrow = [
-        _upright([(-0.05, -tip), (0.05, -tip), (0.05, 0.0), (-0.05, 0.0)], middle),
-        _upright([(-0.16, 0.0), (0.16, 0.0), (0.0, tip)], middle),
-    ]
     return Asset(
         "vehicle_door",
         (
@@ -85,10 +77,27 @@ def portal_wall(
             make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
             make_part("Frame", frame, "hazard", collider=Collider.MESH),
             *door,
-            make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
-            make_part("Arrow", arrow, "sign_white"),
+            *_door_sign(door_height_m + 0.08, height_m - 0.04, is_entrance=is_entrance),
         ),
     )
+
+
+def _door_sign(low_m: float, top_m: float, *, is_entrance: bool) -> list[Part]:
+    """The lit sign over a door, with an arrow up or down; none where the lintel has no room for it."""
+    high_m = min(low_m + 0.28, top_m)
+    if high_m - low_m < _LEAST_SIGN_M:
+        return []
+    sign = box_faces((-0.6, low_m, 0), (0.6, high_m, 0.06))
+    middle, reach = (low_m + high_m) / 2, (high_m - low_m) * 0.36
+    tip = -reach if is_entrance else reach
+    arrow = [
+        _upright([(-0.05, -tip), (0.05, -tip), (0.05, 0.0), (-0.05, 0.0)], middle),
+        _upright([(-0.16, 0.0), (0.16, 0.0), (0.0, tip)], middle),
+    ]
+    return [
+        make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
+        make_part("Arrow", arrow, "sign_white"),
+    ]
 
 
 def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:

@@ -72,7 +72,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
 
     Raises
     ------
-    ConfigError
+    ConfigError, StageError
         If the file is none of these.
     """
     path = Path(path)

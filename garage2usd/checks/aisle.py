@@ -72,9 +72,7 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
             if solid.label in _MAY_STAND_ON_LANES or solid.name in seen or _is_parked(solid, subject):
                 continue
             seen.add(solid.name)
-            what = solid.label.replace("_", " ") or "object without a label"
-            position = round(solid.footprint.centroid.x, 3), round(solid.footprint.centroid.y, 3)
-            yield Miss(solid.name, position, f"a {what} stands on the lane {_name(subject, edge)}")
+            yield Miss(solid.name, solid.centre, f"a {solid.kind} stands on the lane {_name(subject, edge)}")
 
 
 def _is_parked(solid: Solid, subject: Subject) -> bool:

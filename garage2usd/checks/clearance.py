@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
@@ -16,6 +17,10 @@ __all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _WALLS = {"wall", "obstacle"}
+_ONE_BAY = 1.5
+"""Columns farther apart than so many times the grid are not those of one bay."""
+_FOOT_M = 0.5
+"""How high a column's lowest piece begins, and how far from the line of mouths it stands, at most."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +88,40 @@ def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
         required = clause.amount if clause else 0.0
         near = [solid for solid in subject.solids.at(car.ground(behind_m=required)) if solid.label in _WALLS]
         yield from _closest(car, near, required, "the wall behind", subject)
+
+
+@BOOK.rule(
+    "column-spacing", "column_spacing", asks="columns stand as far apart as the grid wants where cars park between"
+)
+def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    if profile.column_spacing is None:
+        return
+    least, most = profile.column_spacing.bounds
+    seen: set[float] = set()
+    columns = [solid for solid in subject.solids.standing("column") if solid.bottom_m < _FOOT_M]
+    places = np.array([(column.footprint.centroid.x, column.footprint.centroid.y) for column in columns]).reshape(-1, 2)
+    for stall in subject.parking_stalls:
+        measured = _between_columns(stall, places)
+        if (
+            measured is None
+            or measured > _ONE_BAY * most
+            or least - ROUNDING_M <= measured <= most + ROUNDING_M
+            or round(measured, 2) in seen
+        ):
+            continue
+        seen.add(round(measured, 2))
+        required = least if measured < least else most
+        yield Miss(stall.name, stall.mouth, "the columns beside the stalls keep another grid", measured, required)
+
+
+def _between_columns(stall: StallOutline, places: NDArray[np.float64]) -> float | None:
+    """Distance of the next columns on both sides of a stall's mouth, from middle to middle; None without two."""
+    outwards = np.array(stall.outwards)
+    offset = places - np.array(stall.mouth)
+    beside = np.abs(offset @ outwards) < _FOOT_M
+    along = (offset @ np.array([-outwards[1], outwards[0]]))[beside]
+    left, right = along[along < 0], along[along > 0]
+    return float(right.min() - left.max()) if len(left) and len(right) else None
 
 
 def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterator[_ParkedCar]:

@@ -1,4 +1,4 @@
-"""Rules of files that contradict themselves: lane graphs with holes, stalls told twice, reports that were changed."""
+"""Rules of files that contradict themselves: lane graphs with holes, stalls told twice, plans that are refused."""
 
 from collections.abc import Callable, Iterator
 
@@ -23,6 +23,7 @@ def _faults(name: str) -> Callable[[Subject, Profile], Iterator[Miss]]:
 for _name, _asks in (
     ("lane-graph", "a stage has a lane graph whose nodes, edges and stalls fit together"),
     ("stall-outline", "a stall's prim lies where the lane graph has its outline"),
+    ("plan-refused", "a garage can be built from a plan"),
     ("report-stalls", "a report lists the stalls that its configuration and matrices give"),
 ):
     BOOK.rule(_name, asks=_asks)(_faults(_name))

@@ -9,7 +9,7 @@ from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.subject import Point, Subject
 from garage2usd.grid import Cell, Structure
 from garage2usd.layout.building import core_doors
-from garage2usd.profiles import Length, Profile
+from garage2usd.profiles import Area, Length, Profile
 
 __all__ = ["BOOK"]
 
@@ -19,8 +19,8 @@ _MM2_PER_M2 = 1_000_000
 
 @BOOK.rule("fire-compartment", "fire_compartment_area", asks="the floor fits one fire compartment")
 def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if not _has_sprinklers(subject):
-        yield from _too_large(subject, profile.fire_compartment_area.amount if profile.fire_compartment_area else None)
+    if subject.things and not _has_sprinklers(subject):
+        yield from _too_large(subject, profile.fire_compartment_area)
 
 
 @BOOK.rule(
@@ -29,9 +29,8 @@ def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the floor fits one fire compartment with sprinklers",
 )
 def _sprinklered_compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    clause = profile.fire_compartment_area_sprinklered
     if _has_sprinklers(subject):
-        yield from _too_large(subject, clause.amount if clause else None)
+        yield from _too_large(subject, profile.fire_compartment_area_sprinklered)
 
 
 @BOOK.rule("personnel-exits", "personnel_exits", asks="people have enough exits")
@@ -46,7 +45,7 @@ def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("exit-distance", "exit_distance", asks="no stall is too far from an exit for people")
 def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if not _has_sprinklers(subject):
+    if subject.things and not _has_sprinklers(subject):
         yield from _too_far(subject, profile.exit_distance)
 
 
@@ -60,15 +59,15 @@ def _sprinklered_distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
         yield from _too_far(subject, profile.exit_distance_sprinklered)
 
 
-def _too_large(subject: Subject, allowed_m2: float | None) -> Iterator[Miss]:
-    if allowed_m2 is None or subject.structure is None:
+def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
+    if clause is None or subject.structure is None:
         return
     structure = subject.structure
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm)[structure.cells != Cell.OBSTACLE]
     measured = float(areas.sum()) / _MM2_PER_M2
-    if measured > allowed_m2:
-        parts = math.ceil(measured / allowed_m2)
-        yield Miss("", None, f"the floor needs {parts} fire compartments", measured, allowed_m2)
+    if measured > clause.amount:
+        parts = math.ceil(measured / clause.amount)
+        yield Miss("", None, f"the floor needs {parts} fire compartments", measured, clause.amount)
 
 
 def _too_far(subject: Subject, clause: Length | None) -> Iterator[Miss]:

@@ -32,7 +32,7 @@ def _exit(subject: Subject, _: Profile) -> Iterator[Miss]:
 @BOOK.rule("portal-cut-off", asks="every portal joins a lane")
 def _cut_off(subject: Subject, _: Profile) -> Iterator[Miss]:
     for number in subject.portals("entrance", "exit"):
-        if not subject.beside[number]:
+        if subject.has_whole_graph and not subject.beside[number]:
             node = subject.nodes[number]
             yield Miss(node.name, node.position, f"the {node.kind} joins no lane")
 
@@ -55,7 +55,7 @@ def _routes(subject: Subject, _: Profile) -> Iterator[Miss]:
     entrances, exits = (
         [portal for portal in subject.portals(kind) if subject.beside[portal]] for kind in ("entrance", "exit")
     )
-    if not entrances or not exits:
+    if not entrances or not exits or not subject.has_whole_graph:
         return  # that itself is found by other rules
     reached = _reached(entrances, subject.onward, subject)
     left = _reached(exits, subject.backward, subject)
@@ -75,7 +75,7 @@ def _portal_routes(subject: Subject, _: Profile) -> Iterator[Miss]:
         (entrances, exits, subject.onward, "no exit is reached from the entrance"),
         (exits, entrances, subject.backward, "no entrance leads to the exit"),
     ):
-        for start in starts if goals else ():
+        for start in starts if goals and subject.has_whole_graph else ():
             found = _reached([start], ways, subject)
             # stalls on the way are named by their own rule, and a portal without a lane by its own
             if found.isdisjoint(goals) and found.isdisjoint(served) and subject.beside[start]:

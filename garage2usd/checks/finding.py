@@ -8,6 +8,7 @@ from garage2usd.profiles import Severity
 
 __all__ = ["Finding", "Severity", "as_json", "as_table"]
 
+_WHOLE_FROM = 1000
 _ORDER = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 
 
@@ -86,4 +87,5 @@ def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[st
 def _figure(value: float | None, unit: str) -> str:
     if value is None:
         return ""
-    return f"{value:.4g}" if unit in {"count", ""} else f"{value:.4g} {unit}"
+    digits = f"{value:.0f}" if abs(value) >= _WHOLE_FROM else f"{value:.4g}"
+    return digits if unit in {"count", ""} else f"{digits} {unit}"

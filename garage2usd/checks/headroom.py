@@ -6,13 +6,15 @@ import shapely
 
 from garage2usd.checks.feasibility import way_in, way_out
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import Subject
+from garage2usd.checks.subject import Point, Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
 
 __all__ = ["BOOK"]
 
 BOOK = RuleBook()
+_DOOR_REACH_M = 8.0
+"""How far the door of a portal stands from the middle of its square, at most."""
 
 
 @BOOK.rule("headroom", "clear_height", asks="nothing hangs below the clear height, doors included")
@@ -22,9 +24,7 @@ def _clear_height(subject: Subject, profile: Profile) -> Iterator[Miss]:
     required = profile.clear_height.amount
     for solid in subject.solids.hanging():
         if solid.bottom_m < required - ROUNDING_M:
-            position = round(solid.footprint.centroid.x, 3), round(solid.footprint.centroid.y, 3)
-            what = solid.label.replace("_", " ") or "object without a label"
-            yield Miss(solid.name, position, f"the {what} hangs too low", solid.bottom_m, required)
+            yield Miss(solid.name, solid.centre, f"the {solid.kind} hangs too low", solid.bottom_m, required)
     for door in subject.doors:
         if door.clear_height_m is not None and door.clear_height_m < required - ROUNDING_M:
             yield Miss(door.name, door.position, "the door is too low", door.clear_height_m, required)
@@ -40,14 +40,14 @@ def _van_height(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.van_clear_height is None:
         return
     required, reported = profile.van_clear_height.amount, profile.clear_height
-    for solid, lowest in _over_van_routes(subject):
+    for place, position, lowest in _over_van_routes(subject):
         # what hangs lower than any car may pass has its own rule
         if lowest < required - ROUNDING_M and (reported is None or lowest >= reported.amount - ROUNDING_M):
-            yield Miss(*solid, "hangs too low over the way of vans to an accessible stall", lowest, required)
+            yield Miss(place, position, "hangs too low over the way of vans to an accessible stall", lowest, required)
 
 
-def _over_van_routes(subject: Subject) -> Iterator[tuple[tuple[str, tuple[float, float]], float]]:
-    """Place and lowest height of all that hangs over the ways to and from accessible stalls, and of their doors."""
+def _over_van_routes(subject: Subject) -> Iterator[tuple[str, Point, float]]:
+    """Name, place and least height of what hangs over the ways to and from accessible stalls, and of their doors."""
     stalls = [stall for stall in subject.stalls if stall.use is StallUse.ACCESSIBLE]
     driven = {node for stall in stalls for node in (*way_in(subject, stall), *way_out(subject, stall))}
     if not driven:
@@ -61,14 +61,9 @@ def _over_van_routes(subject: Subject) -> Iterator[tuple[tuple[str, tuple[float,
     shapely.prepare(ground)
     for solid in subject.solids.hanging():
         if ground.intersects(solid.footprint):
-            centre = round(solid.footprint.centroid.x, 3), round(solid.footprint.centroid.y, 3)
-            yield (solid.name, centre), solid.bottom_m
+            yield solid.name, solid.centre, solid.bottom_m
     portals = [node.position for node in places if node.is_portal]
     for door in subject.doors:
         near = any(shapely.Point(door.position).distance(shapely.Point(portal)) < _DOOR_REACH_M for portal in portals)
         if near and door.clear_height_m is not None:
-            yield (door.name, door.position), door.clear_height_m
-
-
-_DOOR_REACH_M = 8.0
-"""How far the door of a portal stands from the middle of its square, at most."""
+            yield door.name, door.position, door.clear_height_m

@@ -1,6 +1,8 @@
 """Stalls and lane graph of a stage, read from its guide curves, with what contradicts itself in them."""
 
+import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from pxr import Usd, UsdGeom
@@ -18,6 +20,7 @@ _CORNERS = 4
 _KINDS = {kind.value for kind in LaneKind}
 _USES = {use.value for use in StallUse}
 _MOVED_M = 0.05
+_NO_WIDTH_M = 0.1
 RULE = "lane-graph"
 
 
@@ -58,7 +61,7 @@ def read_lanes(stage: Usd.Stage) -> DrivenGround:
     _read_nodes(curves["Nodes"], ground)
     _read_edges(curves["Edges"], ground)
     _read_stalls(curves["Stalls"], ground)
-    _compare_prims(stage, root, ground)
+    _compare_prims(stage, root, ground, told=set(map(str, curves["Stalls"].values("garage:stall:id"))))
     return ground
 
 
@@ -77,21 +80,18 @@ class _Curves:
         local = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim)) @ metres_y_up(stage)
         world = points @ local[:3, :3] + local[3, :3]
         ends = np.cumsum(counts)
-        self.is_whole = bool(len(counts) == 0 or (counts.min() > 0 and ends[-1] == len(world)))
+        fits = len(counts) == 0 or (counts.min() > 0 and ends[-1] == len(world))
+        self.is_whole = bool(fits and np.isfinite(world).all())
         self.lines: list[Array] = np.split(world[:, [0, 2]], ends[:-1]) if self.is_whole and len(counts) else []
 
-    def values(self, name: str) -> list[object]:
+    def values(self, name: str) -> list[Any]:
         """One value a curve, as plain Python values; empty where there are not as many as curves."""
         attribute = self._prim.GetAttribute(name) if self._prim else None
         value = attribute.Get() if attribute else None
-        values = (
-            []
-            if value is None
-            else [tuple(v) if hasattr(v, "__len__") and not isinstance(v, str) else v for v in value]
-        )
+        values = list(value) if value is not None and hasattr(value, "__len__") else []
         return values if len(values) == len(self.lines) else []
 
-    def columns(self, *names: str) -> list[tuple[object, ...]] | None:
+    def columns(self, *names: str) -> list[tuple[Any, ...]] | None:
         """The values of some attributes, curve by curve; None where one of them does not fit the curves."""
         columns = [self.values(name) for name in names]
         if not self.is_whole or any(len(column) != len(self.lines) for column in columns):
@@ -106,10 +106,13 @@ def _read_nodes(curves: _Curves, ground: DrivenGround) -> None:
         return
     for line, (kind, widths, row, col) in zip(curves.lines, rows, strict=True):
         name = f"[{row}, {col}]"
+        if not all(math.isfinite(width) and width > 0 for width in widths):
+            ground.faults.append(Fault(RULE, name, _middle(line), "a node without widths"))
+            widths = (_NO_WIDTH_M, _NO_WIDTH_M)  # noqa: PLW2901 - the others keep their numbers
         if kind not in _KINDS:
             ground.faults.append(Fault(RULE, name, _middle(line), f"a node of the unknown kind {kind!r}"))
-        ground.nodes.append(LaneNode(str(kind), _middle(line), (float(widths[0]), float(widths[1])), name))  # type: ignore[index]
-        ground.squares.append((int(row), int(col)))  # type: ignore[call-overload]
+        ground.nodes.append(LaneNode(str(kind), _middle(line), (float(widths[0]), float(widths[1])), name))
+        ground.squares.append((int(row), int(col)))
 
 
 def _read_edges(curves: _Curves, ground: DrivenGround) -> None:
@@ -122,7 +125,10 @@ def _read_edges(curves: _Curves, ground: DrivenGround) -> None:
             place = f"{curves.path}[{number}]"
             ground.faults.append(Fault(RULE, place, _middle(line), "an edge whose ends are not both nodes"))
             continue
-        ground.edges.append(LaneEdge(int(start), int(end), float(width), direction == "forward"))  # type: ignore[call-overload,arg-type]
+        if not math.isfinite(width):
+            ground.faults.append(Fault(RULE, f"{curves.path}[{number}]", _middle(line), "an edge without a width"))
+            continue
+        ground.edges.append(LaneEdge(int(start), int(end), float(width), direction == "forward"))
 
 
 def _read_stalls(curves: _Curves, ground: DrivenGround) -> None:
@@ -141,10 +147,10 @@ def _read_stalls(curves: _Curves, ground: DrivenGround) -> None:
         else:
             left, right, rear_right, rear_left = (_point(corner) for corner in line)
             outline = (left, right, rear_right, rear_left)
-            ground.stalls.append(StallOutline(place, outline, StallUse(use), int(access)))  # type: ignore[call-overload]
+            ground.stalls.append(StallOutline(place, outline, StallUse(use), int(access)))
 
 
-def _compare_prims(stage: Usd.Stage, root: Usd.Prim, ground: DrivenGround) -> None:
+def _compare_prims(stage: Usd.Stage, root: Usd.Prim, ground: DrivenGround, *, told: set[str]) -> None:
     """Stalls that were moved without their outlines, or the other way round."""
     outlines = {stall.name: stall for stall in ground.stalls}
     to_metres, cache = metres_y_up(stage), UsdGeom.XformCache()
@@ -155,9 +161,9 @@ def _compare_prims(stage: Usd.Stage, root: Usd.Prim, ground: DrivenGround) -> No
             continue
         where = np.array(cache.GetLocalToWorldTransform(prim)) @ to_metres
         place = _point(where[3, [0, 2]])
-        if name not in outlines:
+        if name not in told:
             ground.faults.append(Fault("stall-outline", str(prim.GetPath()), place, "the lane graph has no such stall"))
-        elif np.hypot(*np.subtract(place, outlines[name].centre)) > _MOVED_M:
+        elif name in outlines and np.hypot(*np.subtract(place, outlines[name].centre)) > _MOVED_M:
             message = "the stall's prim does not lie where the lane graph has its outline"
             ground.faults.append(Fault("stall-outline", str(prim.GetPath()), place, message))
 

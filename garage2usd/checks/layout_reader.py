@@ -43,7 +43,9 @@ def layout_subject(
     )
 
 
-def unlaid_subject(structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str) -> Subject:
+def unlaid_subject(
+    structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
+) -> Subject:
     """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
     squares = sorted(graph.graph.nodes)
     number = {square: index for index, square in enumerate(squares)}
@@ -54,6 +56,7 @@ def unlaid_subject(structure: Structure, graph: LaneGraph, bay: BayConfig, *, so
         nodes=_nodes(structure, graph, squares, bay),
         edges=_edges(structure, graph, squares, bay),
         structure=structure,
+        faults=faults,
     )
 
 

@@ -181,13 +181,13 @@ def _upward_faces(thing: Thing) -> tuple[Array, list[Array]]:
     normals, corners = [], []
     for body in thing.bodies:
         points = body.world_points()
-        for face in np.split(body.shape.indices, np.cumsum(body.shape.counts)[:-1]):
-            around = points[face]
-            normal = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)
-            length = np.linalg.norm(normal)
-            if length > 0 and normal[1] > 0:
-                normals.append(normal / length)
-                corners.append(around)
+        starts = np.cumsum(body.shape.counts) - body.shape.counts
+        begin, end = (points[body.shape.edges[:, side]] for side in (0, 1))
+        sums = np.add.reduceat(np.cross(begin, end), starts)
+        lengths = np.linalg.norm(sums, axis=1)
+        for face in np.flatnonzero((lengths > 0) & (sums[:, 1] > 0)).tolist():
+            normals.append(sums[face] / lengths[face])
+            corners.append(begin[starts[face] : starts[face] + body.shape.counts[face]])
     return np.array(normals).reshape(-1, 3), corners
 
 

@@ -109,24 +109,28 @@ def _subject(
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
     graph = unproven_lane_graph(structure, config.bay)
-    layout = _laid_out(structure, config)
+    layout, refusal = _laid_out(structure, config)
     if layout is None:
-        return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind)
-    faults = () if listed is None else tuple(_differences(layout, listed))
-    return layout_subject(layout, graph, config, source=str(path), kind=kind, faults=faults)
+        faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
+        return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
+    differences = () if listed is None else tuple(_differences(layout, listed))
+    return layout_subject(layout, graph, config, source=str(path), kind=kind, faults=differences)
 
 
-def _laid_out(structure: Structure, config: GarageConfig) -> Layout | None:
-    """The layout; None where a fault of the plan, which rules report, leaves none."""
+def _laid_out(structure: Structure, config: GarageConfig) -> tuple[Layout | None, str | None]:
+    """The layout, or None and what refuses it; without words for faults that rules name."""
     try:
         check_structure(structure.cells)
         graph = build_lane_graph(structure, config.bay)
-        return lay_out(structure, graph, config) if graph.stall_rows else None
-    except UnreachableStallError:
-        return None
+    except (ConfigError, UnreachableStallError):
+        return None, None
+    if not graph.stall_rows:
+        return None, "no square beside a lane takes a stall"
+    try:
+        return lay_out(structure, graph, config), None
     except ConfigError as error:
-        if error.field.partition(".")[0] in {"bay", "site"}:
-            return None
+        if error.field.startswith("bay."):
+            return None, str(error)
         raise
 
 

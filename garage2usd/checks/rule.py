@@ -66,7 +66,7 @@ class Rule:
                 position_m=miss.position,
                 measured=None if miss.measured is None else round(miss.measured, 4),
                 required=None if miss.required is None else round(miss.required, 4),
-                unit=_unit(clause),
+                unit="" if miss.measured is None else _unit(clause),
                 source=f"{clause.source} ({clause.confidence})" if clause else "garage2usd",
             )
 

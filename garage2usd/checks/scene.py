@@ -150,8 +150,10 @@ class _Reader:
         shapes = []
         for target in instancer.GetPrototypesRel().GetForwardedTargets():
             prim = stage.GetPrimAtPath(target)
-            back = np.linalg.inv(_placed(prim, np.eye(4)))
-            shapes.append([entry._replace(matrix=entry.matrix @ back) for entry in self.below(prim, np.eye(4), "", "")])
+            # the instancer's transforms hold the prototype's own already
+            back = np.linalg.pinv(_placed(prim, np.eye(4))) if prim else np.eye(4)
+            entries = self.below(prim, np.eye(4), "", "") if prim else ()
+            shapes.append([entry._replace(matrix=entry.matrix @ back) for entry in entries])
         for index, (number, place) in enumerate(zip(numbers, places or (), strict=False)):
             for entry in shapes[number] if 0 <= number < len(shapes) else ():
                 to_world = np.array(place) @ matrix
@@ -179,6 +181,8 @@ def _placed(prim: Usd.Prim, matrix: Array) -> Array:
     if not xformable:
         return matrix
     local = np.array(xformable.GetLocalTransformation())
+    if not np.isfinite(local).all():
+        return matrix
     return local if xformable.GetResetXformStack() else local @ matrix
 
 
@@ -194,13 +198,15 @@ def _shape(prim: Usd.Prim) -> Shape | None:
         if any(array is None or not len(array) for array in arrays):
             return None
         points, counts, indices = (np.asarray(array) for array in arrays)
+        if not np.isfinite(points).all():
+            return None
         if counts.sum() != len(indices) or counts.min() < 1 or indices.min() < 0 or indices.max() >= len(points):
             return None
         return Shape(points.astype(np.float64), counts.astype(np.int64), indices.astype(np.int64))
     if prim.IsA(UsdGeom.Curves) or prim.IsA(UsdGeom.Points):
         return None
     extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(prim), Usd.TimeCode.Default())
-    return box_shape(*_corners(extent)) if extent else None
+    return box_shape(*_corners(extent)) if extent and np.isfinite(np.asarray(extent)).all() else None
 
 
 def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -61,6 +61,11 @@ class Shape:
         return np.stack([self.indices, self.indices[after]], axis=1)
 
     @cached_property
+    def lowest(self) -> float:
+        """Least height of its points."""
+        return float(self.points[:, 1].min())
+
+    @cached_property
     def whole(self) -> Piece:
         """All of it as one piece."""
         return _piece(self.points)
@@ -133,8 +138,9 @@ class Body(NamedTuple):
 
     def low_m(self) -> float:
         """Its least height in the world."""
-        whole = self.shape.whole
-        return float(self._placed(whole)[1])
+        if self._is_upright:
+            return float(self.shape.lowest * self.matrix[1, 1] + self.matrix[3, 1])
+        return float(self.world_points()[:, 1].min())
 
     def pieces(self, *, whole: bool = False) -> list[tuple[Array, float, float]]:
         """Outline (x, z), least and greatest height in the world of each connected piece, or of all in one."""
@@ -142,11 +148,17 @@ class Body(NamedTuple):
 
     def _placed(self, piece: Piece) -> tuple[Array, float, float]:
         turn, move = self.matrix[:3, :3], self.matrix[3, :3]
-        upright = np.abs(turn[1, [0, 2]]).max() < _LEVEL and np.abs(turn[[0, 2], 1]).max() < _LEVEL
-        if upright and turn[1, 1] > 0:
-            flat, rise = turn[np.ix_([0, 2], [0, 2])], turn[1, 1]
-            return piece.outline @ flat + move[[0, 2]], piece.low_m * rise + move[1], piece.high_m * rise + move[1]
+        if self._is_upright:
+            flat, rise = turn[::2, ::2], float(turn[1, 1])
+            return piece.outline @ flat + move[::2], piece.low_m * rise + move[1], piece.high_m * rise + move[1]
         return _piece(piece.points @ turn + move)[1:]
+
+    @property
+    def _is_upright(self) -> bool:
+        """Whether it is turned about the vertical only."""
+        turn = self.matrix
+        tilt = max(abs(turn[1, 0]), abs(turn[1, 2]), abs(turn[0, 1]), abs(turn[2, 1]))
+        return bool(tilt < _LEVEL and turn[1, 1] > 0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,6 +37,16 @@ class Solid(NamedTuple):
     bottom_m: float
     top_m: float
 
+    @property
+    def centre(self) -> tuple[float, float]:
+        """(x, z) of its middle, to the millimetre."""
+        return round(self.footprint.centroid.x, 3), round(self.footprint.centroid.y, 3)
+
+    @property
+    def kind(self) -> str:
+        """Its class in words."""
+        return self.label.replace("_", " ") or "object without a label"
+
 
 class Solids:
     """The solid pieces of all objects.

@@ -4,19 +4,20 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.checks.lane_reader import DrivenGround, read_lanes
 from garage2usd.checks.scene import RectLight, read_scene
 from garage2usd.checks.subject import Point, Subject
-from garage2usd.errors import ConfigError
+from garage2usd.errors import ConfigError, StageError
 from garage2usd.grid import Structure, cells_from_text
 from garage2usd.layout import ObjectKind, Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.stage.reading import open_stage
 
-__all__ = ["profile_name", "stage_subject"]
+__all__ = ["profile_name", "stage_subject", "subject_of_stage"]
 
 _LANE_MARGIN_M = 0.7
 """What the sides of a square have over the carriageway between its columns, where no structure tells."""
@@ -31,11 +32,19 @@ def stage_subject(path: Path) -> Subject:
         If it cannot be opened.
     """
     stage = open_stage(path)
+    try:
+        return subject_of_stage(stage, source=str(path))
+    except RecursionError:
+        raise StageError(str(path), "its prims are nested too deeply to be read") from None
+
+
+def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
+    """Read a stage that is open, as it is composed now."""
     ground, scene = read_lanes(stage), read_scene(stage)
     structure = _structure(stage)
     lane_lux, stall_lux = _illuminances(ground, scene.lights, structure)
     return Subject(
-        source=str(path),
+        source=source,
         kind="stage",
         stalls=tuple(ground.stalls),
         nodes=tuple(ground.nodes),
@@ -96,7 +105,7 @@ def _illuminances(
     )
 
 
-def _mean_lux(points: np.ndarray, tubes: list[Placement]) -> float | None:  # type: ignore[type-arg]
+def _mean_lux(points: NDArray[np.float64], tubes: list[Placement]) -> float | None:
     if not len(points):
         return None
     total = np.zeros(len(points))

@@ -41,7 +41,7 @@ def _short(subject: Subject, clause: Length | None, side: str, word: str) -> Ite
 @BOOK.rule("stall-overlap", asks="stalls do not overlap")
 def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
     stalls = subject.stalls
-    shrunk = [stall.polygon.buffer(-_TOUCH_M) for stall in stalls]
+    shrunk = np.array([stall.polygon.buffer(-_TOUCH_M) for stall in stalls], dtype=object)
     first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
     for one, other in zip(first.tolist(), second.tolist(), strict=True):
         if one < other:
@@ -62,8 +62,7 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
     for stall in subject.parking_stalls:
         for solid in standing_in(stall, subject):
             if solid.label not in _BELONGS:
-                what = solid.label.replace("_", " ") or "object without a label"
-                yield Miss(stall.name, stall.centre, f"a {what} stands in the stall: {solid.name}")
+                yield Miss(stall.name, stall.centre, f"a {solid.kind} stands in the stall: {solid.name}")
                 break
 
 
@@ -111,9 +110,7 @@ def _too_high(subject: Subject, clause: Length | None, label: str) -> Iterator[M
             highest[solid.name] = solid
     for name, solid in highest.items():
         if solid.top_m > clause.amount + ROUNDING_M:
-            yield Miss(
-                name, _centre(solid.footprint), f"the {label.replace('_', ' ')} is too high", solid.top_m, clause.amount
-            )
+            yield Miss(name, solid.centre, f"the {solid.kind} is too high", solid.top_m, clause.amount)
 
 
 def standing_in(stall: StallOutline, subject: Subject) -> list[Solid]:

@@ -234,6 +234,11 @@ class Subject:
             joined[edge.end].append(edge.start)
         return tuple(map(tuple, joined))
 
+    @property
+    def has_whole_graph(self) -> bool:
+        """Whether nodes and edges fit together, so that what is cut off is cut off."""
+        return all(fault.rule != "lane-graph" for fault in self.faults)
+
     def portals(self, *kinds: str) -> list[int]:
         """Numbers of the nodes of some kinds."""
         return [number for number, node in enumerate(self.nodes) if node.kind in kinds]

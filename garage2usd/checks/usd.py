@@ -15,6 +15,7 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 _LABELS = "semantics:labels"
 _LABELS_SCHEMA = "SemanticsLabelsAPI:"
+_UNRESOLVED = "UnresolvableDependency"
 _APPROXIMATIONS = {
     "none",
     "boundingCube",
@@ -127,13 +128,19 @@ def _opinions_inside_instances(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("absolute-path", asks="no file is referred to by an absolute path, which is missing on other machines")
 def _absolute_paths(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for layer in subject.stage.GetUsedLayers() if subject.stage else ():
+    for path, layer in _absolute(subject.stage):
+        yield Miss(path, None, f"an absolute path in {layer}")
+
+
+def _absolute(stage: Usd.Stage | None) -> Iterator[tuple[str, str]]:
+    """Each absolute path, and the name of the layer that it stands in."""
+    for layer in stage.GetUsedLayers() if stage else ():
         if layer.anonymous:
             continue
         for paths in UsdUtils.ExtractExternalReferences(layer.identifier):
             for path in paths:
                 if Path(path).is_absolute() or PureWindowsPath(path).is_absolute():
-                    yield Miss(path, None, f"an absolute path in {Path(layer.identifier).name}")
+                    yield path, Path(layer.identifier).name
 
 
 @BOOK.rule("unbound-mesh", asks="every mesh has a material")
@@ -154,7 +161,11 @@ def _validation(subject: Subject, _: Profile) -> Iterator[Miss]:
     ]
     errors = [*context.Validate(subject.stage, Usd.PrimDefaultPredicate), *(context.Validate(shared) if shared else ())]
     seen = set()
+    absolute = [path for path, _ in _absolute(subject.stage)]
     for error in errors:
+        # a path that is absolute, and so missing here, has a rule of its own
+        if error.GetName() == _UNRESOLVED and any(path in error.GetMessage() for path in absolute):
+            continue
         sites = [str(site.GetPrim().GetPath()) for site in error.GetSites() if site.IsPrim()]
         miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {' '.join(error.GetMessage().split())}")
         if miss not in seen:

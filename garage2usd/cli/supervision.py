@@ -10,11 +10,11 @@ from typing import NoReturn
 
 from garage2usd.limits import enforce
 
-__all__ = ["SUPERVISED", "supervise"]
+__all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
 SUPERVISED = frozenset({"check", "render", "view"})
 """The commands that open stages which anybody may have written."""
-_CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
+CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
 _FAILED = 1
 
 
@@ -46,7 +46,7 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
     if number == signal.SIGXCPU:
         sys.stderr.write(f"Error: {name} takes too long for so small a stage: it composes without an end in sight\n")
         sys.exit(_FAILED)
-    if number in _CRASHES:
+    if number in CRASHES:
         said = signal.strsignal(number) or f"signal {number}"
         sys.stderr.write(
             f"Error: {name} crashed ({said.lower()}): the stage is damaged, or too large for this machine\n"

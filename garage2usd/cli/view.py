@@ -36,12 +36,12 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
     with ViewerServer(port) as server:
         try:
             click.echo(f"{path.name} at {server.url}")
-            if not no_browser:
-                # the browser starts while the stage is read
-                threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
             scene = read_scene(stage, path)
             server.show(scene)
+            # not before: the browser would inherit the limits of a process that reads a stage
             lift_seconds()
+            if not no_browser:
+                threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
             shown = f"{len(scene.objects)} objects of {len(scene.counts())} classes"
             click.echo(f"{shown}, read in {time.perf_counter() - start:.1f} s; Ctrl-C ends")
             threading.Event().wait()

@@ -102,7 +102,12 @@ def _exits(profile: Profile, settings: Mapping[str, Any], side_m: float, column_
     default = int(_default(SiteConfig, "exits"))
     if profile.portals is None:
         return default
-    rows, cols = (_whole(settings, key, fallback) for key, fallback in (("height_cells", 7), ("width_cells", 9)))
+    height, width = SiteConfig().shape
+    rows, cols = _whole(settings, "height_cells", height), _whole(settings, "width_cells", width)
+    site = settings.get("site")
+    contour = site.get("contour") if isinstance(site, Mapping) else getattr(site, "contour", None)
+    if isinstance(contour, str):
+        rows, cols = 1, contour.count(".")
     in_a_square = max(math.floor((side_m - column_m + 1e-9) / width_m), 1)
     most_stalls = (2 * rows * cols + 2) // 3 * in_a_square
     entrances = _whole(settings, "entrances", int(_default(SiteConfig, "entrances")))

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from garage2usd.settings import Settings
 
-__all__ = ["Agent", "Choice", "DeadEnds", "PlanConfig", "SarsaParameters"]
+__all__ = ["Agent", "Choice", "DeadEnds", "PlanConfig", "SarsaParameters", "UnreachableStalls"]
 
 
 class DeadEnds(StrEnum):
@@ -36,6 +36,15 @@ class Choice(StrEnum):
     BEST = "best"
     DRAW = "draw"
     """Any above the quality floor, by seed."""
+
+
+class UnreachableStalls(StrEnum):
+    """What becomes of stalls that the design car does not get into and out of without a touch."""
+
+    KEEP = "keep"
+    """They are stalls as the others; nothing is proven."""
+    MARK = "mark"
+    """Each stall is proven, and those without ways are hatched and kept free."""
 
 
 class SarsaParameters(NamedTuple):
@@ -133,6 +142,10 @@ class PlanConfig(Settings):
     dead_ends: DeadEnds = DeadEnds.STANDARD
     """'allow', 'forbid', or 'standard': a dead-end aisle over 26 m keeps a turning stall free, which the planner
     counts as one stall lost."""
+
+    unreachable_stalls: UnreachableStalls = UnreachableStalls.KEEP
+    """'keep', or 'mark': stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and out of
+    without a touch are hatched and kept free."""
 
     choice: Choice = Choice.BEST
     """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 
@@ -136,35 +136,49 @@ class _Garage:
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
     def proof_of(self, stall: Stall) -> StallProof:
+        """The ways of one stall, or what is in their way."""
+        full = self._seen_from(stall, self.full)
         touched: list[str] = []
-        for is_full, obstacles in ((True, self.full), (False, self.as_it_stands)):
-            near = self._seen_from(stall, obstacles)
+        for obstacles in (full, self._seen_from(stall, self.as_it_stands)):
+            is_full = obstacles is full
+            if not is_full and len(obstacles.pieces) == len(full.pieces):
+                continue
             for backing in (False, True):
+                if backing and not self._has_backing(stall):
+                    continue
                 for nose in Nose:
-                    way_in, way_out, in_the_way = self._ways(stall, nose, near, backing=backing)
+                    way_in, way_out, in_the_way = self._ways(stall, nose, obstacles, self.limits, backing=backing)
                     if way_in and way_out:
                         return StallProof(stall.name, nose, way_in, way_out, is_full, backing)
                     touched += in_the_way
         suspects = tuple(dict.fromkeys(touched))
-        near = self._seen_from(stall, self.full)
-        causes = tuple(name for name in suspects[:_SUSPECTS] if self._is_proven(stall, near.without([name])))
+        causes = tuple(name for name in suspects[:_SUSPECTS] if self._is_proven(stall, full.without([name])))
         return StallProof(stall.name, touched=causes or suspects, is_single_cause=bool(causes))
+
+    def _has_backing(self, stall: Stall) -> bool:
+        """Whether backing out of a dead end gives more lane poses near a stall."""
+        forward, backing = (
+            self.poses_at(stall.access_square, to_leave=True, backing=backing)[1] for backing in (False, True)
+        )
+        return len(backing) > len(forward)
 
     def _seen_from(self, stall: Stall, obstacles: Obstacles) -> Obstacles:
         near = obstacles.near(stall.centre_m, 1.5 * (self.limits.reach_m + self.car.length_m))
         return near.without(own_objects(stall, near))
 
     def _is_proven(self, stall: Stall, obstacles: Obstacles) -> bool:
-        return any(all(self._ways(stall, nose, obstacles, backing=True)[:2]) for nose in Nose)
+        """Whether there are ways, looked for roughly."""
+        limits = replace(self.limits, is_thorough=False)
+        return any(all(self._ways(stall, nose, obstacles, limits, backing=True)[:2]) for nose in Nose)
 
     def _ways(
-        self, stall: Stall, nose: Nose, obstacles: Obstacles, *, backing: bool
+        self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
     ) -> tuple[Manoeuvre | None, Manoeuvre | None, Sequence[str]]:
         """The way in, the way out, and what was touched where one is missing."""
         parked = self.car.centred(stall.centre_m, stall.yaw_rad + nose.turn_rad)
 
         def way(poses: list[LanePose]) -> tuple[Manoeuvre | None, tuple[str, ...]]:
-            found = find_way(self.car, parked, obstacles, poses, self.limits)
+            found = find_way(self.car, parked, obstacles, poses, limits)
             return found.way, found.touched
 
         both, leave = self.poses_at(stall.access_square, to_leave=True, backing=backing)
@@ -172,6 +186,8 @@ class _Garage:
         out, touched = way(both)
         if out is not None:
             return out.reversed(), out, ()
-        out, touched_out = (None, touched) if len(leave) == len(both) else way(leave)
-        into, touched_in = (None, touched) if len(arrive) == len(both) else way(arrive)
-        return into.reversed() if into else None, out, (*touched_in, *touched_out)
+        out, touched = way(leave) if len(leave) > len(both) else (None, touched)
+        if out is None:
+            return None, None, touched
+        into, touched = way(arrive) if len(arrive) > len(both) else (None, touched)
+        return into.reversed() if into else None, out, touched

@@ -59,10 +59,6 @@ class Obstacles:
         """Left, top, right and bottom of each piece; shape (pieces, 4)."""
         return np.concatenate([self.pieces.min(axis=1), self.pieces.max(axis=1)], axis=1)
 
-    @cached_property
-    def _numbers(self) -> dict[str, int]:
-        return {name: number for number, name in enumerate(self.names)}
-
     def named(self, pieces: Iterable[int]) -> tuple[str, ...]:
         """Names of what some pieces belong to, each once, in order."""
         return tuple(dict.fromkeys(self.names[self.owner[piece]] for piece in pieces))
@@ -76,7 +72,8 @@ class Obstacles:
 
     def without(self, names: Iterable[str]) -> "Obstacles":
         """The same but for some names."""
-        numbers = [self._numbers[name] for name in names if name in self._numbers]
+        left_out = set(names)
+        numbers = [number for number in np.unique(self.owner).tolist() if self.names[number] in left_out]
         return self.kept(~np.isin(self.owner, numbers))
 
     def kept(self, is_kept: NDArray[np.bool_]) -> "Obstacles":

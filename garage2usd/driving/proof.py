@@ -54,11 +54,14 @@ class Limits:
         Most of them, between lane and stall.
     reach_m
         How far from the stall the rear axle goes along either axis of the lanes.
+    is_thorough
+        Whether fine steps are tried where coarse ones found nothing; it takes about half a second a stall.
     """
 
     margin_m: float = 0.05
     gear_changes: int = 4
     reach_m: float = 12.0
+    is_thorough: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +83,7 @@ class Search:
     is_exhausted: bool = False
 
 
-_PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 524_288))
+_PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 131_072))
 """Length of a straight step in metres and most places looked at: coarse first, then fine."""
 
 
@@ -126,10 +129,9 @@ def find_way(
     standing = _standing(start, local, body, limits.margin_m)
     if standing:
         return Search(None, standing, is_exhausted=True)
-    found, steps = 0, np.empty((0, 3))
-    for straight_m, effort in _PASSES:
-        touched[:] = 0
-        found, steps = search(
+
+    def look(goals: Floats, straight_m: float, effort: int) -> tuple[int, Floats]:
+        return search(
             start,
             goals,
             local.pieces,
@@ -143,6 +145,21 @@ def find_way(
             effort,
             touched,
         )
+
+    found, steps = 0, np.empty((0, 3))
+    for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
+        touched[:] = 0
+        found, steps = look(goals, straight_m, effort)
+        headings = np.unique(goals[:, 0])
+        if found < 0 and len(headings) > 1:
+            # a lane that is out of reach may draw the search away from another one: each direction for itself
+            outcomes = []
+            for heading in headings:
+                outcome, steps = look(goals[goals[:, 0] == heading], straight_m, effort)
+                outcomes.append(outcome)
+                if outcome > 0:
+                    break
+            found = 1 if 1 in outcomes else min(outcomes)
         if found > 0:
             break
     if found <= 0:

@@ -34,6 +34,8 @@ _MIRRORS_FROM_NOSE_M = (1.05, 1.75)
 _WHEEL_STOP_M, _CONE_M, _SIGN_M = 0.15, 0.38, 0.6
 _CHARGER = s.rectangle(-0.16, -0.045, 0.16, 0.065)
 _GATE = (s.rectangle(-0.2, -0.2, 0.2, 0.2), s.rectangle(-0.17, -1.9, 0.17, -1.5))
+_CORE_DOOR_M = (1.2, 0.09)
+"""Width of the door of a stair core with its frame, and how far it stands out of the wall."""
 _FRAME_PROUD_M = 0.02
 _ARM_Z_M = (0.18, 0.26)
 
@@ -78,7 +80,7 @@ def object_name(place: Placement) -> str:
 def own_objects(stall: Stall, obstacles: Obstacles) -> list[str]:
     """Names of what is a stall's own and not in the way of a car that parks there: its car, wheel stop and cones."""
     cone = _on_square("Cone", stall) + "_"
-    cones = [name for name in obstacles.names if name.startswith(cone)]
+    cones = [name for name in obstacles.named(range(len(obstacles.owner))) if name.startswith(cone)]
     return [_on_square("Car", stall), _on_square("WheelStop", stall), *cones]
 
 
@@ -120,11 +122,13 @@ def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901 - a case for e
             yield _square(spec.side_m)
         case s.ObstacleSpec():
             yield s.rectangle(-spec.width_m / 2, -spec.depth_m / 2, spec.width_m / 2, spec.depth_m / 2)
+            half, face = min(_CORE_DOOR_M[0] / 2, spec.width_m / 2), spec.depth_m / 2
+            yield s.rectangle(-half, face, half, face + _CORE_DOOR_M[1])
         case s.ColumnSpec():
             yield _square(spec.size_m)
         case s.BarrierSpec():
             yield from _GATE
-            yield s.rectangle(-spec.arm_m, _ARM_Z_M[0], 0.0, _ARM_Z_M[1])
+            yield s.rectangle(-spec.arm_m, _ARM_Z_M[0], _ARM_Z_M[1] - _ARM_Z_M[0], _ARM_Z_M[1])
         case s.WheelStopSpec():
             yield s.rectangle(-spec.length_m / 2, -_WHEEL_STOP_M / 2, spec.length_m / 2, _WHEEL_STOP_M / 2)
         case s.ChargerSpec():

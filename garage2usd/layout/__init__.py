@@ -1,6 +1,6 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -76,7 +76,9 @@ class Layout:
         return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
-def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Layout:
+def lay_out(
+    structure: Structure, graph: LaneGraph, config: GarageConfig, *, unreachable: Collection[str] = ()
+) -> Layout:
     """Place every object of a garage.
 
     Parameters
@@ -87,6 +89,8 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
         Its lane graph, with every stall reached.
     config
         Sizes, fittings, parking and seed.
+    unreachable
+        Names of stalls that are hatched and kept free.
 
     Returns
     -------
@@ -105,7 +109,10 @@ def lay_out(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Lay
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
-    stalls = stalls_of(grid, graph, bay)
+    stalls = tuple(
+        replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall
+        for stall in stalls_of(grid, graph, bay)
+    )
     if config.plan.dead_ends is DeadEnds.STANDARD:
         long_ends = [end for end in dead_ends(structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)

@@ -122,7 +122,7 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
             spec.height_m,
             spec.thickness_m,
             door_width_m=round(door_width_m, 6),
-            door_height_m=round(max(fittings.clear_height_m, spec.height_m - 2 * _DOOR_HEAD_M), 6),
+            door_height_m=round(max(fittings.clear_height_m + DOOR_FRAME_M, spec.height_m - 2 * _DOOR_HEAD_M), 6),
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
     # the inner face looks back over the edge into the square

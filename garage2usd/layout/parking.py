@@ -37,7 +37,11 @@ _COATINGS = {
     StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE,
     StallUse.ACCESS_AISLE: Surface.STALL_ACCESSIBLE,
 }
-_HATCHES = {StallUse.TURNING: Surface.PAINT_YELLOW, StallUse.ACCESS_AISLE: Surface.PAINT_WHITE}
+_HATCHES = {
+    StallUse.TURNING: Surface.PAINT_YELLOW,
+    StallUse.ACCESS_AISLE: Surface.PAINT_WHITE,
+    StallUse.UNREACHABLE: Surface.PAINT_YELLOW,
+}
 
 
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
@@ -193,7 +197,9 @@ def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, b
                 raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
             if holds_car and not uses[name].takes_cars:
                 raise ConfigError(
-                    f"parking.{field}", name, "stalls that are not kept free for turning or for wheelchairs"
+                    f"parking.{field}",
+                    name,
+                    "stalls that are not kept free for turning, for wheelchairs or as out of reach",
                 )
             named[name] = holds_car
     if parking.occupied_stalls is not None:

@@ -55,11 +55,13 @@ class StallUse(StrEnum):
     """For people with a disability, beside an access aisle."""
     ACCESS_AISLE = "access_aisle"
     """Hatched and kept free, so that wheelchairs get to the accessible stalls beside it."""
+    UNREACHABLE = "unreachable"
+    """Hatched and kept free, because cars do not get into it and out of it."""
 
     @property
     def takes_cars(self) -> bool:
         """Whether cars park there."""
-        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE}
+        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE, StallUse.UNREACHABLE}
 
 
 @dataclass(frozen=True, slots=True)

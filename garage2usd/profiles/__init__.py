@@ -10,12 +10,13 @@ from pydantic import ValidationError
 
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
-from garage2usd.profiles.clauses import Clause, Confidence, Length, LengthRange, Severity, Steps
+from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
 from garage2usd.profiles.profile import Profile
 
 __all__ = [
     "DEFAULT_PROFILE",
     "PROFILE_NAMES",
+    "Area",
     "Clause",
     "Confidence",
     "Length",

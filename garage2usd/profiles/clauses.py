@@ -10,6 +10,7 @@ from garage2usd.settings import Settings
 
 __all__ = [
     "Amount",
+    "Area",
     "Clause",
     "Confidence",
     "Count",

@@ -195,16 +195,19 @@ def test_colours_fit_the_masks_where_they_lie(data_set):
         assert here < min(moved)
 
 
-def test_ids_of_more_than_fifteen_bits_stay_exact(data_set, tmp_path):
+def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(data_set, tmp_path):
     made = data_set("instanced")
     shutil.copytree(made.stage.parent, tmp_path / "stage")
     stage = tmp_path / "stage" / made.stage.name
     table = {**made.labels, "objects": [{**entry, "id": entry["id"] * 8191} for entry in made.labels["objects"]]}
     stage.with_name(f"{stage.stem}_labels.json").write_text(json.dumps(table))
     assert 2**15 < max(entry["id"] for entry in table["objects"]) < 2**24
-    render_stage(stage, tmp_path / "out", size_px=SIZE, cameras=("Inside",), pictures=[Picture.INSTANCE])
+    kinds = [Picture.COLOUR, Picture.DEPTH, Picture.INSTANCE]
+    render_stage(stage, tmp_path / "out", size_px=SIZE, cameras=("Inside",), samples=4, pictures=kinds)
     digits = np.asarray(Image.open(tmp_path / "out" / "instance" / "Inside.png")).astype(int)
     assert (digits @ [1, 256, 65536] == made.frames[0].instance * 8191).all()
+    for name in ("colour/Inside.png", "depth/Inside.exr"):
+        assert (tmp_path / "out" / name).read_bytes() == (made.folder / name).read_bytes()
 
 
 def test_a_kill_in_mid_render_leaves_no_file_and_no_blender(builds, tmp_path):

@@ -449,6 +449,18 @@ MUTANTS = (
         "partOfFace[face] = parts.Count - 1;",
         "partOfFace[face] = 0;",
     ),
+    Mutant(
+        "meshes-alike-in-their-arrays-alone",
+        SCENE + "MeshMemo.cs",
+        "value == null || value.IsArray ? value : (object)value.Text ?? value.Number(0)",
+        "value == null || value.IsArray ? value : null",
+    ),
+    Mutant(
+        "meshes-alike-but-for-their-interpolation",
+        SCENE + "MeshMemo.cs",
+        'parts.Add(property.MetadataText("interpolation"));',
+        "",
+    ),
     # ---- materials and lights
     Mutant(
         "binding-purposes",

@@ -12,7 +12,7 @@ from sample_files import SAMPLES
 from garage2usd.stalls import Edge
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "irregular")
-FORMS = [("usdc", None), ("usdz", "nested"), ("usda", "flat")]
+FORMS = [("usda", None), ("usdz", "nested"), ("usdc", "flat")]
 HEIGHT_M = 0.05
 PAIRS = 150
 

@@ -35,7 +35,7 @@ namespace Garage.Unity
             get { return type; }
         }
 
-        /// <summary>"standard", "turning", "ev", "accessible" or "access_aisle".</summary>
+        /// <summary>"standard", "turning", "ev", "accessible", "access_aisle" or "unreachable".</summary>
         public string Use
         {
             get { return use; }
@@ -62,7 +62,7 @@ namespace Garage.Unity
         /// <summary>Whether cars park there.</summary>
         public bool TakesCars
         {
-            get { return use != "turning" && use != "access_aisle"; }
+            get { return use != "turning" && use != "access_aisle" && use != "unreachable"; }
         }
 
         /// <summary>0 mouth left, 1 mouth right, 2 rear right, 3 rear left, as the stage has them; metres in the

@@ -3,15 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
-from scipy.spatial import ConvexHull, QhullError
 
 from garage2usd.view.viewer.meshes import Triangles
+from garage2usd.view.viewer.scene import Collider, moved
 
 __all__ = ["collider_lines", "collider_of"]
 
 _BOXES = frozenset({"boundingCube"})
 _HULLS = frozenset({"convexHull", "convexDecomposition", "boundingSphere"})
-_CREASE_COS = 0.9995
+_CREASE_COS = 0.99999
 _BOX_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b).bit_count() == 1]
 
 
@@ -25,14 +25,18 @@ def collider_of(prim: Usd.Prim) -> str:
     return str(prim.GetAttribute("physics:approximation").Get() or "none")
 
 
-def collider_lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
-    """Pairs of points in the mesh's space that draw a collider: edges of the box, of the hull, or creases of the mesh.
+def collider_lines(collider: Collider) -> NDArray[np.float32]:
+    """Pairs of points that draw a collider in its object's space: edges of the box or hull, or creases of the mesh.
 
     Returns
     -------
     numpy.ndarray
-        float32, shape (lines, 2, 3), in metres of the stage.
+        float32, shape (lines, 2, 3), in units of the stage.
     """
+    return moved(_lines(collider.mesh, collider.approximation), collider.matrix)
+
+
+def _lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
     points = mesh.positions_m
     if approximation in _BOXES:
         least, greatest = points.min(axis=0), points.max(axis=0)
@@ -40,6 +44,8 @@ def collider_lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
         return corners[_BOX_EDGES].astype(np.float32)
     triangles = mesh.indices.astype(np.int64)
     if approximation in _HULLS:
+        from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - few ask for colliders, all wait for imports
+
         try:
             triangles = ConvexHull(points).simplices
         except QhullError:  # flat: its own triangles draw it as well
@@ -60,4 +66,5 @@ def _creases(points: NDArray[np.float32], triangles: NDArray[np.int64]) -> NDArr
     # an edge is flat where all its triangles have the first one's normal, whichever way they face
     along = np.abs((normal_of * normal_of[first][inverse.ravel()]).sum(axis=1)) > _CREASE_COS
     flat = np.bincount(inverse.ravel(), weights=along) == counts
-    return points[ends[first[~(flat & (counts > 1))]]].astype(np.float32)
+    lines: NDArray[np.float32] = points[ends[first[~(flat & (counts > 1))]]]
+    return lines

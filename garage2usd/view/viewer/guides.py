@@ -14,17 +14,17 @@ _FACTS = ("id", "number", "type", "use", "row", "column", "entryEdge", "accessNo
 _CORNERS = 4
 
 
-def lane_curves(stage: Usd.Stage, to_metres: NDArray[np.float64]) -> LaneCurves | None:
+def lane_curves(guides: Sequence[Usd.Prim], to_metres: NDArray[np.float64]) -> LaneCurves | None:
     """What the curves ``Nodes``, ``Edges`` and ``Stalls`` say (see docs/stage.md); None where there are none.
 
     Parameters
     ----------
-    stage
-        The stage.
+    guides
+        Prims at and below which to look for them.
     to_metres
         From the stage's space to metres, Y up; shape (4, 4), points as rows.
     """
-    curves = [prim for prim in stage.Traverse() if prim.GetTypeName() == "BasisCurves"]
+    curves = [prim for root in guides for prim in Usd.PrimRange(root) if prim.GetTypeName() == "BasisCurves"]
     nodes = next((prim for prim in curves if prim.HasAttribute("garage:lane:kind")), None)
     edges = next((prim for prim in curves if prim.HasAttribute("garage:lane:from")), None)
     stalls = next((prim for prim in curves if prim.HasAttribute("garage:stall:id")), None)

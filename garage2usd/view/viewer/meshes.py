@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,8 +94,8 @@ def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "
 
     Notes
     -----
-    Polygons are cut into fans. Without authored normals a mesh is faceted, or smooth where it asks to be subdivided, which
-    is not done. Faces that name missing points are left out, as a renderer would.
+    Polygons are cut into fans. Without authored normals a mesh is faceted, or smooth where it asks to be subdivided,
+    which is not done. Faces that name missing points are left out, as a renderer would.
     """
     if prim.GetTypeName() != "Mesh":
         return _of_solid(prim, time)
@@ -174,14 +175,14 @@ def _normals(
         values, interpolation = mesh.GetNormalsAttr().Get(time), mesh.GetNormalsInterpolation()
     authored = _at_corners(values, interpolation, 3, len(points), corners, fans, face_of)
     if authored is not None:
-        lengths = np.linalg.norm(authored, axis=2, keepdims=True)
-        return np.where(lengths > 0, authored / np.maximum(lengths, 1e-12), [0, 1, 0]).astype(np.float32)
+        return _unit(authored)
     places = points[corners[fans]].astype(np.float64)
     areas = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
     if mesh.GetSubdivisionSchemeAttr().Get(time) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
-        return _unit(sums)[corners[fans]]
+        smooth: NDArray[np.float32] = _unit(sums)[corners[fans]]
+        return smooth
     return np.repeat(_unit(areas)[:, None], 3, axis=1)
 
 
@@ -211,10 +212,13 @@ def _at_corners(
         return None
     found = np.asarray(values, dtype=np.float32).reshape(-1, width)
     tokens = UsdGeom.Tokens
+    taken: NDArray[np.float32]
     if interpolation == tokens.faceVarying and len(found) == len(corners):
-        return found[fans]
+        taken = found[fans]
+        return taken
     if interpolation in {tokens.vertex, tokens.varying} and len(found) == points:
-        return found[corners[fans]]
+        taken = found[corners[fans]]
+        return taken
     if interpolation == tokens.uniform and face_of is not None and len(found) > face_of.max():
         return np.repeat(found[face_of][:, None], 3, axis=1)
     if interpolation == tokens.constant and len(found) == 1:
@@ -222,9 +226,12 @@ def _at_corners(
     return None
 
 
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float32]:
+def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.where(lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]).astype(np.float32)
+    unit: NDArray[np.float32] = np.where(
+        lengths > _SMALLEST_M2, vectors / np.maximum(lengths, _SMALLEST_M2), [0, 1, 0]
+    ).astype(np.float32)
+    return unit
 
 
 def _welded(

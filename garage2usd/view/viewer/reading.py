@@ -1,8 +1,8 @@
 """A stage's file read as a scene."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     """
     to_metres = _to_metres(stage)
     walk = StageWalk(stage)
-    objects = [replace(placed, matrix=placed.matrix @ to_metres) for placed in walk.objects()]
+    objects = walk.objects(to_metres)
     if not objects:
         raise StageError(path, "nothing in it can be drawn")
     remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(walk.undrawn.items())]
@@ -47,7 +47,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         shapes=walk.shapes,
         palettes=walk.palettes,
         surfaces=walk.surfaces,
-        lanes=lane_curves(stage, to_metres),
+        lanes=lane_curves(walk.hidden, to_metres),
         ids=_ids(path),
         bounds_m=_bounds_m(objects, walk.shapes),
         remarks=remarks,
@@ -82,16 +82,18 @@ def _ids(path: Path) -> dict[str, int]:
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:
-    boxes = [_corners(shape) for shape in shapes]
-    corners = np.concatenate([moved(boxes[placed.shape], placed.matrix) for placed in objects])
-    return np.stack([corners.min(axis=0), corners.max(axis=0)]).astype(np.float64)
+    boxes = np.array([_corners(shape) for shape in shapes])
+    matrices = np.array([placed.matrix for placed in objects])
+    corners = boxes[[placed.shape for placed in objects]] @ matrices[:, :3, :3] + matrices[:, 3:, :3]
+    bounds: NDArray[np.float64] = np.stack([corners.min(axis=(0, 1)), corners.max(axis=(0, 1))])
+    return bounds
 
 
 def _corners(shape: Shape) -> NDArray[np.float64]:
     """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
-    points = [moved(part.positions_m, matrix) for part, matrix in zip(shape.parts, shape.matrices, strict=True)] or [
-        light.matrix[3:, :3] for light in shape.lights
-    ]
+    points: list[NDArray[Any]] = [light.matrix[3:, :3] for light in shape.lights]
+    if shape.parts:
+        points = [moved(part.positions_m, place) for part, place in zip(shape.parts, shape.matrices, strict=True)]
     every = np.concatenate(points)
     pair = np.stack([every.min(axis=0), every.max(axis=0)])
     return np.array([[pair[c >> axis & 1, axis] for axis in range(3)] for c in range(8)], dtype=np.float64)

@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.meshes import Triangles
 from garage2usd.view.viewer.surfaces import Surface
 
@@ -16,9 +16,10 @@ UNLABELLED = "unlabelled"
 """Class of what the stage gives no semantic label."""
 
 
-def moved(points_m: NDArray[np.floating], place: NDArray[np.float64]) -> NDArray[np.float32]:
+def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.float32]:
     """Points, shape (..., 3), in another space; `place` is of shape (4, 4), points as rows."""
-    return (points_m @ place[:3, :3] + place[3, :3]).astype(np.float32)
+    found: NDArray[np.float32] = (points_m @ place[:3, :3] + place[3, :3]).astype(np.float32)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,17 +30,13 @@ class Collider:
     ----------
     approximation
         UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``, ``boundingCube`` and others.
-    lines_m
-        Pairs of points in the object's space that draw it; float32, shape (lines, 2, 3).
+    mesh, matrix
+        The triangles, and where they stand in the object; float64, shape (4, 4), points as rows.
     """
 
     approximation: str
-    lines_m: NDArray[np.float32]
-
-    @classmethod
-    def around(cls, mesh: Triangles, approximation: str, place: NDArray[np.float64]) -> "Collider":
-        """The collider of a mesh that stands at `place`."""
-        return cls(approximation, moved(collider_lines(mesh, approximation), place))
+    mesh: Triangles
+    matrix: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

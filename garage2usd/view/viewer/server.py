@@ -1,6 +1,7 @@
 """The server of the viewer's page: this machine alone, fixed paths alone, nothing written."""
 
 import http.server
+import re
 import threading
 from collections.abc import Mapping, Sequence
 from http import HTTPStatus
@@ -13,14 +14,16 @@ from pxr import Ar
 
 from garage2usd.errors import OutputError
 from garage2usd.view.viewer.scene import Scene
-from garage2usd.view.viewer.wire import encode_scene, texture_paths
+from garage2usd.view.viewer.wire import encode_colliders, encode_scene, texture_paths
 
 __all__ = ["ViewerServer", "page_files"]
 
 HOST = "127.0.0.1"
 _TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".txt": "text/plain"}
-_SCENE, _TEXTURES = "/scene.bin", "/textures/"
+_SCENE, _COLLIDERS, _TEXTURES = "/scene.bin", "/colliders.bin", "/textures/"
+_BINARY = "application/octet-stream"
 _IMAGES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+_NUMBER = re.compile(r"[0-9]{1,6}")
 _MOST_TEXTURE_BYTES = 1 << 26
 _HEADERS = {
     # WebAssembly is what makes coarse meshes of fine ones
@@ -69,7 +72,8 @@ class ViewerServer:
     def __init__(self, port: int = 0) -> None:
         self.files = page_files()
         self._ready = threading.Event()
-        self._scene: _Answer | None = None
+        self._scene: Scene | None = None
+        self._encoded = b""
         self._textures: Sequence[str] = ()
         try:
             self._server = _Listener((HOST, port), _Handler)
@@ -110,21 +114,24 @@ class ViewerServer:
     def show(self, scene: Scene) -> None:
         """Answer requests for the scene, which wait until then."""
         self._textures = texture_paths(scene)
-        self._scene = "application/octet-stream", encode_scene(scene)
+        self._encoded = encode_scene(scene)
+        self._scene = scene
         self._ready.set()
 
     def answer(self, path: str) -> _Answer | None:
         """Type and bytes of what stands at a path; None for nothing."""
-        if path == _SCENE:
+        if path in {_SCENE, _COLLIDERS}:
             self._ready.wait()
-            return self._scene
+            if self._scene is None:
+                return None
+            return _BINARY, self._encoded if path == _SCENE else encode_colliders(self._scene)
         if path.startswith(_TEXTURES):
             return self._texture(path.removeprefix(_TEXTURES))
         return self.files.get(path)
 
     def _texture(self, number: str) -> _Answer | None:
         self._ready.wait()
-        if not (number.isascii() and number.isdecimal()) or int(number[:9]) >= len(self._textures):
+        if not _NUMBER.fullmatch(number) or int(number) >= len(self._textures):
             return None
         asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(self._textures[int(number)]))
         if not asset or asset.GetSize() > _MOST_TEXTURE_BYTES:

@@ -1,6 +1,7 @@
 """The simple shapes of UsdGeom as triangles."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ __all__ = ["solid_faces"]
 
 _SIDES = 24
 _CAP_RINGS = 6
+_Ring = tuple[float, float, float, float]
 _Corners = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 
@@ -28,32 +30,58 @@ def solid_faces(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners | None:
     tuple or None
         Both float32, shape (3 x triangles, 3), in metres of the stage; None for any other type of prim.
     """
-    kind = prim.GetTypeName()
-    if kind == "Cube":
-        return _cube(float(UsdGeom.Cube(prim).GetSizeAttr().Get(time)) / 2)
-    if kind == "Plane":
-        plane = UsdGeom.Plane(prim)
-        return _plane(plane.GetWidthAttr().Get(time) / 2, plane.GetLengthAttr().Get(time) / 2, _axis(plane, time))
-    if kind == "Sphere":
-        return _revolved(_arc(float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(time)), 0, math.pi), 2)
-    if kind == "Cylinder":
-        cylinder = UsdGeom.Cylinder(prim)
-        radius, half = cylinder.GetRadiusAttr().Get(time), cylinder.GetHeightAttr().Get(time) / 2
-        flat = [(0.0, half, 0.0, 1.0), (radius, half, 0.0, 1.0), (radius, half, 1.0, 0.0)]
-        return _revolved(flat + [(r, -y, nr, -ny) for r, y, nr, ny in reversed(flat)], _axis(cylinder, time))
-    if kind == "Cone":
-        cone = UsdGeom.Cone(prim)
-        radius, height = cone.GetRadiusAttr().Get(time), cone.GetHeightAttr().Get(time)
-        slope = math.hypot(radius, height) or 1.0
-        side, up = height / slope, radius / slope
-        bottom = [(radius, -height / 2, 0.0, -1.0), (0.0, -height / 2, 0.0, -1.0)]
-        return _revolved([(0.0, height / 2, side, up), (radius, -height / 2, side, up), *bottom], _axis(cone, time))
-    if kind == "Capsule":
-        capsule = UsdGeom.Capsule(prim)
-        radius, half = float(capsule.GetRadiusAttr().Get(time)), capsule.GetHeightAttr().Get(time) / 2
-        top = [(r, y + half, nr, ny) for r, y, nr, ny in _arc(radius, 0, math.pi / 2)]
-        return _revolved(top + [(r, -y, nr, -ny) for r, y, nr, ny in reversed(top)], _axis(capsule, time))
-    return None
+    make = _MAKERS.get(prim.GetTypeName())
+    return None if make is None else make(prim, time)
+
+
+def _cube_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    return _cube(float(UsdGeom.Cube(prim).GetSizeAttr().Get(time)) / 2)
+
+
+def _plane_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    plane = UsdGeom.Plane(prim)
+    return _plane(plane.GetWidthAttr().Get(time) / 2, plane.GetLengthAttr().Get(time) / 2, _axis(plane, time))
+
+
+def _sphere_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    return _revolved(_arc(float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(time)), math.pi), 2)
+
+
+def _cylinder_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    cylinder = UsdGeom.Cylinder(prim)
+    radius, half = cylinder.GetRadiusAttr().Get(time), cylinder.GetHeightAttr().Get(time) / 2
+    top = [(0.0, half, 0.0, 1.0), (radius, half, 0.0, 1.0), (radius, half, 1.0, 0.0)]
+    return _revolved(top + _upside_down(top), _axis(cylinder, time))
+
+
+def _cone_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    cone = UsdGeom.Cone(prim)
+    radius, height = cone.GetRadiusAttr().Get(time), cone.GetHeightAttr().Get(time)
+    slope = math.hypot(radius, height) or 1.0
+    side, up = height / slope, radius / slope
+    bottom = [(radius, -height / 2, 0.0, -1.0), (0.0, -height / 2, 0.0, -1.0)]
+    return _revolved([(0.0, height / 2, side, up), (radius, -height / 2, side, up), *bottom], _axis(cone, time))
+
+
+def _capsule_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+    capsule = UsdGeom.Capsule(prim)
+    radius, half = float(capsule.GetRadiusAttr().Get(time)), capsule.GetHeightAttr().Get(time) / 2
+    top = [(r, y + half, nr, ny) for r, y, nr, ny in _arc(radius, math.pi / 2)]
+    return _revolved(top + _upside_down(top), _axis(capsule, time))
+
+
+_MAKERS: dict[str, Callable[[Usd.Prim, Usd.TimeCode], _Corners]] = {
+    "Cube": _cube_of,
+    "Plane": _plane_of,
+    "Sphere": _sphere_of,
+    "Cylinder": _cylinder_of,
+    "Cone": _cone_of,
+    "Capsule": _capsule_of,
+}
+
+
+def _upside_down(profile: list[_Ring]) -> list[_Ring]:
+    return [(radius, -y, outwards, -upwards) for radius, y, outwards, upwards in reversed(profile)]
 
 
 def _axis(shape: UsdGeom.Gprim, time: Usd.TimeCode) -> int:
@@ -86,13 +114,13 @@ def _plane(half_width: float, half_length: float, axis: int) -> _Corners:
     return positions, np.tile(normal, (6, 1)).astype(np.float32)
 
 
-def _arc(radius: float, start: float, end: float) -> list[tuple[float, float, float, float]]:
-    rings = round(_CAP_RINGS * (end - start) / (math.pi / 2))
-    angles = np.linspace(start, end, rings + 1).tolist()
+def _arc(radius: float, end: float) -> list[_Ring]:
+    """The profile of a sphere from its top to an angle."""
+    angles = np.linspace(0, end, round(_CAP_RINGS * end / (math.pi / 2)) + 1).tolist()
     return [(radius * math.sin(a), radius * math.cos(a), math.sin(a), math.cos(a)) for a in angles]
 
 
-def _revolved(profile: list[tuple[float, float, float, float]], axis: int) -> _Corners:
+def _revolved(profile: list[_Ring], axis: int) -> _Corners:
     """A profile of (radius, height, normal outwards, normal upwards), from the top down, turned about an axis."""
     radius, height, outwards, upwards = np.array(profile).T
     angles = np.arange(_SIDES + 1) * math.tau / _SIDES
@@ -104,8 +132,8 @@ def _revolved(profile: list[tuple[float, float, float, float]], axis: int) -> _C
 
     def faces(values: NDArray[np.float64]) -> NDArray[np.float32]:
         here, right, below, across = values[:-1, :-1], values[1:, :-1], values[:-1, 1:], values[1:, 1:]
-        corners = np.stack([here, below, across, here, across, right], axis=2)
-        return corners.reshape(-1, 3).astype(np.float32)
+        corners: NDArray[np.float32] = np.stack([here, below, across, here, across, right], axis=2).astype(np.float32)
+        return corners.reshape(-1, 3)
 
     positions, directions = faces(places), faces(normals)
     corners = positions.reshape(-1, 3, 3)

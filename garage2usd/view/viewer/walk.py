@@ -53,7 +53,8 @@ class StageWalk:
     Notes
     -----
     An object is the outermost prim with a semantic label of the taxonomy ``class``; a point of a labelled instancer;
-    where there is no label, a component, an instance or a single mesh. Invisible prims, guides and proxies are left out.
+    where there is no label, a component, an instance or a single mesh. Invisible prims, guides and proxies are left
+    out.
     """
 
     def __init__(self, stage: Usd.Stage) -> None:
@@ -64,6 +65,7 @@ class StageWalk:
         self.palettes: list[tuple[int, ...]] = []
         self.surfaces: list[Surface] = []
         self.undrawn: Counter[str] = Counter()
+        self.hidden: list[Usd.Prim] = []
         self._mesh_of: dict[bytes, int] = {}
         self._triangles_of: dict[tuple[object, ...], Triangles | None] = {}
         self._shape_of: dict[tuple[object, ...], int] = {}
@@ -75,34 +77,35 @@ class StageWalk:
         self._objects_of_prototype: dict[str, list[Placed]] = {}
         self._labelled_prototype: dict[str, bool] = {}
 
-    def objects(self) -> list[Placed]:
-        """Every object of the stage in its own space and units."""
+    def objects(self, to_metres: Matrix) -> list[Placed]:
+        """Every object of the stage; `to_metres` leads from the stage's space to metres, Y up."""
         found: list[Placed] = []
         for prim in self.stage.GetPseudoRoot().GetChildren():
-            found += self._walk(prim, _IDENTITY, _Inherited(str(prim.GetPath()), ""))
+            self._walk(prim, to_metres, _Inherited(str(prim.GetPath()), ""), found)
         return found
 
-    def _walk(self, prim: Usd.Prim, parent: Matrix, inherited: _Inherited) -> Iterator[Placed]:
-        """The objects at and below a prim; `parent` is its parent's place."""
+    def _walk(self, prim: Usd.Prim, parent: Matrix, inherited: _Inherited, found: list[Placed]) -> None:
+        """Append the objects at and below a prim; `parent` is its parent's place."""
         if self._is_hidden(prim):
+            self.hidden.append(prim)
             return
         place = self._place(prim) @ parent
         label = _text(prim, _LABEL)
         kind = prim.GetTypeName()
         if kind == "PointInstancer":
-            yield from self._points(prim, place, inherited, label)
+            found += self._points(prim, place, inherited, label)
             return
         square = _text(prim, _SQUARE) or inherited.square
         if label or kind in DRAWN_TYPES or kind in LIGHT_TYPES or self._is_whole(prim):
-            yield from self._object(prim, place, _Inherited(inherited.path, square), label)
+            found += self._object(prim, place, _Inherited(inherited.path, square), label)
             return
         if kind in _UNDRAWN:
             self.undrawn[kind] += 1
             return
         if prim.IsInstance():
             prototype = prim.GetPrototype()
-            for placed in self._objects_in(prototype):
-                yield Placed(
+            found += [
+                Placed(
                     inherited.path + placed.path,
                     placed.label,
                     placed.square or square,
@@ -110,9 +113,11 @@ class StageWalk:
                     placed.palette,
                     placed.matrix @ place,
                 )
+                for placed in self._objects_in(prototype)
+            ]
             return
         for child in prim.GetChildren():
-            yield from self._walk(child, place, _Inherited(f"{inherited.path}/{child.GetName()}", square))
+            self._walk(child, place, _Inherited(f"{inherited.path}/{child.GetName()}", square), found)
 
     def _is_whole(self, prim: Usd.Prim) -> bool:
         """Whether a prim without a label is an object nevertheless, as no label stands below it."""
@@ -134,25 +139,23 @@ class StageWalk:
         path = str(prototype.GetPath())
         if path not in self._objects_of_prototype:
             square = _text(prototype, _SQUARE)
-            self._objects_of_prototype[path] = [
-                placed
-                for child in prototype.GetChildren()
-                for placed in self._walk(child, _IDENTITY, _Inherited(f"/{child.GetName()}", square))
-            ]
+            found = self._objects_of_prototype[path] = []
+            for child in prototype.GetChildren():
+                self._walk(child, _IDENTITY, _Inherited(f"/{child.GetName()}", square), found)
         return self._objects_of_prototype[path]
 
-    def _object(self, prim: Usd.Prim, place: Matrix, inherited: _Inherited, label: str) -> Iterator[Placed]:
+    def _object(self, prim: Usd.Prim, place: Matrix, inherited: _Inherited, label: str) -> list[Placed]:
         """The object that a prim is; none where there is nothing to see."""
         prototype = str(prim.GetPrototype().GetPath()) if prim.IsInstance() else ""
         numbers = self._shape_of_prototype.get(prototype)
         if numbers is None:
             look = self._look(prim)
             if not look.parts and not look.lights:
-                return
+                return []
             numbers = self._shape(look)
             if prototype:
                 self._shape_of_prototype[prototype] = numbers
-        yield Placed(inherited.path, label or UNLABELLED, inherited.square, *numbers, place)
+        return [Placed(inherited.path, label or UNLABELLED, inherited.square, *numbers, place)]
 
     def _points(self, prim: Usd.Prim, place: Matrix, inherited: _Inherited, label: str) -> Iterator[Placed]:
         """The points of an instancer, each an object."""
@@ -181,12 +184,20 @@ class StageWalk:
             if path not in self._look_of_prototype:
                 self._look_of_prototype[path] = self._look(prototype)
             return self._look_of_prototype[path]
+        look = self._own_look(prim)
+        for child in prim.GetChildren():
+            if not self._is_hidden(child):
+                look.add(self._look(child), self._place(child))
+        return look
+
+    def _own_look(self, prim: Usd.Prim) -> _Look:
+        """What a prim looks like without its children."""
         look = _Look()
         kind = prim.GetTypeName()
         if kind in DRAWN_TYPES:
+            approximation = collider_of(prim)
             for mesh, surface in self._meshes(prim):
                 look.parts.append((mesh, _IDENTITY, surface))
-                approximation = collider_of(prim)
                 if approximation:
                     look.colliders.append((mesh, approximation, _IDENTITY))
         elif kind in LIGHT_TYPES:
@@ -196,9 +207,6 @@ class StageWalk:
                 look.add(self._look_again(placed), placed.matrix)
         elif kind in _UNDRAWN:
             self.undrawn[kind] += 1
-        for child in prim.GetChildren():
-            if not self._is_hidden(child):
-                look.add(self._look(child), self._place(child))
         return look
 
     def _look_again(self, placed: Placed) -> _Look:
@@ -272,7 +280,7 @@ class StageWalk:
                     matrices=[matrix for _, matrix, _ in look.parts],
                     slots=slots,
                     blended=blended,
-                    colliders=[self._collider(*collider) for collider in look.colliders],
+                    colliders=[Collider(word, self.meshes[mesh], place) for mesh, word, place in look.colliders],
                     lights=tuple(look.lights),
                 )
             )
@@ -280,9 +288,6 @@ class StageWalk:
         if number == len(self.palettes):
             self.palettes.append(palette)
         return self._shape_of[key], number
-
-    def _collider(self, mesh: int, approximation: str, place: Matrix) -> Collider:
-        return Collider.around(self.meshes[mesh], approximation, place)
 
     def _place(self, prim: Usd.Prim) -> Matrix:
         """A prim's place in its parent's space."""

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import LaneCurves, Scene, Shape, moved
 
-__all__ = ["encode_scene", "texture_paths"]
+__all__ = ["encode_colliders", "encode_scene", "texture_paths"]
 
 _MAGIC = b"G2UV"
 _ALIGNMENT = 4
@@ -69,6 +70,13 @@ def encode_scene(scene: Scene) -> bytes:
     return b"".join([_MAGIC, len(text).to_bytes(4, "little"), text, *buffers.parts])
 
 
+def encode_colliders(scene: Scene) -> bytes:
+    """The lines that draw each shape's colliders: a uint32 a shape, the number of its points, then all as float32."""
+    lines = [[collider_lines(collider) for collider in shape.colliders] for shape in scene.shapes]
+    counts = np.array([sum(2 * len(own) for own in shape) for shape in lines], dtype=np.uint32)
+    return counts.tobytes() + b"".join(own.tobytes() for shape in lines for own in shape)
+
+
 class _Buffers:
     """Arrays on their way into the file."""
 
@@ -90,10 +98,16 @@ class _Buffers:
 def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
     """All shapes, their vertices and indices one after the other; what is blended comes last in each."""
     entries = []
-    positions, normals, coordinates, slots, indices, lines = ([] for _ in range(6))  # type: ignore[var-annotated]
-    vertices = triangles = segments = 0
+    positions: list[NDArray[Any]] = []
+    normals: list[NDArray[Any]] = []
+    coordinates: list[NDArray[Any]] = []
+    slots: list[NDArray[Any]] = []
+    indices: list[NDArray[Any]] = []
+    vertices = triangles = 0
     for shape in shapes:
-        opaque, blended, first = [], [], 0
+        opaque: list[NDArray[np.uint32]] = []
+        blended: list[NDArray[np.uint32]] = []
+        first = 0
         for part, matrix, slot, is_blended in zip(shape.parts, shape.matrices, shape.slots, shape.blended, strict=True):
             turn = np.linalg.inv(matrix[:3, :3]).T if np.linalg.det(matrix[:3, :3]) else np.eye(3)
             directions = part.normals @ turn
@@ -109,15 +123,12 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
         ordered = [*opaque, *blended]
         indices += ordered
         count, opaque_count = (sum(len(group) for group in groups) for groups in (ordered, opaque))
-        own_lines = [collider.lines_m for collider in shape.colliders]
-        lines += own_lines
-        line_count = sum(len(own) for own in own_lines)
         entries.append(
             {
                 "vertices": [vertices, first],
                 "opaque": [3 * triangles, 3 * opaque_count],
                 "blended": [3 * (triangles + opaque_count), 3 * (count - opaque_count)],
-                "colliders": [2 * segments, 2 * line_count],
+                "colliders": len(shape.colliders),
                 "doubleSided": any(part.double_sided for part in shape.parts),
                 "lights": [
                     {
@@ -131,7 +142,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
                 ],
             }
         )
-        vertices, triangles, segments = vertices + first, triangles + count, segments + line_count
+        vertices, triangles = vertices + first, triangles + count
     return {
         "entries": entries,
         "positions": buffers.add(_joined(positions, np.float32, 3)),
@@ -139,7 +150,6 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
         "coordinates": buffers.add(_joined(coordinates, np.float32, 2)),
         "slots": buffers.add(_joined(slots, np.uint8)),
         "indices": buffers.add(_joined(indices, np.uint32, 3)),
-        "lines": buffers.add(_joined(lines, np.float32, 2, 3)),
     }
 
 

@@ -79,7 +79,7 @@ def test_at_the_standards_aisle_a_car_parks_in_reverse_at_once_and_nose_in_with_
 
 @pytest.mark.parametrize("nose", [NOSE_IN, NOSE_OUT])
 def test_the_narrowest_aisle_is_that_of_an_independent_search(nose):
-    """The flood has no margin and looks at samples, so it may get through up to 0.4 m less, and never needs more."""
+    """The flood looks at samples and takes headings roughly, so it gets through a little less, and never needs more."""
 
     def is_on_lane(poses):
         return (np.abs(np.cos(poses[:, 2])) < 0.03) & (poses[:, 1] > 0.9)
@@ -90,9 +90,9 @@ def test_the_narrowest_aisle_is_that_of_an_independent_search(nose):
         return has_way_out((pose.x_m, pose.z_m, pose.yaw_rad), walls, is_on_lane)
 
     widths = np.arange(3.0, 4.61, 0.2).tolist()
-    proven = min(width for width in widths if out_of(aisle(width), nose, width).way is not None)
+    proven = min(width for width in widths if out_of(aisle(width), nose, width, margin_m=0.0).way is not None)
     flooded = min(width for width in widths if floods(width))
-    assert 0.0 <= proven - flooded <= 0.5
+    assert -1e-9 <= proven - flooded <= 0.4 + 1e-9
 
 
 @pytest.mark.parametrize(

@@ -58,7 +58,7 @@ namespace Garage.Usd
         /// <summary>The shared children of an instance belong to its prototype: see SceneModel.ChildrenOf.</summary>
         public List<SceneNode> Children { get; internal set; }
 
-        internal SceneNode(UsdPrim prim)
+        internal SceneNode(UsdPrim prim, MeshMemo meshes)
         {
             Prim = prim;
             bool resets;
@@ -72,7 +72,7 @@ namespace Garage.Usd
             if (prim.TypeName == "Mesh")
             {
                 string reason;
-                Mesh = TriangleMesh.Build(prim, out reason);
+                Mesh = meshes.Of(prim, out reason);
                 if (Mesh == null) { prim.Stage.Composer.Library.Warn("<" + prim.Path + ">: the mesh " + reason); }
             }
             Light = LightData.Of(prim);
@@ -98,6 +98,7 @@ namespace Garage.Usd
 
         readonly Dictionary<UsdPrim, List<SceneNode>> prototypes = new Dictionary<UsdPrim, List<SceneNode>>();
         readonly Dictionary<UsdPrim, long> shownBelow = new Dictionary<UsdPrim, long>();
+        readonly MeshMemo meshes = new MeshMemo();
         readonly Dictionary<string, MaterialData> materials = new Dictionary<string, MaterialData>();
 
         /// <summary>The stage that is shown.</summary>
@@ -151,7 +152,7 @@ namespace Garage.Usd
             foreach (UsdPrim prim in prims)
             {
                 if (prim.Specifier != Specifier.Def) { continue; }
-                var node = new SceneNode(prim);
+                var node = new SceneNode(prim, meshes);
                 if (prim.Prototype == null) { node.Children = Nodes(prim.Children); }
                 nodes.Add(node);
             }

@@ -52,6 +52,18 @@ namespace Garage.Usd
             public float[] Result;
         }
 
+        static readonly HashSet<string> Attributes = new HashSet<string>
+        {
+            "points", "faceVertexCounts", "faceVertexIndices", "holeIndices", "orientation", "normals",
+            "subdivisionScheme", "doubleSided",
+        };
+
+        /// <summary>Whether an attribute has to do with what the mesh is.</summary>
+        internal static bool Reads(string attribute)
+        {
+            return Attributes.Contains(attribute) || attribute.StartsWith("primvars:", StringComparison.Ordinal);
+        }
+
         /// <summary>Triangles of a Mesh prim; null, with the reason, where its arrays contradict each other.</summary>
         public static TriangleMesh Build(UsdPrim prim, out string reason)
         {

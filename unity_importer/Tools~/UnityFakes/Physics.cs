@@ -128,10 +128,15 @@ namespace UnityEngine
     public class Physics
     {
         static readonly List<WeakReference> Known = new List<WeakReference>();
+        static int countToSweep = 10000;
 
         internal static void Know(Collider collider)
         {
-            if (Known.Count > 10000) { Known.RemoveAll(one => !one.IsAlive); }
+            if (Known.Count > countToSweep)
+            {
+                Known.RemoveAll(one => !one.IsAlive);
+                countToSweep = Math.Max(10000, 2 * Known.Count);
+            }
             Known.Add(new WeakReference(collider));
         }
 

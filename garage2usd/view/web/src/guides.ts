@@ -5,10 +5,10 @@ import { NODE_COLOURS, USE_COLOURS } from "./classes";
 import type { Lanes, SceneFile } from "./scene_file";
 
 const LIFT_M = 0.06;
-const LANE_WIDTH_M = 0.22;
-const NODE_RADIUS_M = 0.5;
+const LANE_WIDTH_M = 0.36;
+const NODE_RADIUS_M = 0.75;
 const NODE_SIDES = 20;
-const ARROW_M = 1.1;
+const ARROW_M = 1.4;
 const LANE_COLOUR = "#ffd84d";
 const STALL_INSET_M = 0.12;
 
@@ -69,7 +69,7 @@ export function laneGraphOf(lanes: Lanes): THREE.Object3D {
     const arrow = (sign: number, centre: number) =>
       flat.triangle(
         y + 0.004,
-        [at(from, centre + sign * ARROW_M * 0.6, 0), at(from, centre - sign * ARROW_M * 0.4, -0.5), at(from, centre - sign * ARROW_M * 0.4, 0.5)],
+        [at(from, centre + sign * ARROW_M * 0.6, 0), at(from, centre - sign * ARROW_M * 0.4, -0.65), at(from, centre - sign * ARROW_M * 0.4, 0.65)],
         colour,
       );
     if (forward) arrow(1, middle);
@@ -141,23 +141,36 @@ export class Colliders {
   readonly count: number;
   private readonly material = new THREE.ShaderMaterial({ vertexShader: LINE_VERTEX, fragmentShader: LINE_FRAGMENT });
   private readonly members: number[][];
+  /** Ends of lines, by shape. */
+  private readonly points: Float32Array[] = [];
 
   constructor(private readonly scene: SceneFile) {
     this.members = scene.shapes.map(() => []);
     for (let object = 0; object < scene.count; object++) this.members[scene.shape[object]].push(object);
-    this.count = scene.shapes.reduce((sum, shape, k) => sum + (shape.colliders[1] ? this.members[k].length : 0), 0);
+    this.count = scene.shapes.reduce((sum, shape, k) => sum + (shape.colliders ? this.members[k].length : 0), 0);
     this.group.visible = false;
   }
 
+  /** Ask the server for the lines, once. */
+  async load(): Promise<void> {
+    if (this.points.length) return;
+    const data = await (await fetch("colliders.bin")).arrayBuffer();
+    const counts = new Uint32Array(data, 0, this.scene.shapes.length);
+    let at = counts.byteLength;
+    for (const count of counts) {
+      this.points.push(new Float32Array(data, at, 3 * count));
+      at += 12 * count;
+    }
+  }
+
+  /** Draw those of the visible objects. */
   show(visible: Uint8Array): void {
     for (const child of this.group.children as THREE.LineSegments[]) child.geometry.dispose();
     this.group.clear();
-    this.scene.shapes.forEach((shape, number) => {
+    this.points.forEach((points, number) => {
       const shown = this.members[number].filter((object) => visible[object]);
-      const [first, count] = shape.colliders;
-      if (!count || !shown.length) return;
+      if (!points.length || !shown.length) return;
       const geometry = new THREE.InstancedBufferGeometry();
-      const points = this.scene.lines.subarray(3 * first, 3 * (first + count));
       geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
       const rows = new Float32Array(12 * shown.length);
       shown.forEach((object, k) => rows.set(this.scene.matrix.subarray(12 * object, 12 * object + 12), 12 * k));

@@ -11,7 +11,7 @@ import { SHADING } from "./classes";
 import type { SceneFile } from "./scene_file";
 
 const MARGIN_M = 4;
-const MOST_TEXELS = 2048;
+const MOST_TEXELS = 1400;
 const FINEST_M = 0.1;
 const COARSE_M = 1;
 const REACH_M = 14;

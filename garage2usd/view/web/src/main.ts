@@ -7,8 +7,8 @@ import { Instances } from "./instances";
 import { footprint, lightPlanOf } from "./light_plan";
 import { element, laneLegend, showClasses, showLayers, showObject, showRemarks, useLegend } from "./panel";
 import { type Eye, PlanMap } from "./plan_map";
-import { Quality } from "./quality";
-import { Rays } from "./rays";
+import { Quality, isSoftware } from "./quality";
+import { type Hit, Rays } from "./rays";
 import { SceneFile, type Stall } from "./scene_file";
 import { SurfaceMaterials } from "./surface_material";
 import { layersOf } from "./textures";
@@ -67,7 +67,7 @@ class Viewer {
     parts: { boxes: Boxes; rays: Rays; renderer: THREE.WebGLRenderer },
   ) {
     ({ boxes: this.boxes, rays: this.rays, renderer: this.renderer } = parts);
-    this.quality = new Quality(this.renderer.getContext() as WebGL2RenderingContext);
+    this.quality = new Quality(isSoftware());
     this.world.background = new THREE.Color(SKY);
     this.walker = new Walker(scene, this.rays);
     this.colliders = new Colliders(scene);
@@ -94,11 +94,14 @@ class Viewer {
   static async open(): Promise<Viewer> {
     const answer = await fetch("scene.bin");
     if (!answer.ok) throw new Error("The stage could not be read; the command line says why.");
+    performance.mark("scene");
     const scene = new SceneFile(await answer.arrayBuffer());
     const textures = layersOf(scene);
     const boxes = new Boxes(scene);
     const chunks = chunksOf(boxes, scene.count, CHUNK_M);
-    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias: true });
+    // smooth edges cost a renderer in software more than all else
+    const antialias = !isSoftware();
+    const renderer = new THREE.WebGLRenderer({ canvas: element<HTMLCanvasElement>("view"), antialias });
     const light = lightPlanOf(scene, boxes);
     const materials = new SurfaceMaterials(scene, await textures, light);
     const instances = await Instances.create(scene, boxes, chunks, materials);
@@ -176,7 +179,7 @@ class Viewer {
     camera.updateMatrixWorld();
     this.cutAway(camera.position.y > this.ceilingHeight);
     const ratio = this.renderer.getPixelRatio();
-    this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse ** 0.5 : 1);
+    this.instances.update(camera, element("view").clientHeight * ratio, this.quality.moving ? this.quality.coarse : 1);
     this.renderer.render(this.world, camera);
     this.map.draw(this.eye(), this.selected < 0 ? null : footprint(this.scene, this.boxes, this.selected));
     this.showFigures();
@@ -269,7 +272,7 @@ class Viewer {
         id: "colliders", name: "Colliders", key: "K", on: false, hint: "What a physics engine makes of the objects that are shown",
         change: (on: boolean) => {
           this.colliders.group.visible = on;
-          if (on) this.colliders.show(this.instances.visible);
+          if (on) void this.colliders.load().then(() => this.applyLayers());
           this.touch();
         },
       });
@@ -420,8 +423,8 @@ class Viewer {
     if (object >= 0) {
       const [x, , z] = this.boxes.centre(object);
       const stall = this.stallAt(x, z, this.boxes.world[6 * object + 1]);
-      const car = stall && this.cars.find((number) => isInside(stall.corners, ...this.middle(number)));
-      showObject(this.scene, this.boxes, object, stall, car === undefined || car === null ? "" : this.scene.paths[car]);
+      const parked = stall !== null && this.cars.some((car) => isInside(stall.corners, ...this.middle(car)));
+      showObject(this.scene, this.boxes, object, stall, parked);
       this.frame.around(this.scene, this.boxes.local, object);
     }
     this.touch();
@@ -438,15 +441,20 @@ class Viewer {
     return this.scene.lanes?.stalls.find((stall) => isInside(stall.corners, x, z)) ?? null;
   }
 
-  /** The object seen at a place on the canvas, in CSS pixels; -1 for none. */
-  pick(x: number, y: number): number {
+  /** The object seen at a place on the canvas, in CSS pixels, stains only on request; -1 for none. */
+  pick(x: number, y: number, stains = false): number {
+    return this.hitAt(x, y, stains)?.object ?? -1;
+  }
+
+  private hitAt(x: number, y: number, stains: boolean): Hit | null {
     const canvas = element("view");
-    const ndc = new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight);
     const caster = new THREE.Raycaster();
-    caster.setFromCamera(ndc, this.camera);
+    caster.setFromCamera(new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight), this.camera);
     const { origin, direction } = caster.ray;
-    const hit = this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, (object) => this.instances.visible[object] > 0);
-    return hit ? hit.object : -1;
+    const { scene, instances } = this;
+    const seen = (object: number) =>
+      instances.visible[object] > 0 && (stains || scene.shapes[scene.shape[object]].opaque[1] > 0);
+    return this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, seen);
   }
 
   /** Show and select the stall with a number, or the object with an id or a path. */
@@ -510,15 +518,14 @@ class Viewer {
       if (!from || event.button !== 0 || Math.hypot(event.clientX - from[0], event.clientY - from[1]) > CLICK_PX) return;
       const locked = document.pointerLockElement === canvas;
       const [x, y] = locked ? [canvas.clientWidth / 2, canvas.clientHeight / 2] : [event.clientX, event.clientY];
-      this.select(this.pick(x, y));
+      this.select(this.pick(x, y, event.shiftKey));
     });
     canvas.addEventListener("dblclick", (event) => {
       if (this.mode !== "orbit") return;
-      const object = this.pick(event.clientX, event.clientY);
-      if (object < 0) return;
+      const hit = this.hitAt(event.clientX, event.clientY, false);
+      if (!hit) return;
       const ahead = this.camera.getWorldDirection(new THREE.Vector3());
-      const [x, , z] = this.pointAt(event.clientX, event.clientY) ?? this.boxes.centre(object);
-      this.walkAt(x, z, Math.atan2(-ahead.x, -ahead.z));
+      this.walkAt(hit.point[0], hit.point[2], Math.atan2(-ahead.x, -ahead.z));
     });
     document.addEventListener("pointerlockchange", () => {
       element("crosshair").hidden = document.pointerLockElement !== canvas;
@@ -548,15 +555,6 @@ class Viewer {
     // not every browser gives it; then one looks by dragging
     const asked: unknown = element("view").requestPointerLock();
     if (asked instanceof Promise) asked.catch(() => undefined);
-  }
-
-  private pointAt(x: number, y: number): [number, number, number] | null {
-    const canvas = element("view");
-    const caster = new THREE.Raycaster();
-    caster.setFromCamera(new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight), this.camera);
-    const { origin, direction } = caster.ray;
-    const hit = this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, (object) => this.instances.visible[object] > 0);
-    return hit ? hit.point : null;
   }
 
   private keyDown(event: KeyboardEvent): void {

@@ -110,26 +110,23 @@ function facts(rows: Fact[]): HTMLElement {
   return list;
 }
 
-export function showObject(scene: SceneFile, boxes: Boxes, object: number, stall: Stall | null, parked: string): void {
+export function showObject(scene: SceneFile, boxes: Boxes, object: number, stall: Stall | null, parked: boolean): void {
   const label = scene.labelOf(object);
   const path = scene.paths[object];
   const world = boxes.world.subarray(6 * object, 6 * object + 6);
   const size = [0, 1, 2].map((k) => (world[k + 3] - world[k]).toFixed(2)).join(" × ");
   const square = scene.header.squares[scene.square[object]];
-  const copy = made("button", "copy", "Copy");
+  const copy = made("button", "copy", "Copy path");
   copy.addEventListener("click", () => {
     void navigator.clipboard.writeText(path).then(() => (copy.textContent = "Copied"));
   });
   const head = made("h2", "", chip(colourOf(label)), spoken(label));
   const rows: Fact[] = [
     ["Class", label],
-    ["Instance id", scene.ids[object] ? String(scene.ids[object]) : "no label table beside the stage"],
+    ["Instance id", scene.ids[object] ? String(scene.ids[object]) : "no label table"],
     ["Prim", made("span", "path", ...breakable(path))],
-    ["Size", `${size} m`],
-    ["Middle", `${boxes.centre(object).map((value) => value.toFixed(2)).join(", ")} m`],
   ];
-  if (square) rows.push(["Square", spoken(square)]);
-  const sections: HTMLElement[] = [head, facts(rows), copy];
+  const sections: HTMLElement[] = [copy, head, facts(rows)];
   if (stall) {
     const use = made("span", "", chip(USE_COLOURS[stall.use ?? ""] ?? "#9aa5b1"), spoken(stall.use ?? "-"));
     const [left, right, rear] = stall.corners;
@@ -143,12 +140,17 @@ export function showObject(scene: SceneFile, boxes: Boxes, object: number, stall
         ["Type", spoken(stall.type ?? "-")],
         ["Stall size", `${width.toFixed(2)} × ${length.toFixed(2)} m`],
         ["Entry edge", stall.entryEdge ?? "-"],
-        ["Row, column", `${stall.row ?? "-"}, ${stall.column ?? "-"}`],
         ["Lane node", String(stall.accessNode ?? "-")],
-        ["Car", parked || "none"],
+        ["Car", parked ? "parked" : "none"],
       ]),
     );
   }
+  const place: Fact[] = [
+    ["Size", `${size} m`],
+    ["Middle", `${boxes.centre(object).map((value) => value.toFixed(2)).join(", ")} m`],
+  ];
+  if (square) place.push(["Square", spoken(square)]);
+  sections.push(made("h3", "", "Place"), facts(place));
   element("inspected").replaceChildren(...sections);
   element("inspector").hidden = false;
 }

@@ -31,7 +31,8 @@ export interface Shape {
   vertices: [number, number];
   opaque: [number, number];
   blended: [number, number];
-  colliders: [number, number];
+  /** How many colliders it has. */
+  colliders: number;
   doubleSided: boolean;
   lights: Light[];
 }
@@ -66,7 +67,6 @@ interface Header {
     coordinates: number;
     slots: number;
     indices: number;
-    lines: number;
   };
   objects: {
     paths: string[];
@@ -97,7 +97,6 @@ export class SceneFile {
   readonly coordinates: Float32Array;
   readonly slots: Uint8Array;
   readonly indices: Uint32Array;
-  readonly lines: Float32Array;
   readonly paths: string[];
   readonly ids: number[];
   readonly label: Uint32Array;
@@ -123,7 +122,6 @@ export class SceneFile {
     this.coordinates = floats(shapes.coordinates);
     this.slots = new Uint8Array(data, at(shapes.slots), arrays[shapes.slots].count);
     this.indices = words(shapes.indices);
-    this.lines = floats(shapes.lines);
     this.paths = objects.paths;
     this.ids = objects.ids;
     this.label = words(objects.label);

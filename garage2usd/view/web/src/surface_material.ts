@@ -15,12 +15,7 @@ attribute vec4 row0;
 attribute vec4 row1;
 attribute vec4 row2;
 attribute vec4 info;
-uniform highp sampler2D palette;
-uniform highp sampler2D labels;
-flat varying vec4 vColour;
-flat varying vec4 vFinish;
-flat varying vec3 vGlow;
-flat varying vec4 vLabel;
+flat varying vec3 vInfo;
 varying vec3 vPlace;
 varying vec3 vNormalW;
 varying vec2 vCoordinate;
@@ -31,28 +26,22 @@ void main() {
   // cofactors turn normals whatever the scale
   vNormalW = vec3(
     dot(cross(row1.xyz, row2.xyz), normal), dot(cross(row2.xyz, row0.xyz), normal), dot(cross(row0.xyz, row1.xyz), normal));
-  int entry = int(info.x + slot + 0.5);
-  ivec2 texel = ivec2(${TEXELS} * (entry % ${ENTRIES_A_ROW}), entry / ${ENTRIES_A_ROW});
-  vColour = texelFetch(palette, texel, 0);
-  vFinish = texelFetch(palette, texel + ivec2(1, 0), 0);
-  vGlow = texelFetch(palette, texel + ivec2(2, 0), 0).rgb;
-  vLabel = vec4(texelFetch(labels, ivec2(int(info.y + 0.5), 0), 0).rgb, info.z);
+  vInfo = vec3(info.x + slot, info.yz);
   vCoordinate = uv;
   gl_Position = projectionMatrix * viewMatrix * vec4(vPlace, 1.0);
 }`;
 
 const FRAGMENT = /* glsl */ `
 uniform mediump sampler2DArray layers;
+uniform highp sampler2D palette;
+uniform highp sampler2D labels;
 uniform sampler2D plan;
 uniform vec4 frame;
 uniform vec3 heights; // lights, floor, whether anything shines
 uniform float byLabel;
 uniform float selected;
 uniform float gloss;
-flat varying vec4 vColour;
-flat varying vec4 vFinish;
-flat varying vec3 vGlow;
-flat varying vec4 vLabel;
+flat varying vec3 vInfo; // entry of the palette, label, object
 varying vec3 vPlace;
 varying vec3 vNormalW;
 varying vec2 vCoordinate;
@@ -64,26 +53,30 @@ vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.
 void main() {
   vec3 normal = normalize(vNormalW) * (gl_FrontFacing ? 1.0 : -1.0);
   vec3 view = normalize(cameraPosition - vPlace);
-  vec3 colour = vColour.rgb;
-  float roughness = vFinish.x;
-  float opacity = vFinish.z;
-  if (vColour.a > -0.5) {
-    // rounded, as some renderers interpolate even what is flat where they clip
-    int code = int(vColour.a + 0.5);
+  // rounded, as some renderers interpolate even what is flat where they clip
+  int entry = int(vInfo.x + 0.5);
+  ivec2 first = ivec2(${TEXELS} * (entry % ${ENTRIES_A_ROW}), entry / ${ENTRIES_A_ROW});
+  vec4 tint = texelFetch(palette, first, 0);
+  vec4 finish = texelFetch(palette, first + ivec2(1, 0), 0);
+  vec3 colour = tint.rgb;
+  float roughness = finish.x;
+  float opacity = finish.z;
+  if (tint.a > -0.5) {
+    int code = int(tint.a + 0.5);
     vec4 texel = texture(layers, vec3(vCoordinate, float(code >> 1)));
     colour *= texel.rgb;
     if ((code & 1) == 1) opacity *= texel.a; else roughness *= texel.a;
   }
   vec3 shown;
   if (byLabel > 0.5) {
-    shown = vLabel.rgb * (0.72 + 0.2 * normal.y + 0.08 * normal.x);
+    shown = texelFetch(labels, ivec2(int(vInfo.y + 0.5), 0), 0).rgb * (0.72 + 0.2 * normal.y + 0.08 * normal.x);
   } else {
     float lit = heights.z;
     vec2 at = (vPlace.xz + 0.6 * normal.xz - frame.xy) * frame.zw;
     vec4 here = texture2D(plan, at);
-    float bounce = mix(0.9, lightOf(textureLod(plan, at, 5.0).r), lit);
+    float bounce = mix(0.9, max(lightOf(textureLod(plan, at, 5.0).r), 0.2), lit);
     // as on a photograph, pools of light and what lies between them are nearer to each other than they are
-    float direct = mix(0.9, 0.62 * lightOf(here.r) + 0.38 * bounce, lit);
+    float direct = mix(0.9, max(0.62 * lightOf(here.r) + 0.38 * bounce, 0.2), lit);
     float above = vPlace.y - heights.y;
     float shade = mix(here.b, 1.0, smoothstep(0.0, 0.7, above));
     float low = mix(0.62, 1.0, smoothstep(-0.2, 1.4, above));
@@ -98,23 +91,23 @@ void main() {
     float rise = away.y;
     float mirrored = 0.24 * bounce;
     float clear = mirrored;
-    if (rise > 0.02 && heights.x > vPlace.y) {
+    if (gloss > 0.0 && rise > 0.02 && heights.x > vPlace.y) {
       float far = min((heights.x - vPlace.y) / rise, 80.0);
       vec2 there = (vPlace.xz + away.xz * far - frame.xy) * frame.zw;
       float spread = log2(1.0 + roughness * roughness * far * 24.0);
       float ceiling = 0.24 * bounce;
-      mirrored = ceiling + 9.0 * texture2D(plan, there, spread).g;
-      clear = ceiling + 9.0 * texture2D(plan, there, 0.5).g;
+      mirrored = ceiling + 9.0 * textureLod(plan, there, spread).g;
+      clear = finish.w > 0.0 ? ceiling + 9.0 * textureLod(plan, there, 0.0).g : mirrored;
     }
-    float metallic = vFinish.y;
+    float metallic = finish.y;
     float grazing = pow(1.0 - max(dot(normal, view), 0.0), 5.0);
     vec3 base = mix(vec3(0.04), colour, metallic);
     vec3 fresnel = base + (max(vec3(1.0 - roughness), base) - base) * grazing;
-    float coat = vFinish.w * (0.04 + 0.96 * grazing) * gloss;
-    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + vGlow;
+    float coat = finish.w * (0.04 + 0.96 * grazing) * gloss;
+    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + texelFetch(palette, first + ivec2(2, 0), 0).rgb;
     shown = filmic(0.82 * shown);
   }
-  if (abs(vLabel.a - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);
+  if (abs(vInfo.z - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);
   gl_FragColor = vec4(shown, opacity);
   #include <colorspace_fragment>
 }`;

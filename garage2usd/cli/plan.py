@@ -1,0 +1,89 @@
+"""``garage2usd plan``."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garage2usd.cli.bars import Bars
+
+if TYPE_CHECKING:
+    from garage2usd.pipeline import Garage
+    from garage2usd.progress import Progress
+
+__all__ = ["plan"]
+
+_FORMATS = (".png", ".svg")
+
+
+@click.command()
+@click.argument("path", type=click.Path(dir_okay=False, path_type=Path))
+@click.option("--stall", "number", help="Number or id of a stall whose route is drawn, as B2-07.")
+@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.option(
+    "--output",
+    "-o",
+    "outputs",
+    type=click.Path(dir_okay=False, path_type=Path),
+    multiple=True,
+    help="The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
+)
+def plan(*, path: Path, number: str | None, seed: int | None, outputs: tuple[Path, ...]) -> None:
+    """Draw the plan of a garage with dimensions, stall numbers and lanes.
+
+    PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report.
+
+    \b
+    Examples:
+      garage2usd plan garage.usdz
+      garage2usd plan garage_report.json --stall B2-07 -o route.png -o route.svg
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
+    from garage2usd.view.raster import to_image  # noqa: PLC0415
+    from garage2usd.view.route import find_stall  # noqa: PLC0415
+    from garage2usd.view.svg import to_svg  # noqa: PLC0415
+
+    outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
+    for output in outputs:
+        if output.suffix not in _FORMATS or not output.stem:
+            raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+        check_writable(output.parent)
+    with Bars(sys.stderr) as progress:
+        garage = _garage(path, seed, progress)
+    stall = find_stall(garage.layout, number) if number else None
+    drawing = draw_plan(garage.layout, garage.graph, stall=stall)
+    with staging_folder() as staging:
+        made = []
+        for index, output in enumerate(outputs):
+            folder = staging / str(index)
+            folder.mkdir()
+            made.append(folder / output.name)
+            if output.suffix == ".svg":
+                made[-1].write_text(to_svg(drawing), encoding="utf-8")
+            else:
+                to_image(drawing).save(made[-1], format="PNG")
+        for file, output in zip(made, outputs, strict=True):
+            publish([file], output.parent)
+            click.echo(f"{'picture':>10}  {output}")
+
+
+def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
+    """Made from a configuration, or again from a report."""
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.errors import ConfigError  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+    from garage2usd.report import read_report  # noqa: PLC0415
+    from garage2usd.stage import StageFormat  # noqa: PLC0415
+
+    if path.suffix == ".toml":
+        return generate(load_config(path), seed=seed, progress=progress)
+    if seed is not None:
+        raise ConfigError("seed", seed, "a seed beside a configuration only")
+    if path.suffix == ".json":
+        return generate(read_report(path), progress=progress)
+    if path.suffix in set(StageFormat):
+        return generate(read_report(path.with_name(f"{path.stem}_report.json")), progress=progress)
+    raise ConfigError("path", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")

@@ -1,0 +1,168 @@
+"""What stands around a plan: dimensions, the numbers of rows and columns, the legend, the list of findings."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from garage2usd.grid import Structure
+from garage2usd.layout import Layout
+from garage2usd.view.drawing import Area, Colour, Disc, Line, Point, Text, text_width
+
+__all__ = ["ARROW_END_M", "GREY", "INK", "MARK_COLOUR", "PAPER", "Mark", "Sheet"]
+
+INK: Colour = (32, 34, 38)
+GREY: Colour = (132, 132, 128)
+PAPER: Colour = (250, 249, 246)
+MARK_COLOUR: dict[str, Colour] = {"error": (200, 40, 36), "warning": (214, 130, 20), "info": (40, 104, 190)}
+_MAX_SIDE_PX = 4000
+_MAX_PX_PER_M = 20.0
+_LEAST_WIDTH_PX = 900
+ARROW_END_M = 3.6
+"""How far from a wall the arrows before its doors end."""
+_DIMENSION_GAP = 2.2
+_LETTERS_PX, _LETTERS_SHARE = 15, 1 / 140
+_SCALE_BAR_M = 10.0
+_MOST_LISTED = 60
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A finding at its place.
+
+    Attributes
+    ----------
+    x_m, z_m
+        Where, metres.
+    severity
+        ``error``, ``warning`` or ``info``.
+    text
+        What was found, one line.
+    """
+
+    x_m: float
+    z_m: float
+    severity: str
+    text: str
+
+
+class Sheet:
+    """Sizes of the paper around a plan.
+
+    Attributes
+    ----------
+    px_per_m
+        Such that the plan's longer side is at most 4000 pixels, a metre at most 20.
+    letters_m
+        Height of letters on it.
+    low, high
+        Corners (x, z) of the paper; the plan begins at (0, 0).
+    """
+
+    def __init__(self, structure: Structure, marks: Sequence[Mark], legend: Sequence[tuple[Colour, str]]) -> None:
+        self._structure, self._marks, self._legend = structure, marks, legend
+        self._width_m, self._depth_m = float(structure.column_edges_m[-1]), float(structure.row_edges_m[-1])
+        side_m = max(self._width_m, self._depth_m)
+        self.px_per_m = min(_MAX_PX_PER_M, _MAX_SIDE_PX / side_m)
+        self.letters_m = max(_LETTERS_PX / self.px_per_m, side_m * _LETTERS_SHARE)
+        self._zone_m = ARROW_END_M + text_width("OUT", self.letters_m) + self.letters_m
+        margin = self._zone_m + 2 * _DIMENSION_GAP * self.letters_m
+        self.low = (-margin, -margin)
+        right = max(self._width_m + self._zone_m + self.letters_m, _LEAST_WIDTH_PX / self.px_per_m - margin)
+        self._foot_m = self._depth_m + self._zone_m + self.letters_m
+        self._places = self._legend_places(right)
+        lines = (
+            self._places[-1][1] - self._foot_m + self.letters_m * (2.5 + 1.6 * (1 + min(len(marks), _MOST_LISTED + 1)))
+        )
+        self.high = (right, self._foot_m + lines)
+
+    def dimensions(self) -> Iterator[Line | Text]:
+        """Chains of R above and of C to the left, each with the overall size, and the numbers of columns and rows."""
+        letters = self.letters_m
+        for edges, is_row in ((self._structure.column_edges_m, False), (self._structure.row_edges_m, True)):
+            edges_m = edges.tolist()
+            for level, chain in ((1, edges_m), (2, [edges_m[0], edges_m[-1]])):
+                yield from self._chain(chain, self._zone_m + (level - 1) * _DIMENSION_GAP * letters, is_row=is_row)
+            beyond = (self._width_m if is_row else self._depth_m) + self._zone_m
+            for number, (start, end) in enumerate(pairwise(edges_m)):
+                at = _swapped(((start + end) / 2, beyond), is_row)
+                yield Text(at, str(number), letters, GREY, kind="row" if is_row else "column")
+
+    def _chain(self, edges_m: Sequence[float], away_m: float, *, is_row: bool) -> Iterator[Line | Text]:
+        thin = 1.2 / self.px_per_m
+        tick = self.letters_m / 3
+        yield Line([_swapped((along, -away_m), is_row) for along in (edges_m[0], edges_m[-1])], INK, thin, "dimension")
+        for along in edges_m:
+            ends = [(along - tick, -away_m + tick), (along + tick, -away_m - tick)]
+            yield Line([_swapped(end, is_row) for end in ends], INK, 2 * thin, "dimension")
+        for start, end in pairwise(edges_m):
+            text = f"{end - start:.2f}"
+            letters = min(self.letters_m, 0.9 * self.letters_m * (end - start) / text_width(text, self.letters_m))
+            at = _swapped(((start + end) / 2, -away_m - 0.75 * self.letters_m), is_row)
+            yield Text(at, text, letters, INK, is_turned=is_row, kind="dimension")
+
+    def legend(self, layout: Layout) -> Iterator[Area | Line | Text]:
+        """What the colours mean, a bar of ten metres, and the garage in figures."""
+        letters = self.letters_m
+        for (colour, text), (x, z) in zip(self._legend, self._places, strict=True):
+            half = letters / 2
+            box = [(x, z - half), (x + letters, z - half), (x + letters, z + half), (x, z + half)]
+            yield Area(box, colour, "legend")
+            yield Line([*box, box[0]], INK, 1 / self.px_per_m, "legend")
+            yield Text((x + 1.5 * letters, z), text, letters, INK, is_left=True, kind="legend")
+        z = self._places[-1][1] + 2 * letters
+        rows, cols = self._structure.shape
+        uses = ", ".join(
+            f"{count} {use.replace('_', ' ')}"
+            for use, count in Counter(stall.use for stall in layout.stalls).most_common()
+        )
+        words = f"{rows} x {cols} squares, {self._width_m:.2f} x {self._depth_m:.2f} m, {len(layout.stalls)} stalls"
+        tick = letters / 3
+        bar = [(0.0, z - tick), (0.0, z), (_SCALE_BAR_M, z), (_SCALE_BAR_M, z - tick)]
+        yield Line(bar, INK, 2 / self.px_per_m, "scale")
+        yield Text((_SCALE_BAR_M + letters / 2, z), "10 m", letters, INK, is_left=True, kind="scale")
+        yield Text((_SCALE_BAR_M + 5 * letters, z), f"{words} ({uses})", letters, INK, is_left=True, kind="summary")
+
+    def marks(self) -> Iterator[Disc | Text]:
+        """Findings as numbered discs at their places, and the list of them."""
+        radius = 0.8 * self.letters_m
+        for number, mark in enumerate(self._marks, 1):
+            yield from self._disc((mark.x_m, mark.z_m), radius, mark, number)
+        z = self._places[-1][1] + 4 * self.letters_m
+        for number, mark in enumerate(self._marks[:_MOST_LISTED], 1):
+            yield from self._disc((0.8 * self.letters_m, z), 0.7 * self.letters_m, mark, number)
+            text = self._fitted(f"{mark.severity}: {mark.text}")
+            yield Text((2.2 * self.letters_m, z), text, self.letters_m, INK, is_left=True, kind="finding")
+            z += 1.6 * self.letters_m
+        if len(self._marks) > _MOST_LISTED:
+            more = f"and {len(self._marks) - _MOST_LISTED} more"
+            yield Text((2.2 * self.letters_m, z), more, self.letters_m, INK, is_left=True, kind="finding")
+
+    def _disc(self, at: Point, radius_m: float, mark: Mark, number: int) -> Iterator[Disc | Text]:
+        colour = MARK_COLOUR.get(mark.severity, MARK_COLOUR["info"])
+        yield Disc(at, radius_m, colour, PAPER, 1.5 / self.px_per_m, f"mark {mark.severity}")
+        yield Text(at, str(number), 0.9 * radius_m, PAPER, kind="mark")
+
+    def _fitted(self, text: str) -> str:
+        room = self.high[0] - 3 * self.letters_m
+        if text_width(text, self.letters_m) <= room:
+            return text
+        while text and text_width(f"{text}...", self.letters_m) > room:
+            text = text[:-1]
+        return f"{text}..."
+
+    def _legend_places(self, right_m: float) -> list[Point]:
+        """Where each entry begins, in as many lines as it takes."""
+        places: list[Point] = []
+        x, z = 0.0, self._foot_m + 1.5 * self.letters_m
+        for _, text in self._legend:
+            width = 3 * self.letters_m + text_width(text, self.letters_m)
+            if x > 0 and x + width > right_m:
+                x, z = 0.0, z + 1.8 * self.letters_m
+            places.append((x, z))
+            x += width
+        return places
+
+
+def _swapped(point: Point, swap: bool) -> Point:  # noqa: FBT001 - which axis it lies along
+    return (point[1], point[0]) if swap else point

@@ -1,0 +1,207 @@
+"""The viewer in a browser: it shows what the layout holds, and one can click, switch, walk and find in it."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from browser import find_browser
+from PIL import Image
+from sample_files import REPOSITORY
+from viewer_page import viewed
+
+from garage2usd.layout import ObjectKind
+from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.labels import OBJECT_LABELS
+
+pytestmark = [
+    pytest.mark.client,
+    pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path"),
+]
+
+# one package as a browser likes it, and the largest garage with its files beside it
+VIEWED = {"hand_drawn": "usdz", "large_20x30": "usdc"}
+
+
+@pytest.fixture(scope="module", params=VIEWED)
+def opened(builds, request):
+    build = builds(REPOSITORY / "samples" / f"{request.param}.toml", VIEWED[request.param])
+    with viewed(build.stage) as page:
+        yield build, page
+        assert page.complaints == []
+        assert all(url.startswith((page.url, "data:", "blob:")) for url in page.asked)
+
+
+def picture(page):
+    page.rest()
+    return np.asarray(Image.open(io.BytesIO(page.page.screenshot())).convert("RGB"), dtype=int)
+
+
+def test_it_counts_the_objects_of_each_class_as_the_layout_does(opened):
+    build, page = opened
+    placements = build.garage.layout.placements
+    rows = page.page.query_selector_all(".class")
+    shown = {row.get_attribute("data-label"): int(row.get_attribute("data-count")) for row in rows}
+    expected = {}
+    for placement in placements:
+        label = OBJECT_LABELS[placement.kind]
+        expected[label] = expected.get(label, 0) + 1
+    assert shown == expected
+    assert page.page.inner_text("#object-count") == f"{len(placements):,} objects"
+    assert f"{len(build.garage.layout.stalls):,} stalls" in page.page.inner_text("#stage-facts")
+
+
+def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):
+    build, page = opened
+    layout = build.garage.layout
+    paths = arrange(layout, nested=False).paths()
+    occupied = {(place.square, place.name.partition("_")[2]) for place in layout.of_kind(ObjectKind.CAR)}
+    names = [placement.name for placement in layout.placements]
+    clicked = 0
+    for stall in layout.stalls[:: max(1, len(layout.stalls) // 30)]:
+        taken = (stall.square, stall.named("Car").partition("_")[2]) in occupied
+        x, z = stall.centre_m
+        page.eval(
+            f"viewer.setMode('orbit'), viewer.orbit.target.set({x}, 0, {z}),"
+            f" viewer.camera.position.set({x + 1}, 22, {z + 4}), viewer.orbit.update(), viewer.touch()"
+        )
+        page.rest()
+        page.page.mouse.click(*page.screen((x, 0.0 if not taken else 0.8, z)))
+        facts = page.facts()
+        number = next(
+            k
+            for k, name in enumerate(names)
+            if name == stall.named("Car" if taken else "Stall") and layout.placements[k].square == stall.square
+        )
+        assert facts["Class"] == ("car" if taken else "parking_stall")
+        assert facts["Prim"] == paths[number]
+        assert facts["Instance id"] == str(number + 1)
+        assert facts["Stall id"] == stall.name
+        assert facts["Number"] == (stall.number or "-")
+        assert facts["Use"] == str(stall.use).replace("_", " ")
+        assert facts["Type"] == str(stall.stall_type).replace("_", " ")
+        assert facts["Entry edge"] == stall.edge.name.lower()
+        assert facts["Stall size"] == f"{stall.width_m:.2f} \u00d7 {stall.length_m:.2f} m"
+        assert facts["Car"] == ("parked" if taken else "none")
+        clicked += 1
+        if clicked == 4:
+            break
+    assert clicked == 4
+    page.page.keyboard.press("Escape")
+    assert page.page.is_hidden("#inspector")
+
+
+def test_a_stall_is_found_by_its_painted_number(opened):
+    build, page = opened
+    stall = next(stall for stall in reversed(build.garage.layout.stalls) if stall.number)
+    page.page.fill("#query", stall.number.lower())
+    page.page.keyboard.press("Enter")
+    assert page.facts()["Stall id"] == stall.name
+    target = page.eval("viewer.orbit.target.toArray()")
+    assert np.allclose([target[0], target[2]], stall.centre_m, atol=0.05)
+    page.page.fill("#query", "no such stall")
+    page.page.keyboard.press("Enter")
+    assert "missed" in page.page.get_attribute("#query", "class")
+    page.page.fill("#query", "")
+    page.eval("document.activeElement.blur(), viewer.select(-1)")
+
+
+def test_layers_take_away_what_they_name_and_bring_it_back(opened):
+    _, page = opened
+    page.page.click("#mode-orbit")
+    before, drawn = picture(page), page.drawn()
+    inside = np.s_[100:380, 280:720]
+    for layer in ("cars", "lanes", "stalls", "colliders"):
+        switch = page.page.locator(f"label:has(#layer-{layer})")
+        switch.click()
+        if layer == "colliders":
+            page.page.locator("#view").evaluate(
+                "async () => { while (!viewer.colliders.group.children.length)"
+                " await new Promise((done) => setTimeout(done, 20)); }"
+            )
+        changed = picture(page)
+        assert np.abs(changed - before)[inside].mean() > 0.5, layer
+        if layer == "cars":
+            assert page.drawn()["triangles"] < drawn["triangles"]
+        switch.click()
+        assert np.abs(picture(page) - before)[inside].mean() < 0.05, layer
+    assert page.drawn() == drawn
+
+
+def test_labels_are_seen_in_the_colours_of_the_legend(opened):
+    build, page = opened
+    stall = next(
+        stall
+        for stall in build.garage.layout.stalls
+        if (stall.square, stall.named("Car"))
+        not in {(place.square, place.name) for place in build.garage.layout.of_kind(ObjectKind.CAR)}
+    )
+    x, z = stall.centre_m
+    page.eval(
+        f"viewer.orbit.target.set({x}, 0, {z}), viewer.camera.position.set({x}, 14, {z + 1}), viewer.orbit.update()"
+    )
+    page.page.keyboard.press("4")
+    seen = picture(page)
+    column, row = (int(value) for value in page.screen((x, 0, z)))
+    legend = page.eval(
+        "getComputedStyle(document.querySelector('.class[data-label=parking_stall] .chip')).backgroundColor"
+    )
+    colour = np.array([int(word) for word in legend[4:-1].split(",")])
+    pixel = seen[row, column]
+    assert np.abs(pixel / np.linalg.norm(pixel) - colour / np.linalg.norm(colour)).max() < 0.05
+    page.page.keyboard.press("3")
+
+
+def test_one_walks_at_eye_height_and_through_no_wall(opened):
+    build, page = opened
+    page.page.click("#mode-walk")
+    page.rest()
+    assert page.eval("document.documentElement.dataset.mode") == "walk"
+    start = page.eval("viewer.walker.feet.toArray()")
+    eye = page.eval("viewer.camera.position.toArray()")
+    assert eye[1] == pytest.approx(1.65, abs=0.01)
+    page.page.keyboard.down("w")
+    page.page.wait_for_timeout(700)
+    page.page.keyboard.up("w")
+    assert np.linalg.norm(np.subtract(page.eval("viewer.walker.feet.toArray()"), start)) > 0.3
+    # a long way in every direction, by the walker's own steps: never out of the garage, into a car or off the floor
+    structure = build.garage.layout.structure
+    floors = [(0.0, structure.column_edges_m[-1], 0.0, structure.row_edges_m[-1])]
+    for entry in json.loads(build.labels.read_text())["objects"]:
+        if entry["class"] == "ramp":
+            (x0, _, z0), (x1, _, z1) = entry["min_m"], entry["max_m"]
+            floors.append((x0, x1, z0, z1))
+    cars = [(place.position_m, place.yaw_rad) for place in build.garage.layout.of_kind(ObjectKind.CAR)]
+    ways = page.eval(
+        "(() => { const found = []; viewer.walker.key('KeyW', true); viewer.walker.key('ShiftLeft', true);"
+        " for (let k = 0; k < 90; k++) { if (k % 6 === 0) viewer.walker.yaw += 2.4;"
+        " viewer.walker.advance(0.35); found.push(viewer.walker.feet.toArray()); }"
+        " viewer.walker.release(); return found; })()"
+    )
+    ways = np.array(ways)
+    assert np.ptp(ways[:, 0]) + np.ptp(ways[:, 2]) > 8
+    for x, y, z in ways:
+        assert any(x0 <= x <= x1 and z0 <= z <= z1 for x0, x1, z0, z1 in floors)
+        if all(0 <= value <= most for value, most in zip((x, z), floors[0][1::2], strict=True)):
+            assert abs(y) < 0.2
+        for (cx, _, cz), yaw in cars:
+            dx, dz = x - cx, z - cz
+            across, along = dx * np.cos(yaw) - dz * np.sin(yaw), dx * np.sin(yaw) + dz * np.cos(yaw)
+            assert abs(across) > 0.8 or abs(along) > 1.7
+    page.eval("viewer.touch()")
+    page.rest()
+    # the plan shows where one is
+    assert page.page.inner_text("#place") == f"{ways[-1][0]:.1f}, {ways[-1][2]:.1f} m"
+
+
+def test_inside_it_is_lit_the_ceiling_too(opened):
+    _, page = opened
+    page.eval("viewer.walkIn(), viewer.walker.pitch = 0.5, viewer.touch()")
+    seen = picture(page)
+    sky = np.array([0x16, 0x1B, 0x22])
+    ceiling = seen[90:240, 280:720]
+    assert 70 < ceiling.mean() < 235
+    assert ceiling.std() > 4
+    assert (np.abs(ceiling - sky).sum(axis=2) > 30).mean() > 0.98
+    page.page.keyboard.press("c")
+    page.page.keyboard.press("1")

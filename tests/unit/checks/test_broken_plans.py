@@ -1,0 +1,230 @@
+"""Plans, configurations and reports with one thing wrong: exactly the rule meant for it reports it."""
+
+import json
+
+import pytest
+from small_garage import PLAN, SETTINGS
+
+from garage2usd import GarageConfig, build
+from garage2usd.checks import check, check_file
+from garage2usd.checks.layout_reader import layout_subject
+from garage2usd.errors import ConfigError, StageError
+from garage2usd.grid import Structure, cells_from_text
+from garage2usd.lanes import build_lane_graph
+from garage2usd.layout import lay_out
+from garage2usd.profiles import load_profile, read_profile
+
+FOUND_IN_GOOD_ONE = {"personnel-exits"}
+CN = load_profile("cn-jgj100")
+DRAWN = {
+    "no exit": ("exit-missing", "...\nE==\n..."),
+    "no entrance": ("entrance-missing", "...\n==X\n..."),
+    "a portal inside": ("portal-inside", ".......\n.=====X\n.=.E.=.\n.=====.\n.=...=.\nE=====."),
+    "an exit beside no lane": ("portal-cut-off", "....\nE==X\n....\n....\nX..."),
+    "stalls that no lane leads to": ("stall-route", "........\nE======X\n........\n..====..\n........"),
+    "an entrance that leads nowhere": ("portal-route", "E=######\n########\n........\nE======X\n........"),
+    "portals side by side": ("portal-distance", "......\n.=====\n.=...=\nE=...=\nX=====\n......"),
+}
+
+
+def profile_with(**clauses):
+    """The default profile with some clauses of another value."""
+    settings = CN.model_dump(mode="json", exclude_none=True)
+    for name, clause in clauses.items():
+        settings[name] = {"source": "the client", "confidence": "high", **settings.get(name, {}), **clause}
+    return read_profile({**settings, "name": "client"})
+
+
+def found_in(settings, profile=CN):
+    config = GarageConfig(**settings)
+    side = config.bay.square_side_m
+    widths = side if config.bay.column_widths_m is None else config.bay.column_widths_m
+    depths = side if config.bay.row_depths_m is None else config.bay.row_depths_m
+    structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
+    graph = build_lane_graph(structure, config.bay)
+    subject = layout_subject(lay_out(structure, graph, config), graph, config, source="", kind="plan")
+    return {finding.rule for finding in check(subject, profile)}
+
+
+def settings_with(**sections):
+    return {
+        **SETTINGS,
+        **{name: {**SETTINGS.get(name, {}), **values} for name, values in sections.items()},
+    }
+
+
+@pytest.mark.parametrize(("rule", "drawing"), DRAWN.values(), ids=DRAWN)
+def test_a_broken_drawing_is_reported_by_the_rule_meant_for_it(rule, drawing, tmp_path):
+    (tmp_path / "plan.txt").write_text(drawing)
+    findings, profile = check_file(tmp_path / "plan.txt")
+    assert profile is CN
+    assert {finding.rule for finding in findings} - FOUND_IN_GOOD_ONE - {"fire-compartment-sprinklered"} == {rule}
+
+
+SETTINGS_BROKEN = {
+    "stalls as narrow as the user wants": ("stall-width", {"bay": {"stall_width_m": 2.3}}),
+    "stalls as short as the user wants": ("stall-length", {"bay": {"stall_length_m": 5.2}}),
+    "a low clear height": ("headroom", {"fittings": {"clear_height_m": 2.1}}),
+    "a steep ramp": ("ramp-slope", {"fittings": {"ramp_slope_percent": 18.0}}),
+    "a ramp with short transitions": ("ramp-transition", {"fittings": {"ramp_transition_m": 2.4}}),
+    "dark lanes and stalls told so": (
+        "lane-illuminance",
+        {"fittings": {"tubes_per_cell": 2, "lane_lux": 45.0, "stall_lux": 1.0}},
+    ),
+}
+
+
+@pytest.mark.parametrize(("rule", "sections"), SETTINGS_BROKEN.values(), ids=SETTINGS_BROKEN)
+def test_what_the_user_sets_stays_and_is_reported(rule, sections):
+    assert found_in(settings_with(**sections)) - FOUND_IN_GOOD_ONE == {rule}
+
+
+M = {"unit": "m"}
+CLIENTS = {
+    "wider doors": ("portal-width", {"portal_width": {"value": 6.0, **M}}),
+    "portals farther apart": ("portal-distance", {"portal_distance": {"value": 40, **M}}),
+    "more portals": ("portal-count", {"portals": {"steps": [[10, 2]], "above": 3, "unit": "count"}}),
+    "brighter lanes": ("lane-illuminance", {"lane_illuminance": {"value": 75, "unit": "lx"}}),
+    "brighter stalls": ("stall-illuminance", {"stall_illuminance": {"value": 75, "unit": "lx"}}),
+    "more accessible stalls": (
+        "accessible-count",
+        {"accessible_stalls": {"steps": [[50, 2]], "above_percent": 2, "unit": "count"}},
+    ),
+    "wider accessible stalls": ("accessible-width", {"accessible_stall_width": {"value": 3.5, **M}}),
+    "a wider access aisle": ("access-aisle", {"access_aisle_width": {"value": 2.5, **M}}),
+    "stalls for vans": (
+        "van-count",
+        {"stalls_per_van_stall": {"value": 6, "unit": "count"}, "van_stall_width": {"value": 132, "unit": "in"}},
+    ),
+    "headroom for vans": ("van-headroom", {"van_clear_height": {"value": 98, "unit": "in"}}),
+    "a smaller fire compartment": (
+        "fire-compartment-sprinklered",
+        {"fire_compartment_area_sprinklered": {"value": 500}},
+    ),
+    "other columns": ("column-spacing", {"column_spacing": {"least": 7.5, "most": 8.0}}),
+}
+
+
+@pytest.mark.parametrize(("rule", "clauses"), CLIENTS.values(), ids=CLIENTS)
+def test_a_profile_of_ones_own_asks_for_more(rule, clauses):
+    assert found_in(SETTINGS, profile_with(**clauses)) - FOUND_IN_GOOD_ONE == {rule}
+
+
+def test_without_sprinklers_less_is_allowed():
+    profile = profile_with(fire_compartment_area={"value": 500})
+    assert found_in(SETTINGS, profile) == FOUND_IN_GOOD_ONE
+    assert found_in(settings_with(fittings={"sprinklers": False}), profile) == FOUND_IN_GOOD_ONE | {"fire-compartment"}
+
+
+@pytest.mark.parametrize(("sprinklers", "rule"), [(True, "exit-distance-sprinklered"), (False, "exit-distance")])
+def test_the_farthest_stall_from_the_stair_cores_is_named(sprinklers, rule):
+    drawing = ".......\n..#....\nE=====X\n......."
+    settings = settings_with(
+        site={"structure": drawing}, fittings={"sprinklers": sprinklers}, parking={"occupied_stalls": []}
+    )
+    near = profile_with(**{rule.replace("-", "_"): {"value": 20}})
+    assert found_in(settings, near) - FOUND_IN_GOOD_ONE == {rule}
+    assert found_in(settings) - FOUND_IN_GOOD_ONE == set()
+
+
+def test_a_narrow_aisle_is_reported():
+    drawing = "...E...\n.=====.\n.=...=.\n.=...=.\n.=====.\n...X..."
+    widths = [8.1, 6.1, 8.1, 8.1, 8.1, 6.3, 8.1]
+    settings = settings_with(
+        site={"structure": drawing}, bay={"column_widths_m": widths}, parking={"occupied_stalls": []}
+    )
+    assert found_in(settings) - FOUND_IN_GOOD_ONE - {"column-spacing"} == {"aisle-width"}
+
+
+def test_what_build_would_refuse_is_reported_in_its_words(tmp_path):
+    (tmp_path / "narrow.toml").write_text(f'[site]\nstructure = """{PLAN}"""\n[bay]\nrow_depths_m = [8.1, 3.1, 8.1]\n')
+    findings, _ = check_file(tmp_path / "narrow.toml")
+    assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == {"aisle-width", "plan-refused"}
+    assert "bay.row_depths_m: got 3.1; allowed: at least 3.20 m" in next(
+        f.message for f in findings if f.rule == "plan-refused"
+    )
+    (tmp_path / "empty.txt").write_text("E=X")
+    assert {f.rule for f in check_file(tmp_path / "empty.txt")[0]} - FOUND_IN_GOOD_ONE == {"plan-refused"}
+
+
+def test_a_narrow_door_is_reported():
+    drawing = "...E...\n...=...\n.=====.\n.=...=.\n.=====X\n......."
+    settings = settings_with(
+        site={"structure": drawing},
+        bay={"column_widths_m": [8.1, 8.1, 8.1, 6.2, 8.1, 8.1, 8.1]},
+        parking={"occupied_stalls": []},
+    )
+    assert found_in(settings) - FOUND_IN_GOOD_ONE - {"column-spacing"} == {"portal-width"}
+
+
+@pytest.mark.parametrize(("kept_free", "rules"), [("standard", set()), ("allow", {"dead-end"})])
+def test_a_long_dead_end_needs_a_turning_stall(kept_free, rules):
+    settings = settings_with(
+        site={"structure": ".......\nE=====.\n.=.....\n.=====X\n......."},
+        plan={"dead_ends": kept_free},
+        parking={"occupied_stalls": []},
+    )
+    assert found_in(settings) - FOUND_IN_GOOD_ONE == rules
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    made = build(GarageConfig(**SETTINGS), tmp_path_factory.mktemp("report") / "small.usda")
+    return json.loads(made.report.read_text())
+
+
+REPORTS = {
+    "a stall that was moved": lambda stalls: stalls[3].update(centre_m=[1.0, 2.0]),
+    "a stall that was widened": lambda stalls: stalls[3].update(width_m=2.5),
+    "a stall that was taken out": lambda stalls: stalls.pop(),
+    "a stall that was put in": lambda stalls: stalls.append({**stalls[0], "name": "Stall_r99_c99_1"}),
+    "a use that was changed": lambda stalls: stalls[0].update(use="turning"),
+    "a stall of nonsense": lambda stalls: stalls.append(["?"]),
+}
+
+
+@pytest.mark.parametrize("change", [None, *REPORTS.values()], ids=["nothing", *REPORTS])
+def test_a_report_lists_the_stalls_that_its_plan_gives(change, report, tmp_path):
+    document = json.loads(json.dumps(report))
+    if change:
+        change(document["stalls"])
+    (tmp_path / "g_report.json").write_text(json.dumps(document))
+    findings, _ = check_file(tmp_path / "g_report.json")
+    assert {f.rule for f in findings} - FOUND_IN_GOOD_ONE == ({"report-stalls"} if change else set())
+
+
+def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
+    rows = PLAN.strip().splitlines()
+    forms = {
+        "plan.txt": PLAN,
+        "plan.json": json.dumps(rows),
+        "matrices.json": json.dumps({"S": rows, "R": [8.1] * 4, "C": 8.1}),
+        "numbers.json": json.dumps([[".=EX".index(symbol) for symbol in row] for row in rows]),
+        "plan.toml": f'[site]\nstructure = """{PLAN}"""\n',
+    }
+    for name, text in forms.items():
+        (tmp_path / name).write_text(text)
+        assert [f.rule for f in check_file(tmp_path / name)[0]] == sorted(FOUND_IN_GOOD_ONE), name
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("a.txt", "....\n", "a plan with lanes"),
+        ("a.txt", "E?X", "'?'"),
+        ("a.toml", "seed = 1\n", "a plan with lanes"),
+        ("a.json", "{", "JSON"),
+        ("a.json", "[" * 100_000, "JSON"),
+        ("a.json", '{"S": 3}', "rows of symbols"),
+        ("a.json", '{"config": {}, "S": ["E=X"]}', "a report with config, S, R and C"),
+        ("a.json", '{"config": {"sed": 1}, "S": ["E=X"], "R": 8.1, "C": 8.1}', "sed"),
+        ("a.json", '{"S": ["E=X"], "R": NaN, "C": 8.1}', "NaN"),
+        ("a.usda", "#usda 2.0", "USD cannot read it"),
+        ("a.usdz", "PK", "no package"),
+    ],
+)
+def test_what_is_no_plan_is_refused_in_one_line(name, text, said, tmp_path):
+    (tmp_path / name).write_text(text)
+    with pytest.raises((ConfigError, StageError)) as caught:
+        check_file(tmp_path / name)
+    assert said in str(caught.value)

@@ -1,0 +1,92 @@
+"""Every rule is proven by a garage that breaks it, and documented."""
+
+import importlib.util
+import re
+import tomllib
+
+from click.testing import CliRunner
+from sample_files import REPOSITORY
+from small_garage import PLAN, SETTINGS
+
+from garage2usd import GarageConfig, build
+from garage2usd.checks import RULES
+from garage2usd.cli import main
+from garage2usd.profiles import Profile, read_profile
+
+HERE = REPOSITORY / "tests" / "unit" / "checks"
+BROKEN_ELSEWHERE = {
+    # in tests of their own, where two rules speak or figures are compared
+    "stall-illuminance",
+    "exit-distance",
+    "exit-distance-sprinklered",
+    "fire-compartment",
+    "personnel-exits",
+    "dead-end",
+    "report-stalls",
+    "plan-refused",
+}
+
+
+def loaded(path):
+    spec = importlib.util.spec_from_file_location(f"tables_of_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def broken_by_tables():
+    stages, plans = loaded(HERE / "test_broken_stages.py"), loaded(HERE / "test_broken_plans.py")
+    usd = loaded(REPOSITORY / "tests" / "clients" / "test_stage_rules.py")
+    tables = (stages.BROKEN, plans.DRAWN, plans.SETTINGS_BROKEN, plans.CLIENTS, usd.BROKEN)
+    return [rule for table in tables for rule, _ in table.values()]
+
+
+def test_every_rule_has_a_garage_that_breaks_it():
+    broken = broken_by_tables()
+    assert set(broken) | BROKEN_ELSEWHERE == {rule.name for rule in RULES}
+    assert len(broken) >= 40
+
+
+def test_rules_have_names_of_their_own_and_read_clauses_that_there_are():
+    assert len({rule.name for rule in RULES}) == len(RULES)
+    for rule in RULES:
+        assert re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name)
+        assert set(rule.clauses) <= set(Profile.model_fields)
+
+
+def test_every_clause_is_read_by_a_rule():
+    read = {clause for rule in RULES for clause in rule.clauses}
+    # what the design car is and how it turns is read by the proof that it drives
+    driven = {"design_car_height", "turning_radius"}
+    assert read | driven == set(Profile.model_fields) - {"name", "title"}
+
+
+def test_the_page_lists_all_rules_and_clauses():
+    page = (REPOSITORY / "docs" / "check.md").read_text(encoding="utf-8")
+    assert loaded(REPOSITORY / "docs" / "make_rules.py").written(page) == page
+
+
+def blocks(language):
+    page = (REPOSITORY / "docs" / "check.md").read_text(encoding="utf-8")
+    return re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
+
+
+def test_the_profile_on_the_page_is_one():
+    (text,) = blocks("toml")
+    profile = read_profile(tomllib.loads(text))
+    assert {name for name, _ in profile.clauses()} == {"stall_width", "portals"}
+
+
+def test_the_code_on_the_page_runs(tmp_path, monkeypatch):
+    build(GarageConfig(**SETTINGS), tmp_path / "garage.usdz")
+    (tmp_path / "plan.txt").write_text(PLAN)
+    monkeypatch.chdir(tmp_path)
+    (code,) = blocks("python")
+    found = {}
+    exec(code, found)  # noqa: S102 - the page's own code
+    assert {error.rule for error in found["errors"]} >= {"stall-width", "stall-length"}
+    (shell,) = blocks("sh")
+    for line in shell.splitlines():
+        command, *arguments = line.partition("#")[0].split()
+        assert command == "garage2usd"
+        assert CliRunner().invoke(main, arguments).exit_code in {0, 1}
