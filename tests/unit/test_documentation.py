@@ -4,6 +4,7 @@ import html
 import re
 import subprocess
 import sys
+import tomllib
 from collections import Counter
 from importlib import import_module
 
@@ -65,6 +66,17 @@ def resolve(name):
             found = getattr(found, part, None)
         return found
     return None
+
+
+def test_contributing_names_every_room_in_the_order_of_imports():
+    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())
+    layers = settings["tool"]["importlinter"]["contracts"][0]["layers"]
+    rooms = [name.strip().removeprefix("garage2usd.") for layer in layers for name in layer.split("|")]
+    table = re.findall(r"^\| (`.*?) \|", (REPOSITORY / "CONTRIBUTING.md").read_text(), re.MULTILINE)
+    listed = [name.rstrip("/") for row in table for name in re.findall(r"`([\w/]+)`", row)]
+    assert sorted(listed) == sorted(rooms)
+    place = {room: number for number, layer in enumerate(layers) for room in re.findall(r"garage2usd\.(\w+)", layer)}
+    assert [place[room] for room in listed] == sorted(place[room] for room in listed)
 
 
 @pytest.fixture(scope="module")
