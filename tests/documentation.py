@@ -196,4 +196,4 @@ def follow_page(page, folder):
 
 if __name__ == "__main__":
     follow_page(Path(sys.argv[1]), Path(sys.argv[2]))
-    print(Path(garage2usd.__file__).parent)
+    sys.stdout.write(f"{Path(garage2usd.__file__).parent}\n")
