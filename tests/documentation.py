@@ -23,7 +23,8 @@ from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.profiles import read_profile
 
-PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").rglob("*.md"))]
+README = REPOSITORY / "README.md"
+PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]
 RUN = {"sh", "python", "toml"}
 SHOWN = {"", "csharp", "json"}
 
@@ -33,16 +34,7 @@ _BLOCK = re.compile(
 _FILE = re.compile(r"# (?P<name>[\w.]+\.(?:py|toml))\b")
 _EXIT_CODE = re.compile(r"#.*\bexit code (\d)")
 _CHANGES_THE_MACHINE = {"pip", "make", "apt-get", "sudo", "npm"}
-_SMALL = """
-[site]
-structure = '''
-.......
-E=====.
-.=...=.
-.=====X
-.......
-'''
-"""
+_BUILDS_THE_GARAGE = re.compile(r"^garage2usd build(?!.*-o)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -99,7 +91,7 @@ class Reader:
             shim.chmod(0o755)
 
     def start_with_a_garage(self):
-        garage2usd.build(config_from_mapping(tomllib.loads(_SMALL)), self.folder / "garage.usdz")
+        garage2usd.build(output=self.folder / "garage.usdz", seed=7)
 
     def follow(self, block):
         """Do what a block says."""
@@ -146,7 +138,7 @@ class Reader:
         assert run.exit_code == code, f"{place}\n{run.output}{run.exception!r}"
 
     def _view(self, arguments):
-        command = [sys.executable, "-u", "-m", "garage2usd", *arguments, "--no-browser"]
+        command = [sys.executable, "-u", "-m", "garage2usd", *arguments, "--no-browser", "--port", "0"]
         # in a process group of its own, to which Ctrl-C in a terminal goes as a whole
         with subprocess.Popen(
             command, cwd=self.folder, stdout=subprocess.PIPE, text=True, start_new_session=True
@@ -189,3 +181,19 @@ def check_unrun(block):
                 group = click.Context(main)
                 name, command, rest = main.resolve_command(group, words[1:])
                 command.make_context(name, rest, parent=group)
+
+
+def follow_page(page, folder):
+    """Do all that a page says."""
+    reader = Reader(folder)
+    to_run = [block for block in blocks(page) if block.language in RUN and block.reason is None]
+    said = "".join(block.text for block in to_run)
+    if re.search(r"\bgarage(\.usdz|_report)", said) and not _BUILDS_THE_GARAGE.search(said):
+        reader.start_with_a_garage()
+    for block in to_run:
+        reader.follow(block)
+
+
+if __name__ == "__main__":
+    follow_page(Path(sys.argv[1]), Path(sys.argv[2]))
+    sys.stdout.write(f"{Path(garage2usd.__file__).parent}\n")

@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
@@ -269,7 +270,7 @@ def _put(document: object, draw: Random) -> None:
                 if draw.random() < 0.15:
                     del place[key]
                 else:
-                    place[key] = draw.choice(ABSURD)
+                    place[key] = deepcopy(draw.choice(ABSURD))  # the next value may go into this one
                 break
             place = inner
 
