@@ -11,7 +11,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
 from garage2usd.layout import ObjectKind
-from garage2usd.limits import lift_seconds
+from garage2usd.limits import lift
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.render.blender_process import check_blender, run_blender
@@ -148,7 +148,7 @@ def render_stage(
             "frames": jobs,
         }
         progress("render", 0, total)
-        lift_seconds()
+        lift()
         run_blender(job, staging, lambda done: progress("render", done, total))
         entries = []
         for number, (view, frame_job, hide) in enumerate(zip(views, jobs, hidden, strict=True)):

@@ -343,3 +343,15 @@ def test_pictures_open_as_such(tmp_path):
         assert image.mode == "RGB"
         svg = ET.parse(tmp_path / "p.svg").getroot()
         assert (round(float(svg.get("width"))), round(float(svg.get("height")))) == image.size
+
+
+def test_what_a_check_finds_is_drawn_at_its_place(builds, tmp_path):
+    build = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc")
+    report = json.loads(build.report.read_text())
+    moved = report["stalls"][3]
+    moved["centre_m"][0] += 0.5
+    (tmp_path / "garage_report.json").write_text(json.dumps(report))
+    picture = tmp_path / "plan.svg"
+    arguments = ["plan", str(tmp_path / "garage_report.json"), "--findings", "-o", str(picture)]
+    assert CliRunner().invoke(main, arguments).exit_code == 0
+    assert "error: report-stalls: the report tells another place" in " ".join(ElementTree.parse(picture).getroot().itertext())
