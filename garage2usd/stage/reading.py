@@ -60,9 +60,8 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
             raise StageError(path, f"{damaged} ({usd_reason(error)})") from None
         layers[name] = layer
         if layer:
-            named = (
-                Sdf.ComputeAssetPathRelativeToLayer(layer, asset) for asset in layer.GetCompositionAssetDependencies()
-            )
+            assets = filter(None, layer.GetCompositionAssetDependencies())  # without those to the layer itself
+            named = [Sdf.ComputeAssetPathRelativeToLayer(layer, asset) for asset in assets]
             waiting += [other for other in dict.fromkeys(named) if other and other not in layers]
     found = [layer for layer in layers.values() if layer]
     if not found:
