@@ -34,6 +34,13 @@ _BLOCK = re.compile(
 _FILE = re.compile(r"# (?P<name>[\w.]+\.(?:py|toml))\b")
 _EXIT_CODE = re.compile(r"#.*\bexit code (\d)")
 _CHANGES_THE_MACHINE = {"pip", "make", "apt-get", "sudo", "npm"}
+_SMALL = """
+.......
+E=====.
+.=...=.
+.=====X
+.......
+"""
 _BUILDS_THE_GARAGE = re.compile(r"^garage2usd build(?!.*-o)", re.MULTILINE)
 
 
@@ -91,7 +98,8 @@ class Reader:
             shim.chmod(0o755)
 
     def start_with_a_garage(self):
-        garage2usd.build(output=self.folder / "garage.usdz", seed=7)
+        config = garage2usd.GarageConfig(site={"structure": _SMALL})
+        garage2usd.build(config, self.folder / "garage.usdz")
 
     def follow(self, block):
         """Do what a block says."""

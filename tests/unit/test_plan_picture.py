@@ -354,4 +354,4 @@ def test_what_a_check_finds_is_drawn_at_its_place(builds, tmp_path):
     picture = tmp_path / "plan.svg"
     arguments = ["plan", str(tmp_path / "garage_report.json"), "--findings", "-o", str(picture)]
     assert CliRunner().invoke(main, arguments).exit_code == 0
-    assert "error: report-stalls: the report tells another place" in " ".join(ElementTree.parse(picture).getroot().itertext())
+    assert "error: report-stalls: the report tells another place" in " ".join(ET.parse(picture).getroot().itertext())
