@@ -7,7 +7,7 @@ sight where a few lines refer to each other in doubling numbers, and nothing in 
 import math
 import resource
 
-__all__ = ["allow_seconds", "enforce", "lift_seconds"]
+__all__ = ["allow_seconds", "enforce", "lift"]
 
 _MAX_MEMORY_BYTES = 8 * 1024**3
 _enforced = False
@@ -29,10 +29,12 @@ def allow_seconds(seconds: float) -> None:
         _set_seconds(math.ceil(used.ru_utime + used.ru_stime + seconds))
 
 
-def lift_seconds() -> None:
-    """Let this process, and those that it starts, take any time."""
+def lift() -> None:
+    """Let this process, and those that it starts, take any time and memory."""
     if _enforced:
         _set_seconds(resource.RLIM_INFINITY)
+        most = resource.getrlimit(resource.RLIMIT_DATA)[1]
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
 
 
 def _set_seconds(limit: int) -> None:

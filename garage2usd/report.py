@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.documents import read_bytes
 from garage2usd.errors import ConfigError, ReportError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
@@ -104,17 +105,14 @@ def read_report(path: Path) -> GarageConfig:
 
     Raises
     ------
-    ReportError
-        If the file cannot be read, or is no report.
     ConfigError
-        If a setting in it is not allowed by this version.
+        If the file cannot be read, or a setting in it is not allowed by this version.
+    ReportError
+        If it is no report.
     """
+    text = read_bytes(path, field="report", max_bytes=_MAX_FILE_BYTES)
     try:
-        if path.stat().st_size > _MAX_FILE_BYTES:
-            raise ReportError(path, f"a report has at most {_MAX_FILE_BYTES} bytes")
-        report = _Report.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise ReportError(path, error.strerror or str(error)) from None
+        report = _Report.model_validate_json(text)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"])) or "JSON"

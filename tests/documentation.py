@@ -2,9 +2,9 @@
 
 import contextlib
 import io
+import os
 import re
 import shlex
-import shutil
 import signal
 import subprocess
 import sys
@@ -23,24 +23,25 @@ from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.profiles import read_profile
 
-PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").rglob("*.md"))]
+README = REPOSITORY / "README.md"
+PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]
 RUN = {"sh", "python", "toml"}
 SHOWN = {"", "csharp", "json"}
 
-_BLOCK = re.compile(r"(?:^<!-- not run: (?P<reason>.+?) -->\n)?^```(?P<language>\S*)\n(?P<text>.*?)^```$", re.M | re.S)
+_BLOCK = re.compile(
+    r"(?:^<!-- not run: (?P<reason>.+?) -->\n)?^```(?P<language>\S*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
+)
 _FILE = re.compile(r"# (?P<name>[\w.]+\.(?:py|toml))\b")
 _EXIT_CODE = re.compile(r"#.*\bexit code (\d)")
 _CHANGES_THE_MACHINE = {"pip", "make", "apt-get", "sudo", "npm"}
 _SMALL = """
-[site]
-structure = '''
 .......
 E=====.
 .=...=.
 .=====X
 .......
-'''
 """
+_BUILDS_THE_GARAGE = re.compile(r"^garage2usd build(?!.*-o)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -88,16 +89,17 @@ class Reader:
         (folder / "samples").symlink_to(REPOSITORY / "samples")
         shims = folder / "bin"
         shims.mkdir()
-        for name, code in (("garage2usd", "from garage2usd.cli import main; main()"), ("python", None)):
+        for name, text in (
+            ("garage2usd", f"#!{sys.executable}\nfrom garage2usd.cli import run\nrun()\n"),
+            ("python", f'#!/bin/sh\nexec "{sys.executable}" "$@"\n'),
+        ):
             shim = shims / name
-            run = f'-c "{code}"' if code else ""
-            shim.write_text(f'#!/bin/sh\nexec "{sys.executable}" {run} "$@"\n')
+            shim.write_text(text)
             shim.chmod(0o755)
-        # click takes the program's name from argv[0], which -c leaves out
-        (shims / "garage2usd").write_text(f"#!{sys.executable}\nfrom garage2usd.cli import main\nmain()\n")
 
     def start_with_a_garage(self):
-        garage2usd.build(config_from_mapping(tomllib.loads(_SMALL)), self.folder / "garage.usdz")
+        config = garage2usd.GarageConfig(site={"structure": _SMALL})
+        garage2usd.build(config, self.folder / "garage.usdz")
 
     def follow(self, block):
         """Do what a block says."""
@@ -144,13 +146,17 @@ class Reader:
         assert run.exit_code == code, f"{place}\n{run.output}{run.exception!r}"
 
     def _view(self, arguments):
-        command = [sys.executable, "-u", "-m", "garage2usd", *arguments, "--no-browser"]
-        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, text=True) as server:
+        command = [sys.executable, "-u", "-m", "garage2usd", *arguments, "--no-browser", "--port", "0"]
+        # in a process group of its own, to which Ctrl-C in a terminal goes as a whole
+        with subprocess.Popen(
+            command, cwd=self.folder, stdout=subprocess.PIPE, text=True, start_new_session=True
+        ) as server:
             address = re.search(r"http://127\.0\.0\.1:\d+/", server.stdout.readline())[0]
             assert "objects" in server.stdout.readline()
-            with urllib.request.urlopen(address, timeout=30) as page:
+            with urllib.request.urlopen(address, timeout=30) as page:  # noqa: S310 - http by the pattern above
                 assert b"<script" in page.read()
-            server.send_signal(signal.SIGINT)
+            os.killpg(server.pid, signal.SIGINT)
+            server.wait(timeout=30)
         assert server.returncode == 0
 
     def _bash(self, line, code, block):
@@ -158,24 +164,16 @@ class Reader:
             script = next((self.folder / word for word in shlex.split(line) if word.endswith(".py")), None)
             if script and f"import {module}\n" in script.read_text():
                 pytest.importorskip(module)
-        path = f"{self.folder / 'bin'}:/usr/bin:/bin"
-        bash = shutil.which("bash")
         run = subprocess.run(
-            [bash, "-ec", line],
+            ["bash", "-ec", line],
             cwd=self.folder,
-            env=_environment(path),
+            env={**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"},
             capture_output=True,
             text=True,
             timeout=300,
             check=False,
         )
         assert run.returncode == code, f"{block}: {line}\n{run.stdout}{run.stderr}"
-
-
-def _environment(path):
-    import os
-
-    return {**os.environ, "PATH": path}
 
 
 def check_unrun(block):
@@ -191,3 +189,19 @@ def check_unrun(block):
                 group = click.Context(main)
                 name, command, rest = main.resolve_command(group, words[1:])
                 command.make_context(name, rest, parent=group)
+
+
+def follow_page(page, folder):
+    """Do all that a page says."""
+    reader = Reader(folder)
+    to_run = [block for block in blocks(page) if block.language in RUN and block.reason is None]
+    said = "".join(block.text for block in to_run)
+    if re.search(r"\bgarage(\.usdz|_report)", said) and not _BUILDS_THE_GARAGE.search(said):
+        reader.start_with_a_garage()
+    for block in to_run:
+        reader.follow(block)
+
+
+if __name__ == "__main__":
+    follow_page(Path(sys.argv[1]), Path(sys.argv[2]))
+    sys.stdout.write(f"{Path(garage2usd.__file__).parent}\n")

@@ -11,6 +11,7 @@ from garage2usd.cli.bars import Bars
 if TYPE_CHECKING:
     from garage2usd.pipeline import Garage
     from garage2usd.progress import Progress
+    from garage2usd.view.plan_sheet import Mark
 
 __all__ = ["plan"]
 
@@ -20,6 +21,7 @@ _FORMATS = (".png", ".svg")
 @click.command()
 @click.argument("path", type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--stall", "number", help="Number or id of a stall whose route is drawn, as B2-07.")
+@click.option("--findings", "with_findings", is_flag=True, help="Draw what `check` finds in PATH at its place.")
 @click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
 @click.option(
     "--output",
@@ -29,7 +31,7 @@ _FORMATS = (".png", ".svg")
     multiple=True,
     help="The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
 )
-def plan(*, path: Path, number: str | None, seed: int | None, outputs: tuple[Path, ...]) -> None:
+def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | None, outputs: tuple[Path, ...]) -> None:
     """Draw the plan of a garage with dimensions, stall numbers and lanes.
 
     PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report.
@@ -38,6 +40,7 @@ def plan(*, path: Path, number: str | None, seed: int | None, outputs: tuple[Pat
     Examples:
       garage2usd plan garage.usdz
       garage2usd plan garage_report.json --stall B2-07 -o route.png -o route.svg
+      garage2usd plan garage.usdz --findings -o findings.png
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
@@ -54,7 +57,8 @@ def plan(*, path: Path, number: str | None, seed: int | None, outputs: tuple[Pat
     with Bars(sys.stderr) as progress:
         garage = _garage(path, seed, progress)
     stall = find_stall(garage.layout, number) if number else None
-    drawing = draw_plan(garage.layout, garage.graph, stall=stall)
+    marks = _marks(path) if with_findings else []
+    drawing = draw_plan(garage.layout, garage.graph, stall=stall, marks=marks)
     with staging_folder() as staging:
         made = []
         for index, output in enumerate(outputs):
@@ -68,6 +72,19 @@ def plan(*, path: Path, number: str | None, seed: int | None, outputs: tuple[Pat
         for file, output in zip(made, outputs, strict=True):
             publish([file], output.parent)
             click.echo(f"{'picture':>10}  {output}")
+
+
+def _marks(path: Path) -> "list[Mark]":
+    """What a check finds at places of its own."""
+    from garage2usd.checks import check_file  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.view.plan_sheet import Mark  # noqa: PLC0415
+
+    findings, _ = check_file(path)
+    return [
+        Mark(*finding.position_m, finding.severity.value, f"{finding.rule}: {finding.message}")
+        for finding in findings
+        if finding.position_m is not None
+    ]
 
 
 def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":

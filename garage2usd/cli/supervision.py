@@ -12,7 +12,7 @@ from garage2usd.limits import enforce
 
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
-SUPERVISED = frozenset({"check", "render", "view"})
+SUPERVISED = frozenset({"check", "plan", "render", "view"})
 """The commands that open stages which anybody may have written."""
 CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
 _FAILED = 1
@@ -37,8 +37,8 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
         with suppress(ProcessLookupError):
             os.kill(child, number)
 
-    signal.signal(signal.SIGTERM, pass_on)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to the child too
+    for asked in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(asked, pass_on)
     _, status = os.waitpid(child, 0)
     if not os.WIFSIGNALED(status):
         sys.exit(os.waitstatus_to_exitcode(status))
@@ -56,7 +56,8 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
 
 
 def _become_child(supervisor: int) -> None:
-    """Set limits, and die with the supervisor, even where that is killed."""
+    """Set limits, leave the terminal's signals to the supervisor, and end with it, even where that is killed."""
+    os.setpgid(0, 0)
     enforce()
     if sys.platform == "linux":
         import ctypes  # noqa: PLC0415 - no other command needs it

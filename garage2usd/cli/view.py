@@ -27,7 +27,7 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
       garage2usd view garage.usdz
       garage2usd view out/garage.usdc --port 8000 --no-browser
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.limits import lift_seconds  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.limits import lift  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.reading import open_stage  # noqa: PLC0415
     from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
 
@@ -39,7 +39,7 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
             scene = read_scene(stage, path)
             server.show(scene)
             # not before: the browser would inherit the limits of a process that reads a stage
-            lift_seconds()
+            lift()
             if not no_browser:
                 threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
             shown = f"{len(scene.objects)} objects of {len(scene.counts())} classes"

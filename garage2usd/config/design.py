@@ -1,6 +1,7 @@
 """What a profile asks of the settings: sizes that a garage needs to pass its own check."""
 
 import math
+import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -129,7 +130,7 @@ def _given(
         value = given.get(key)
     elif isinstance(given, Settings) and key in given.model_fields_set:
         value = getattr(given, key)
-    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max:
         return value
     return _default(model, key) if fallback is None else fallback
 

@@ -11,14 +11,22 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
 from garage2usd.layout import ObjectKind
-from garage2usd.limits import lift_seconds
+from garage2usd.limits import lift
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.render.blender_process import check_blender, run_blender
 from garage2usd.render.cameras import View, find_views
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.labels import Labels, read_labels
-from garage2usd.render.pictures import INDEX_LIMIT, Picture, Surfaces, read_surfaces, visible_instances, write_picture
+from garage2usd.render.pictures import (
+    INDEX_LIMIT,
+    Picture,
+    Surfaces,
+    read_surfaces,
+    visible_instances,
+    write_colour,
+    write_picture,
+)
 from garage2usd.render.scene import SHAPE_PROPERTY, read_scene, write_shapes
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.reading import open_stage
@@ -126,9 +134,7 @@ def render_stage(
         np.savez(staging / "places.npz", shape=scene.shape, instance=scene.instance, to_world=scene.to_world)
         axes = _BLENDER_FROM[UsdGeom.GetStageUpAxis(opened)]
         digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
-        jobs = [
-            _frame_job(view, hide, finished, staging, kinds, digits) for view, hide in zip(views, hidden, strict=True)
-        ]
+        jobs = [_frame_job(view, hide, staging, kinds, digits) for view, hide in zip(views, hidden, strict=True)]
         total = sum(samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
         job = {
             "shapes": str(staging / "shapes.usda"),
@@ -142,11 +148,13 @@ def render_stage(
             "frames": jobs,
         }
         progress("render", 0, total)
-        lift_seconds()
+        lift()
         run_blender(job, staging, lambda done: progress("render", done, total))
         entries = []
         for number, (view, frame_job, hide) in enumerate(zip(views, jobs, hidden, strict=True)):
             progress("masks", number, len(views))
+            if frame_job["colour"]:
+                write_colour(Path(frame_job["colour"]), finished / Picture.COLOUR / f"{view.name}.png")
             surfaces = read_surfaces(map(Path, frame_job["data"]), axes.T) if frame_job["data"] else None
             if surfaces:
                 _write_pictures(view, surfaces, labels, kinds, finished)
@@ -169,13 +177,10 @@ def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[lis
     return [overhead if view.camera_to_world[up, 3] > top_m else [] for view in views]
 
 
-def _frame_job(
-    view: View, hidden: list[int], finished: Path, staging: Path, kinds: Collection[Picture], digits: int
-) -> dict[str, Any]:
-    colour = finished / Picture.COLOUR / f"{view.name}.png"
+def _frame_job(view: View, hidden: list[int], staging: Path, kinds: Collection[Picture], digits: int) -> dict[str, Any]:
     data = [str(staging / f"{view.name}_{digit}.exr") for digit in range(digits)]
     return {
-        "colour": str(colour) if Picture.COLOUR in kinds else None,
+        "colour": str(staging / f"{view.name}.png") if Picture.COLOUR in kinds else None,
         "data": data if set(kinds) - {Picture.COLOUR} else [],
         "lens": {
             "focal_mm": view.lens.focal_mm,

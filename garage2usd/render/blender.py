@@ -163,9 +163,6 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.image_settings.color_depth = "8"
-    for name in dir(scene.render):  # neither date nor duration, so that the same picture is the same file
-        if name.startswith("use_stamp"):
-            setattr(scene.render, name, False)
 
 
 def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:
@@ -180,7 +177,7 @@ def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> Non
     scene.cycles.transparent_max_bounces = _TRANSPARENT_BOUNCES
     scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"  # the box has a width of its own
     scene.cycles.filter_width = _POINT_FILTER_PX
-    scene.render.use_persistent_data = False
+    scene.render.use_persistent_data = True
     layer = scene.view_layers[0]
     layer.use_pass_combined = True
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True

@@ -8,6 +8,7 @@ from typing import Annotated
 from pxr import Usd, UsdGeom
 from pydantic import BaseModel, Field, ValidationError
 
+from garage2usd.documents import read_bytes
 from garage2usd.errors import StageError
 from garage2usd.stage.labels import CITYSCAPES
 
@@ -16,6 +17,7 @@ __all__ = ["LARGEST_ID", "Labels", "SemanticClass", "read_labels"]
 LARGEST_ID = 2**24 - 1
 """Ids of more than 24 bits fit no instance picture."""
 _LARGEST_CLASS_ID = 255
+_MAX_FILE_BYTES = 1024 * 1024 * 1024
 _LABELS_ATTRIBUTE = "semantics:labels:class"
 
 
@@ -75,16 +77,15 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
 
     Raises
     ------
+    ConfigError
+        If the table cannot be read.
     StageError
-        If the table is none, or does not fit its form.
+        If it is none, or does not fit its form.
     """
     table = path.with_name(f"{path.stem}_labels.json")
-    try:
-        text = table.read_bytes()
-    except FileNotFoundError:
+    if not table.exists():
         return _labels_of(stage)
-    except OSError as error:
-        raise StageError(table, error.strerror or str(error)) from None
+    text = read_bytes(table, field="labels", max_bytes=_MAX_FILE_BYTES)
     try:
         return _labels_from(_Table.model_validate_json(text), table)
     except ValidationError as error:

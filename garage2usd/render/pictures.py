@@ -18,6 +18,7 @@ __all__ = [
     "class_colour",
     "read_surfaces",
     "visible_instances",
+    "write_colour",
     "write_picture",
 ]
 
@@ -79,6 +80,12 @@ class VisibleInstance:
     id: int
     box_px: tuple[int, int, int, int]
     pixels: int
+
+
+def write_colour(drawn: Path, path: Path) -> None:
+    """Keep the pixels of a picture that Blender drew, without when and how long it drew."""
+    with Image.open(drawn) as image:
+        Image.fromarray(np.asarray(image)).save(path)
 
 
 def read_surfaces(files: Iterable[Path], from_blender: NDArray[np.float64]) -> Surfaces:

@@ -28,22 +28,45 @@ def open_stage(path: Path) -> Usd.Stage:
     ------
     StageError
         If it is no regular file of a known kind and size, a package that USD would not read (compressed or encrypted
-        entries, entries that leave it, one that stands there twice), or nothing that USD opens.
+        entries, entries that leave it, one that stands there twice), or it or a layer that it names is damaged.
     """
     _check_file(path)
     if path.suffix == ".usdz":
         _check_package(path)
     allow_seconds(_LEAST_S + _OPENING_S_PER_MB * path.stat().st_size / 1e6)
+    layers = _open_layers(path)
     try:
-        layer = Sdf.Layer.FindOrOpen(str(path))
-        stage = Usd.Stage.Open(layer) if layer else None
+        stage = Usd.Stage.Open(layers[0])
     except Tf.ErrorException as error:
-        raise StageError(path, f"USD cannot read it ({usd_reason(error)})") from None
-    if stage is None:
-        raise StageError(path, "USD cannot read it")
+        raise StageError(path, f"USD cannot compose it ({usd_reason(error)})") from None
     files = {used.realPath.partition("[")[0] for used in stage.GetUsedLayers()} - {""}
     allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
     return stage
+
+
+def _open_layers(path: Path) -> list[Sdf.Layer]:
+    """The layer of a file and all that it leads to, but for those that are not there, which a stage may lack.
+
+    USD tries a damaged layer again for each prim that refers to it.
+    """
+    layers: dict[str, Sdf.Layer | None] = {}
+    waiting = [str(path)]
+    while waiting:
+        name = waiting.pop()
+        try:
+            layer = Sdf.Layer.FindOrOpen(name)
+        except Tf.ErrorException as error:
+            damaged = "USD cannot read it" if not layers else f"USD cannot read {name}, which it refers to"
+            raise StageError(path, f"{damaged} ({usd_reason(error)})") from None
+        layers[name] = layer
+        if layer:
+            assets = filter(None, layer.GetCompositionAssetDependencies())  # without those to the layer itself
+            named = [Sdf.ComputeAssetPathRelativeToLayer(layer, asset) for asset in assets]
+            waiting += [other for other in dict.fromkeys(named) if other and other not in layers]
+    found = [layer for layer in layers.values() if layer]
+    if not found:
+        raise StageError(path, "USD cannot read it")
+    return found
 
 
 def usd_reason(error: Exception) -> str:

@@ -11,7 +11,7 @@ import pytest
 from pictures import difference, read_png, store, stored
 from places import assert_same_places
 from pxr import Usd
-from sample_files import REPOSITORY, each_format, each_sample
+from sample_files import REPOSITORY, each_build
 from stage_textures import texture_names
 
 from garage2usd.layout import ObjectKind
@@ -38,8 +38,7 @@ def imported(tmp_path_factory):
     return dump
 
 
-@each_sample
-@each_format
+@each_build
 def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
     build = builds(sample, extension)
     layout = build.garage.layout

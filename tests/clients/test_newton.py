@@ -99,8 +99,12 @@ def assert_same_sizes(shapes, expected):
 
 @pytest.mark.parametrize(
     ("sample", "form"),
-    [*((sample, None) for sample in SAMPLES), (REPOSITORY / "samples" / "irregular.toml", "nested")],
-    ids=[*(sample.stem for sample in SAMPLES), "irregular_nested"],
+    [
+        # the largest takes a minute, and has no other kinds of objects
+        *((sample, None) for sample in SAMPLES if sample.stem != "large_20x30"),
+        (REPOSITORY / "samples" / "irregular.toml", "nested"),
+    ],
+    ids=lambda value: getattr(value, "stem", value),
 )
 def test_newton_agrees_with_the_layout(sample, form, builds, tmp_path):
     build = builds(sample, "usdc", form)

@@ -3,7 +3,7 @@
 import pytest
 from PIL import Image
 from pxr import Usd, UsdPhysics
-from sample_files import each_format, each_sample
+from sample_files import each_build
 
 from garage2usd.checks import check
 from garage2usd.checks.consistency import BOOK as CONSISTENCY
@@ -20,8 +20,7 @@ def prims_of(stage):
     return Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
 
 
-@each_sample
-@each_format
+@each_build
 def test_stages_break_no_rule(sample, extension, builds):
     stage = Usd.Stage.Open(str(builds(sample, extension).stage))
     assert stage.GetDefaultPrim().GetPath() == "/Garage"

@@ -5,6 +5,7 @@ import os
 import re
 import sys
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
@@ -107,7 +108,7 @@ def configuration(corpus: Corpus, draw: Random) -> Case:
 def structure(corpus: Corpus, draw: Random) -> Case:
     """S, R and C as text, as JSON, or as a file that a configuration names."""
     text = draw.choice(
-        [PLAN, "1 " * 30, "-1 0 1 2 3\n" * 5, ".=" * 50_000, "\n" * 10_000, PLAN * 300, "=" * 10**6 + "\n"]
+        [PLAN, "1 " * 30, "-1 0 1 2 3\n" * 5, ".=" * 50_000, "\n" * 10_000, PLAN * 8, "=" * 10**6 + "\n"]
     )
     data = _damaged(text.encode(), draw)
     match draw.randrange(3):
@@ -269,7 +270,7 @@ def _put(document: object, draw: Random) -> None:
                 if draw.random() < 0.15:
                     del place[key]
                 else:
-                    place[key] = draw.choice(ABSURD)
+                    place[key] = deepcopy(draw.choice(ABSURD))  # the next value may go into this one
                 break
             place = inner
 

@@ -135,7 +135,7 @@ def test_bad_usage_ends_in_two(tmp_path, monkeypatch, arguments):
     assert result.exit_code == 2
     assert list(tmp_path.iterdir()) == []
     if arguments[0] == "--output":
-        allowed = "a file name without" if "@" in arguments[1] else "a path that ends in .usda, .usdc, .usdz"
+        allowed = "a file name in UTF-8 without" if "@" in arguments[1] else "a path that ends in .usda, .usdc, .usdz"
         assert f"allowed: {allowed}" in result.output
 
 

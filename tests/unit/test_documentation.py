@@ -4,15 +4,17 @@ import html
 import re
 import subprocess
 import sys
+import tomllib
 from collections import Counter
 from importlib import import_module
 
 import pytest
-from documentation import PAGES, RUN, SHOWN, Reader, blocks, check_unrun
+from documentation import PAGES, README, RUN, SHOWN, blocks, check_unrun, follow_page
 from sample_files import REPOSITORY
 
 EVERY_BLOCK = [block for page in PAGES for block in blocks(page)]
-PAGES_THAT_RUN = [page for page in PAGES if any(block.language in RUN for block in blocks(page))]
+# test_wheel.py follows the README, as someone who has the wheel alone
+PAGES_THAT_RUN = [page for page in PAGES if page != README and any(block.language in RUN for block in blocks(page))]
 MOST_THAT_ARE_NOT_RUN = 8
 
 
@@ -22,12 +24,7 @@ def page_name(page):
 
 @pytest.mark.parametrize("page", PAGES_THAT_RUN, ids=page_name)
 def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
-    reader = Reader(tmp_path)
-    to_run = [block for block in blocks(page) if block.language in RUN and block.reason is None]
-    if any("garage.usdz" in block.text for block in to_run):
-        reader.start_with_a_garage()
-    for block in to_run:
-        reader.follow(block)
+    follow_page(page, tmp_path)
 
 
 def test_blocks_that_are_not_run_are_few_and_well_formed():
@@ -40,7 +37,7 @@ def test_blocks_that_are_not_run_are_few_and_well_formed():
 def test_every_block_says_what_it_is():
     assert {block.language for block in EVERY_BLOCK} <= RUN | SHOWN
     fences = sum(page.read_text().count("\n```") for page in PAGES)
-    directives = sum(len(re.findall(r"^```\{", page.read_text(), re.M)) for page in PAGES)
+    directives = sum(len(re.findall(r"^```\{", page.read_text(), re.MULTILINE)) for page in PAGES)
     at_the_top = sum(page.read_text().startswith("```") for page in PAGES)
     assert fences + at_the_top == 2 * (len(EVERY_BLOCK) + directives)
 
@@ -71,6 +68,17 @@ def resolve(name):
     return None
 
 
+def test_contributing_names_every_room_in_the_order_of_imports():
+    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())
+    layers = settings["tool"]["importlinter"]["contracts"][0]["layers"]
+    rooms = [name.strip().removeprefix("garage2usd.") for layer in layers for name in layer.split("|")]
+    table = re.findall(r"^\| (`.*?) \|", (REPOSITORY / "CONTRIBUTING.md").read_text(), re.MULTILINE)
+    listed = [name.rstrip("/") for row in table for name in re.findall(r"`([\w/]+)`", row)]
+    assert sorted(listed) == sorted(rooms)
+    place = {room: number for number, layer in enumerate(layers) for room in re.findall(r"garage2usd\.(\w+)", layer)}
+    assert [place[room] for room in listed] == sorted(place[room] for room in listed)
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     """The documentation as HTML, with warnings as errors."""
@@ -87,7 +95,7 @@ def site(tmp_path_factory):
 
 
 def text_of(page):
-    article = re.search(r"<article.*</article>", page.read_text(), re.S)[0]
+    article = re.search(r"<article.*</article>", page.read_text(), re.DOTALL)[0]
     return " ".join(html.unescape(re.sub(r"<[^>]+>", "", article)).split())
 
 

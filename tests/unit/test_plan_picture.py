@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 from itertools import pairwise
 from xml.etree import ElementTree as ET
 
@@ -314,9 +315,10 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
     [
         ([HAND_DRAWN, "-o", "p.gif"], 2, "a path that ends in .png, .svg"),
         ([HAND_DRAWN, "--stall", "Z1-01"], 1, "stall: got 'Z1-01'; allowed: numbers as A1-01"),
-        (["none.usdc"], 1, "none_report.json: No such file"),
-        (["none.json"], 1, "none.json: No such file"),
+        (["none.usdc"], 1, "none_report.json'; allowed: a readable file (No such file"),
+        (["none.json"], 1, "none.json'; allowed: a readable file (No such file"),
         (["none.obj"], 1, "path: got 'none.obj'"),
+        (["pipe.json"], 1, "allowed: a regular file"),
         (["broken.json"], 1, "broken.json: no report of a build"),
         (["other.json"], 1, "other.json: no report of a build: seed"),
         (["other.json", "--seed", "3"], 1, "a seed beside a configuration only"),
@@ -325,6 +327,7 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
 def test_what_cannot_be_drawn_ends_in_one_line_and_no_file(tmp_path, monkeypatch, arguments, code, said):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "broken.json").write_text("{")
+    os.mkfifo(tmp_path / "pipe.json")
     (tmp_path / "other.json").write_text(json.dumps({"classes": []}))
     before = set(tmp_path.iterdir())
     result = run(*arguments)
@@ -340,3 +343,15 @@ def test_pictures_open_as_such(tmp_path):
         assert image.mode == "RGB"
         svg = ET.parse(tmp_path / "p.svg").getroot()
         assert (round(float(svg.get("width"))), round(float(svg.get("height")))) == image.size
+
+
+def test_what_a_check_finds_is_drawn_at_its_place(builds, tmp_path):
+    build = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc")
+    report = json.loads(build.report.read_text())
+    moved = report["stalls"][3]
+    moved["centre_m"][0] += 0.5
+    (tmp_path / "garage_report.json").write_text(json.dumps(report))
+    picture = tmp_path / "plan.svg"
+    arguments = ["plan", str(tmp_path / "garage_report.json"), "--findings", "-o", str(picture)]
+    assert CliRunner().invoke(main, arguments).exit_code == 0
+    assert "error: report-stalls: the report tells another place" in " ".join(ET.parse(picture).getroot().itertext())

@@ -455,6 +455,12 @@ MUTANTS = (
         "value == null || value.IsArray ? value : (object)value.Text ?? value.Number(0)",
         "value == null || value.IsArray ? value : null",
     ),
+    Mutant(
+        "meshes-alike-but-for-their-interpolation",
+        SCENE + "MeshMemo.cs",
+        'parts.Add(property.MetadataText("interpolation"));',
+        "",
+    ),
     # ---- materials and lights
     Mutant(
         "binding-purposes",

@@ -222,23 +222,30 @@ def test_textures_and_constants_of_a_material(usd_dump):
 
 def test_meshes_that_share_arrays_but_differ_otherwise_stay_apart(usd_dump, tmp_path):
     """A crate has equal arrays once, a text has not; a mesh of its own for each must come of both."""
+    shared = {
+        "orientation": ("uniform token", '"rightHanded"'),
+        "doubleSided": ("uniform bool", "0"),
+        "subdivisionScheme": ("uniform token", '"catmullClark"'),
+        "holeIndices": ("int[]", "[]"),
+        "primvars:displayColor": ("color3f[]", '[(1, 0, 0), (0, 1, 0)] (\n interpolation = "uniform"\n )'),
+    }
     differences = {
-        "Plain": "",
-        "LeftHanded": 'uniform token orientation = "leftHanded"',
-        "DoubleSided": "uniform bool doubleSided = 1",
-        "Flat": 'uniform token subdivisionScheme = "none"',
-        "OneHole": "int[] holeIndices = [1]",
-        "Shaded": 'normal3f[] normals = [(1, 0, 0), (1, 0, 0), (1, 0, 0), (1, 0, 0)] (\n interpolation = "vertex"\n )',
+        "Plain": {},
+        "LeftHanded": {"orientation": '"leftHanded"'},
+        "DoubleSided": {"doubleSided": "1"},
+        "Flat": {"subdivisionScheme": '"none"'},
+        "OneHole": {"holeIndices": "[1]"},
+        "OneColor": {"primvars:displayColor": '[(1, 0, 0), (0, 1, 0)] (\n interpolation = "constant"\n )'},
     }
     text = "".join(
         f"""def Mesh "{name}" {{
  point3f[] points = [(0, 0, 0), (2, 0, 0), (2, 1, 3), (0, 1, 0)]
  int[] faceVertexCounts = [3, 3]
  int[] faceVertexIndices = [0, 1, 2, 0, 2, 3]
- {difference}
-}}
 """
-        for name, difference in differences.items()
+        + "".join(f" {kind} {key} = {own.get(key, value)}\n" for key, (kind, value) in shared.items())
+        + "}\n"
+        for name, own in differences.items()
     )
     path = written(tmp_path, text)
     Sdf.Layer.FindOrOpen(str(path)).Export(str(path.with_suffix(".usdc")))

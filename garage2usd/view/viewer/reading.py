@@ -1,6 +1,5 @@
 """A stage's file read as a scene."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
+from garage2usd.documents import read_json
 from garage2usd.errors import StageError
 from garage2usd.view.viewer.guides import lane_curves
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
@@ -32,7 +32,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     Raises
     ------
     StageError
-        If nothing in the stage can be drawn.
+        If nothing in the stage can be drawn, or the table of labels is none.
     """
     to_metres = _to_metres(stage)
     walk = StageWalk(stage)
@@ -72,13 +72,13 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
 def _ids(path: Path) -> dict[str, int]:
     """Instance id of each object by its path; empty without a table."""
     table = path.with_name(f"{path.stem}_labels.json")
-    try:
-        if table.stat().st_size > _MOST_LABEL_BYTES:
-            return {}
-        objects = json.loads(table.read_text(encoding="utf-8"))["objects"]
-        return {str(entry["path"]): int(entry["id"]) for entry in objects}
-    except (OSError, ValueError, KeyError, TypeError):
+    if not table.exists():
         return {}
+    document = read_json(table, field="labels", max_bytes=_MOST_LABEL_BYTES)
+    try:
+        return {str(entry["path"]): int(entry["id"]) for entry in document["objects"]}
+    except (ValueError, KeyError, TypeError, OverflowError) as error:
+        raise StageError(table, f"no table of labels ({error!r})") from None
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:

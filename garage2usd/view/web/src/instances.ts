@@ -12,11 +12,12 @@ const LEVEL_PX = [200, 60, 22, 9];
 /** Share of the triangles and greatest error, as a share of its size, that each coarser level has. */
 const COARSER = [
   { share: 0.3, error: 0.006 },
-  { share: 0.08, error: 0.02 },
-  { share: 0.03, error: 0.08 },
-  { share: 0.01, error: 0.25 },
+  { share: 0.08, error: 0.035 },
+  { share: 0.03, error: 0.12 },
+  { share: 0.01, error: 0.3 },
 ];
 const FEWEST_TRIANGLES = 40;
+const [SHEET_M, SHEET_RADIUS_M] = [0.05, 1.5];
 /** What is smaller is not drawn. */
 const LEAST_PX = 1.5;
 
@@ -134,7 +135,10 @@ export class Instances {
     const levels: Batch[] = [];
     if (opaque[1]) {
       const full = scene.indices.subarray(opaque[0], opaque[0] + opaque[1]);
-      for (const indices of [full, ...coarser(full, positions)]) {
+      // a floor has few triangles, and each is seen from afar
+      const isSheet = radius > SHEET_RADIUS_M && Math.min(box[3] - box[0], box[4] - box[1], box[5] - box[2]) < SHEET_M;
+      const slots = scene.slots.subarray(first, first + count);
+      for (const indices of isSheet ? [full] : [full, ...coarser(full, positions, slots)]) {
         const index = new THREE.BufferAttribute(narrow(indices, count), 1);
         const batch = new Batch(geometry, index, material, indices.length / 3, members);
         // the large and the far last: what stands before it hides it
@@ -157,6 +161,7 @@ export class Instances {
     const { scene, boxes, box, frustum } = this;
     this.projection.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     frustum.setFromProjectionMatrix(this.projection);
+    const [finest, least] = [coarse ** 1.5, coarse > 1 ? 2 * LEAST_PX : LEAST_PX];
     const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360));
     const { x, y, z } = camera.position;
     for (const { levels, blended } of this.shapes) {
@@ -180,11 +185,11 @@ export class Instances {
         const distance = Math.max(0.05, Math.hypot(dx, dy, dz));
         const reach = Math.hypot(w[at + 3] - w[at], w[at + 4] - w[at + 1], w[at + 5] - w[at + 2]);
         const size = (pixels * reach) / distance;
-        if (size < LEAST_PX) continue;
+        if (size < least) continue;
         const { levels, blended } = this.shapes[scene.shape[object]];
         if (levels.length) {
           let level = 0;
-          while (level < levels.length - 1 && size / coarse < LEVEL_PX[level]) level += 1;
+          while (level < levels.length - 1 && size / finest < LEVEL_PX[level]) level += 1;
           const batch = levels[level];
           batch.list[batch.count++] = object;
         }
@@ -205,20 +210,41 @@ export class Instances {
 }
 
 /** Indices of the same triangles, ever fewer; none where that is not worth it. */
-function coarser(indices: Uint32Array, positions: Float32Array): Uint32Array[] {
+function coarser(indices: Uint32Array, positions: Float32Array, slots: Uint8Array): Uint32Array[] {
   const levels: Uint32Array[] = [];
   let last = indices;
   for (const { share, error } of COARSER) {
     if (last.length / 3 < FEWEST_TRIANGLES) break;
-    const target = 3 * Math.max(16, Math.floor((share * indices.length) / 3));
-    let [found] = MeshoptSimplifier.simplify(indices, positions, 3, target, error, ["Prune"]);
-    // seams between flat faces bind many meshes; far away nobody sees them
-    if (found.length > 1.6 * target) [found] = MeshoptSimplifier.simplifySloppy(indices, positions, 3, null, target, error * 1.5);
-    if (found.length === 0 || found.length > 0.7 * last.length) continue;
+    // one surface at a time, so that none takes the colour of another
+    const parts = bySlot(indices, slots).map((part) => simplified(part, positions, share, error));
+    const found = Uint32Array.from(parts.flatMap((part) => [...part]));
+    if (found.length === 0 || found.length > 0.75 * last.length) continue;
     levels.push(found);
     last = found;
   }
   return levels;
+}
+
+function simplified(indices: Uint32Array, positions: Float32Array, share: number, error: number): Uint32Array {
+  const target = 3 * Math.max(6, Math.floor((share * indices.length) / 3));
+  if (indices.length <= target) return indices;
+  const [found] = MeshoptSimplifier.simplify(indices, positions, 3, target, error, ["Prune"]);
+  if (found.length <= 1.6 * target) return found;
+  // seams between flat faces bind many meshes; far away nobody sees them
+  const [rough] = MeshoptSimplifier.simplifySloppy(indices, positions, 3, null, target, 1.5 * error);
+  return rough.length && rough.length < found.length ? rough : found;
+}
+
+/** The triangles of each surface. */
+function bySlot(indices: Uint32Array, slots: Uint8Array): Uint32Array[] {
+  const groups = new Map<number, number[]>();
+  for (let k = 0; k < indices.length; k += 3) {
+    const slot = slots[indices[k]];
+    const group = groups.get(slot) ?? [];
+    if (!group.length) groups.set(slot, group);
+    group.push(indices[k], indices[k + 1], indices[k + 2]);
+  }
+  return [...groups.values()].map((group) => Uint32Array.from(group));
 }
 
 function narrow(indices: Uint32Array, vertices: number): Uint16Array | Uint32Array {

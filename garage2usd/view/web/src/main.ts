@@ -8,7 +8,7 @@ import { footprint, lightPlanOf } from "./light_plan";
 import { element, laneLegend, showClasses, showLayers, showObject, showRemarks, useLegend } from "./panel";
 import { type Eye, PlanMap } from "./plan_map";
 import { Quality, isSoftware } from "./quality";
-import { Rays } from "./rays";
+import { type Hit, Rays } from "./rays";
 import { SceneFile, type Stall } from "./scene_file";
 import { SurfaceMaterials } from "./surface_material";
 import { layersOf } from "./textures";
@@ -441,15 +441,20 @@ class Viewer {
     return this.scene.lanes?.stalls.find((stall) => isInside(stall.corners, x, z)) ?? null;
   }
 
-  /** The object seen at a place on the canvas, in CSS pixels; -1 for none. */
-  pick(x: number, y: number): number {
+  /** The object seen at a place on the canvas, in CSS pixels, stains only on request; -1 for none. */
+  pick(x: number, y: number, stains = false): number {
+    return this.hitAt(x, y, stains)?.object ?? -1;
+  }
+
+  private hitAt(x: number, y: number, stains: boolean): Hit | null {
     const canvas = element("view");
-    const ndc = new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight);
     const caster = new THREE.Raycaster();
-    caster.setFromCamera(ndc, this.camera);
+    caster.setFromCamera(new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight), this.camera);
     const { origin, direction } = caster.ray;
-    const hit = this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, (object) => this.instances.visible[object] > 0);
-    return hit ? hit.object : -1;
+    const { scene, instances } = this;
+    const seen = (object: number) =>
+      instances.visible[object] > 0 && (stains || scene.shapes[scene.shape[object]].opaque[1] > 0);
+    return this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, seen);
   }
 
   /** Show and select the stall with a number, or the object with an id or a path. */
@@ -513,15 +518,14 @@ class Viewer {
       if (!from || event.button !== 0 || Math.hypot(event.clientX - from[0], event.clientY - from[1]) > CLICK_PX) return;
       const locked = document.pointerLockElement === canvas;
       const [x, y] = locked ? [canvas.clientWidth / 2, canvas.clientHeight / 2] : [event.clientX, event.clientY];
-      this.select(this.pick(x, y));
+      this.select(this.pick(x, y, event.shiftKey));
     });
     canvas.addEventListener("dblclick", (event) => {
       if (this.mode !== "orbit") return;
-      const object = this.pick(event.clientX, event.clientY);
-      if (object < 0) return;
+      const hit = this.hitAt(event.clientX, event.clientY, false);
+      if (!hit) return;
       const ahead = this.camera.getWorldDirection(new THREE.Vector3());
-      const [x, , z] = this.pointAt(event.clientX, event.clientY) ?? this.boxes.centre(object);
-      this.walkAt(x, z, Math.atan2(-ahead.x, -ahead.z));
+      this.walkAt(hit.point[0], hit.point[2], Math.atan2(-ahead.x, -ahead.z));
     });
     document.addEventListener("pointerlockchange", () => {
       element("crosshair").hidden = document.pointerLockElement !== canvas;
@@ -551,15 +555,6 @@ class Viewer {
     // not every browser gives it; then one looks by dragging
     const asked: unknown = element("view").requestPointerLock();
     if (asked instanceof Promise) asked.catch(() => undefined);
-  }
-
-  private pointAt(x: number, y: number): [number, number, number] | null {
-    const canvas = element("view");
-    const caster = new THREE.Raycaster();
-    caster.setFromCamera(new THREE.Vector2((2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight), this.camera);
-    const { origin, direction } = caster.ray;
-    const hit = this.rays.cast(origin.toArray(), direction.toArray(), this.camera.far, (object) => this.instances.visible[object] > 0);
-    return hit ? hit.point : null;
   }
 
   private keyDown(event: KeyboardEvent): void {
