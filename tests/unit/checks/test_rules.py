@@ -4,13 +4,9 @@ import importlib.util
 import re
 import tomllib
 
-from click.testing import CliRunner
 from sample_files import REPOSITORY
-from small_garage import PLAN, SETTINGS
 
-from garage2usd import GarageConfig, build
 from garage2usd.checks import RULES
-from garage2usd.cli import main
 from garage2usd.profiles import Profile, read_profile
 
 HERE = REPOSITORY / "tests" / "unit" / "checks"
@@ -75,18 +71,3 @@ def test_the_profile_on_the_page_is_one():
     (text,) = blocks("toml")
     profile = read_profile(tomllib.loads(text))
     assert {name for name, _ in profile.clauses()} == {"stall_width", "portals"}
-
-
-def test_the_code_on_the_page_runs(tmp_path, monkeypatch):
-    build(GarageConfig(**SETTINGS), tmp_path / "garage.usdz")
-    (tmp_path / "plan.txt").write_text(PLAN)
-    monkeypatch.chdir(tmp_path)
-    (code,) = blocks("python")
-    found = {}
-    exec(code, found)  # noqa: S102 - the page's own code
-    assert {error.rule for error in found["errors"]} >= {"stall-width", "stall-length"}
-    (shell,) = blocks("sh")
-    for line in shell.splitlines():
-        command, *arguments = line.partition("#")[0].split()
-        assert command == "garage2usd"
-        assert CliRunner().invoke(main, arguments).exit_code in {0, 1}
