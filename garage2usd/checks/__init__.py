@@ -52,9 +52,9 @@ RULES: tuple[Rule, ...] = tuple(
         light,
         egress,
         feasibility,
-        swept_path,
         consistency,
         usd,
+        swept_path,  # last, as it takes time that is allowed for it alone
     )
     for rule in module.BOOK.rules
 )

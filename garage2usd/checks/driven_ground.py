@@ -14,6 +14,7 @@ from garage2usd.checks.stall import home_of
 from garage2usd.checks.subject import Point, StallOutline, Subject
 from garage2usd.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
+from garage2usd.limits import allow_seconds
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage"]
 
@@ -29,6 +30,8 @@ _OWN = {"car", "wheel_stop", "traffic_cone"}
 _CORNERS, _DIRECTIONS = 4, 8
 _SLACK_M2 = 0.05
 """Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
+_COMPILING_S, _STALL_S = 60.0, 5.0
+"""Processor time that is allowed for a proof: for compiling, which is done once, and for each stall."""
 _DIGITS = 4
 """Metres are rounded to so many, so that the single precision of a stage makes no difference."""
 
@@ -44,6 +47,10 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
         What begins higher touches no car.
     left_out
         Prim paths of things that are thought away.
+
+    Notes
+    -----
+    A process with limits gets the time for the proof.
     """
     shapes: list[tuple[str, shapely.Geometry]] = []
     cars: list[tuple[str, shapely.Geometry]] = []
@@ -70,6 +77,7 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
         )
         for stall in subject.parking_stalls
     )
+    allow_seconds(_COMPILING_S + _STALL_S * len(stalls))
     return DrivenGarage(stalls, _directions(subject), standing)
 
 
