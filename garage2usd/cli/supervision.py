@@ -12,7 +12,7 @@ from garage2usd.limits import enforce
 
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
-SUPERVISED = frozenset({"check", "plan", "render", "view"})
+SUPERVISED = frozenset({"check", "drive", "plan", "render", "view"})
 """The commands that open stages which anybody may have written."""
 CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
 _FAILED = 1
