@@ -1,17 +1,31 @@
 """Output that is whole or absent: made elsewhere, then moved into place."""
 
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from garage2usd.errors import OutputError
+from garage2usd.errors import ConfigError, OutputError
 
-__all__ = ["check_writable", "publish", "staging_folder"]
+__all__ = ["check_name", "check_writable", "publish", "staging_folder"]
 
 _PREFIX = ".garage2usd-"
+_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
+
+
+def check_name(path: Path) -> None:
+    """Find out whether USD can say the name of a layer that is to be written.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot.
+    """
+    if _UNSPEAKABLE.search(path.name):
+        raise ConfigError("output", str(path), "a file name in UTF-8 without '@', '\\' and control characters")
 
 
 def check_writable(folder: Path) -> None:

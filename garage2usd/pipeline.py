@@ -1,6 +1,5 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
 
-import re
 import time
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -14,7 +13,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
-from garage2usd.output import check_writable, publish, staging_folder
+from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.planning import Plan, dimension, evaluate, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
@@ -26,9 +25,6 @@ from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image
 
 __all__ = ["Build", "Garage", "build", "generate"]
-
-_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
-"""What USD cannot say of a file that a layer refers to."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +147,7 @@ def build(
     path = Path(output)
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
-    if _UNSPEAKABLE.search(path.name):
-        raise ConfigError("output", str(output), "a file name in UTF-8 without '@', '\\' and control characters")
+    check_name(path)
     check_writable(path.parent)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)

@@ -12,6 +12,7 @@ from garage2usd.checks.shapes import Array
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, Point, StallOutline
 from garage2usd.lanes import LaneKind
 from garage2usd.layout import StallUse
+from garage2usd.stage.reading import numbers_of
 
 __all__ = ["DrivenGround", "read_lanes"]
 
@@ -75,8 +76,8 @@ class _Curves:
         if prim is None or not self.exists:
             return
         basis = UsdGeom.BasisCurves(prim)
-        counts = np.asarray(basis.GetCurveVertexCountsAttr().Get() or (), dtype=np.int64)
-        points = np.asarray(basis.GetPointsAttr().Get() or (), dtype=np.float64).reshape(-1, 3)
+        counts = numbers_of(basis.GetCurveVertexCountsAttr(), np.int64)
+        points = numbers_of(basis.GetPointsAttr(), np.float64, width=3)
         local = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim)) @ metres_y_up(stage)
         world = points @ local[:3, :3] + local[3, :3]
         ends = np.cumsum(counts)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
+from garage2usd.stage.reading import number_of
 
 __all__ = ["RectLight", "Scene", "metres_y_up", "read_scene"]
 
@@ -217,8 +218,8 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
 def _light(light: UsdLux.RectLight, matrix: Array) -> tuple[float, float, float]:
     """Width and height in metres, and luminance."""
     width, height = (
-        float(attribute.Get() or 0.0) * float(np.linalg.norm(matrix[row, :3]))
+        number_of(attribute) * float(np.linalg.norm(matrix[row, :3]))
         for row, attribute in enumerate((light.GetWidthAttr(), light.GetHeightAttr()))
     )
     luminance = light.GetPrim().GetAttribute(_LUMINANCE)
-    return width, height, float(luminance.Get() or 0.0) if luminance else 0.0
+    return width, height, number_of(luminance) if luminance else 0.0

@@ -37,10 +37,13 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     other tools have edited, or the report of a build. The car is 4.8 x 1.8 m with a turning radius
     of 6 m. Stalls without ways are named with what is in the way, and the exit code is 1.
     """
+    from garage2usd.output import check_name  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
 
     if output is not None and output.suffix not in _FORMATS:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+    if output is not None:
+        check_name(output)
     with Bars(sys.stderr) as progress:
         if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
             if seed is not None:

@@ -4,14 +4,18 @@ import re
 import stat
 import zipfile
 from pathlib import Path, PurePosixPath
+from typing import TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
 from pxr import Sdf, Tf, Usd
 
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
 
-__all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason"]
+__all__ = ["STAGE_SUFFIXES", "number_of", "numbers_of", "open_stage", "usd_reason"]
 
+_Scalar = TypeVar("_Scalar", bound=np.generic)
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
@@ -42,6 +46,42 @@ def open_stage(path: Path) -> Usd.Stage:
     files = {used.realPath.partition("[")[0] for used in stage.GetUsedLayers()} - {""}
     allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
     return stage
+
+
+def number_of(attribute: Usd.Attribute) -> float:
+    """The number that an attribute holds; 0 for none.
+
+    Raises
+    ------
+    StageError
+        If it holds something else: USD gives whatever a file has, not what the schema says.
+    """
+    value = attribute.Get()
+    try:
+        return float(0.0 if value is None else value)
+    except (TypeError, ValueError):
+        raise _no_numbers(attribute) from None
+
+
+def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1) -> NDArray[_Scalar]:
+    """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
+
+    Raises
+    ------
+    StageError
+        If it holds something else.
+    """
+    value = attribute.Get()
+    try:
+        numbers = np.asarray(() if value is None else value, dtype=dtype)
+        return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
+    except (TypeError, ValueError):
+        raise _no_numbers(attribute) from None
+
+
+def _no_numbers(attribute: Usd.Attribute) -> StageError:
+    file = attribute.GetStage().GetRootLayer().realPath
+    return StageError(file, f"{attribute.GetPath()} holds no numbers")
 
 
 def _open_layers(path: Path) -> list[Sdf.Layer]:

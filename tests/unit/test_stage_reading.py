@@ -5,7 +5,7 @@ import pytest
 from pxr import Sdf, Usd
 
 from garage2usd.errors import StageError
-from garage2usd.stage.reading import open_stage
+from garage2usd.stage.reading import number_of, numbers_of, open_stage
 
 TEXT = '#usda 1.0\n(\n    defaultPrim = "Garage"\n)\ndef Xform "Garage" (\n    references = @./asset.usdc@\n)\n{\n}\n'
 
@@ -85,3 +85,27 @@ def test_layers_in_circles_open(tmp_path):
         Sdf.CreatePrimInLayer(layer, "/P").referenceList.Prepend(Sdf.Reference(f"./{other}.usda", "/P"))
         layer.Save()
     assert open_stage(tmp_path / "a.usda").GetPrimAtPath("/P")
+
+
+def test_numbers_are_numbers_whatever_the_file_says(tmp_path):
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "light.usda"))
+    prim = Sdf.CreatePrimInLayer(layer, "/Lamp")
+    for name, kind, value in (
+        ("height", Sdf.ValueTypeNames.Token, "tall"),
+        ("width", Sdf.ValueTypeNames.Double, 1.5),
+        ("nothing", Sdf.ValueTypeNames.Float, None),
+        ("points", Sdf.ValueTypeNames.Point3fArray, [(1, 2, 3), (4, 5, 6)]),
+        ("words", Sdf.ValueTypeNames.TokenArray, ["a", "b"]),
+    ):
+        attribute = Sdf.AttributeSpec(prim, name, kind)
+        if value is not None:
+            attribute.default = value
+    layer.Save()
+    stage = Usd.Stage.Open(layer)  # which a prim does not keep open
+    lamp = stage.GetPrimAtPath("/Lamp")
+    assert (number_of(lamp.GetAttribute("width")), number_of(lamp.GetAttribute("nothing"))) == (1.5, 0.0)
+    assert numbers_of(lamp.GetAttribute("points"), float, width=3).tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert len(numbers_of(lamp.GetAttribute("nothing"), float)) == 0
+    for read in (lambda: number_of(lamp.GetAttribute("height")), lambda: numbers_of(lamp.GetAttribute("words"), float)):
+        with pytest.raises(StageError, match=r"/Lamp.* holds no numbers"):
+            read()

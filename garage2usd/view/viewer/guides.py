@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
+from garage2usd.stage.reading import numbers_of
 from garage2usd.view.viewer.scene import LaneCurves, StallOutline, moved
 
 __all__ = ["lane_curves"]
@@ -66,8 +67,8 @@ def _stalls(prim: Usd.Prim | None, to_metres: NDArray[np.float64]) -> Sequence[S
 def _curves(prim: Usd.Prim, to_metres: NDArray[np.float64]) -> list[NDArray[np.float32]]:
     """Points of each curve."""
     geometry = UsdGeom.BasisCurves(prim)
-    points = np.asarray(geometry.GetPointsAttr().Get() or (), dtype=np.float64).reshape(-1, 3)
-    counts = np.asarray(geometry.GetCurveVertexCountsAttr().Get() or (), dtype=np.int64)
+    points = numbers_of(geometry.GetPointsAttr(), np.float64, width=3)
+    counts = numbers_of(geometry.GetCurveVertexCountsAttr(), np.int64)
     if counts.sum() != len(points) or (counts < 1).any():
         return []
     place = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim)) @ to_metres
@@ -76,4 +77,4 @@ def _curves(prim: Usd.Prim, to_metres: NDArray[np.float64]) -> list[NDArray[np.f
 
 def _values(prim: Usd.Prim | None, name: str) -> Sequence[str | int]:
     value = prim.GetAttribute(name).Get() if prim is not None and prim.HasAttribute(name) else None
-    return list(value) if value is not None else []
+    return list(value) if value is not None and hasattr(value, "__len__") else []
