@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 from pxr import Usd, UsdGeom
 
-from garage2usd.checks.scene import metres_y_up
 from garage2usd.checks.shapes import Array
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, Point, StallOutline
 from garage2usd.lanes import LaneKind
 from garage2usd.layout import StallUse
-from garage2usd.stage.reading import numbers_of
+from garage2usd.stage.reading import metres_y_up, numbers_of
 
 __all__ = ["DrivenGround", "read_lanes"]
 

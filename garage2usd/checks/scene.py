@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
-from garage2usd.stage.reading import number_of
+from garage2usd.stage.reading import metres_y_up, number_of
+from garage2usd.stage.taxonomy import label_of
 
-__all__ = ["RectLight", "Scene", "metres_y_up", "read_scene"]
+__all__ = ["RectLight", "Scene", "read_scene"]
 
-_LABEL = "semantics:labels:class"
 _LUMINANCE = "garage:light:luminance"
-_Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 
 
 class RectLight(NamedTuple):
@@ -54,16 +53,6 @@ class _Entry(NamedTuple):
     shape: Shape | None
     touches: bool
     light: tuple[float, float, float] | None
-
-
-def metres_y_up(stage: Usd.Stage) -> Array:
-    """The matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
-    matrix = np.eye(4)
-    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
-        matrix = _Z_UP_TO_Y_UP.copy()
-    scale = UsdGeom.GetStageMetersPerUnit(stage)
-    matrix[:3, :3] *= scale if scale > 0 else 1.0
-    return matrix
 
 
 def read_scene(stage: Usd.Stage) -> Scene:
@@ -110,7 +99,7 @@ class _Reader:
             or imageable.GetVisibilityAttr().Get() == UsdGeom.Tokens.invisible
         ):
             return
-        own = _label(prim)
+        own = label_of(prim)
         if own:
             thing, label = str(prim.GetPath()), own
         matrix = _placed(prim, matrix)
@@ -169,12 +158,6 @@ def _moved(entry: _Entry, matrix: Array, path: str, thing: str, label: str) -> _
     if entry.label:
         return entry._replace(thing=path + entry.thing, matrix=moved)
     return entry._replace(thing=thing or path, label=label, matrix=moved)
-
-
-def _label(prim: Usd.Prim) -> str:
-    attribute = prim.GetAttribute(_LABEL)
-    labels = attribute.Get() if attribute else None
-    return str(labels[0]) if labels else ""
 
 
 def _placed(prim: Usd.Prim, matrix: Array) -> Array:

@@ -9,12 +9,11 @@ from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.stage.taxonomy import LABELS, LABELS_SCHEMA, labels_of
 
 __all__ = ["BOOK"]
 
 BOOK = RuleBook()
-_LABELS = "semantics:labels"
-_LABELS_SCHEMA = "SemanticsLabelsAPI:"
 _UNRESOLVED = "UnresolvableDependency"
 _APPROXIMATIONS = {
     "none",
@@ -88,8 +87,9 @@ def _colliders_without_shape(subject: Subject, _: Profile) -> Iterator[Miss]:
 def _empty_labels(subject: Subject, _: Profile) -> Iterator[Miss]:
     for prim in _prims(subject.stage):
         for schema in prim.GetAppliedSchemas():
-            if schema.startswith(_LABELS_SCHEMA):
-                labels = prim.GetAttribute(f"{_LABELS}:{schema.removeprefix(_LABELS_SCHEMA)}").Get()
+            name, _, taxonomy = schema.partition(":")
+            if name == LABELS_SCHEMA:
+                labels = labels_of(prim, taxonomy)
                 if not labels or not all(labels):
                     yield _miss(prim, "an empty label")
 
@@ -97,10 +97,10 @@ def _empty_labels(subject: Subject, _: Profile) -> Iterator[Miss]:
 @BOOK.rule("label-without-schema", asks="a semantic label has its schema, so that readers find it")
 def _labels_without_schema(subject: Subject, _: Profile) -> Iterator[Miss]:
     for prim in _prims(subject.stage):
-        authored = prim.GetAuthoredPropertiesInNamespace(_LABELS)
+        authored = prim.GetAuthoredPropertiesInNamespace(LABELS)
         schemas = prim.GetAppliedSchemas() if authored else ()
         for label in authored:
-            if f"{_LABELS_SCHEMA}{label.GetBaseName()}" not in schemas:
+            if f"{LABELS_SCHEMA}:{label.GetBaseName()}" not in schemas:
                 yield _miss(prim, f"the label {label.GetBaseName()!r} without its schema")
 
 

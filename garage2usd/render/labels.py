@@ -11,6 +11,7 @@ from pydantic import BaseModel, Field, ValidationError
 from garage2usd.documents import read_bytes
 from garage2usd.errors import StageError
 from garage2usd.stage.labels import CITYSCAPES
+from garage2usd.stage.taxonomy import label_of
 
 __all__ = ["LARGEST_ID", "Labels", "SemanticClass", "read_labels"]
 
@@ -18,7 +19,6 @@ LARGEST_ID = 2**24 - 1
 """Ids of more than 24 bits fit no instance picture."""
 _LARGEST_CLASS_ID = 255
 _MAX_FILE_BYTES = 1024 * 1024 * 1024
-_LABELS_ATTRIBUTE = "semantics:labels:class"
 
 
 class SemanticClass(BaseModel):
@@ -126,12 +126,11 @@ def _labelled(stage: Usd.Stage) -> Iterator[tuple[str, str]]:
     """Path and class of each labelled prim, and of each point of a labelled instancer."""
     prims = iter(Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
     for prim in prims:
-        attribute = prim.GetAttribute(_LABELS_ATTRIBUTE)
-        labels = attribute.Get(Usd.TimeCode.EarliestTime()) if attribute else None
+        label = label_of(prim)
         if prim.IsA(UsdGeom.PointInstancer):
             prims.PruneChildren()
-            if labels:
+            if label:
                 indices = UsdGeom.PointInstancer(prim).GetProtoIndicesAttr().Get(Usd.TimeCode.EarliestTime()) or []
-                yield from ((f"{prim.GetPath()}[{point}]", str(labels[0])) for point in range(len(indices)))
-        elif labels:
-            yield prim.GetPath().pathString, str(labels[0])
+                yield from ((f"{prim.GetPath()}[{point}]", label) for point in range(len(indices)))
+        elif label:
+            yield prim.GetPath().pathString, label

@@ -5,10 +5,9 @@ from pathlib import Path
 
 from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
-__all__ = ["LABEL_TAXONOMY", "attribute", "define", "operation", "order_operations", "save", "set_units"]
+from garage2usd.stage.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
-LABEL_TAXONOMY = "class"
-"""Instance name of the semantic labels: ``semantics:labels:class``."""
+__all__ = ["attribute", "define", "operation", "order_operations", "save", "set_units"]
 
 
 def set_units(layer: Sdf.Layer) -> None:
@@ -34,10 +33,9 @@ def define(
     if kind is not None:
         prim.kind = kind
     if label is not None:
-        schema = f"SemanticsLabelsAPI:{LABEL_TAXONOMY}"
+        schema = f"{LABELS_SCHEMA}:{OBJECT_TAXONOMY}"
         prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=[schema]))
-        name = f"semantics:labels:{LABEL_TAXONOMY}"
-        attribute(prim, name, Sdf.ValueTypeNames.TokenArray, Vt.TokenArray([label]))
+        attribute(prim, labels_name(OBJECT_TAXONOMY), Sdf.ValueTypeNames.TokenArray, Vt.TokenArray([label]))
     return prim
 
 

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.stage.taxonomy import LABELS_SCHEMA, SQUARE_TAXONOMY, labels_name
+
 __all__ = [
-    "SQUARE_TAXONOMY",
     "group_pieces",
     "group_text",
     "header_text",
@@ -18,9 +19,6 @@ __all__ = [
     "rounded_deg",
     "rounded_m",
 ]
-
-SQUARE_TAXONOMY = "square"
-"""Instance name of what labels say of squares: no class of objects, which `LABEL_TAXONOMY` has."""
 
 _ORDERS = {
     False: 'uniform token[] xformOpOrder = ["xformOp:translate"]\n',
@@ -60,8 +58,8 @@ def group_pieces(
     """The text of a group piece by piece, so that a large one is put together once."""
     schemas, labels = "", ""
     if label is not None:
-        schemas = f'prepend apiSchemas = ["SemanticsLabelsAPI:{SQUARE_TAXONOMY}"]\n'
-        labels = f'token[] semantics:labels:{SQUARE_TAXONOMY} = ["{label}"]\n'
+        schemas = f'prepend apiSchemas = ["{LABELS_SCHEMA}:{SQUARE_TAXONOMY}"]\n'
+        labels = f'token[] {labels_name(SQUARE_TAXONOMY)} = ["{label}"]\n'
     yield f'def Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}'
     yield from children
     yield "}\n"

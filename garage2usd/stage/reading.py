@@ -8,12 +8,12 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf, Tf, Usd
+from pxr import Sdf, Tf, Usd, UsdGeom
 
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
 
-__all__ = ["STAGE_SUFFIXES", "number_of", "numbers_of", "open_stage", "usd_reason"]
+__all__ = ["STAGE_SUFFIXES", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
@@ -22,6 +22,7 @@ _MAX_PACKAGE_FILES = 100_000
 _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 """Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
 _REASON_CHARACTERS = 300
+_Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
 
 
@@ -46,6 +47,16 @@ def open_stage(path: Path) -> Usd.Stage:
     files = {used.realPath.partition("[")[0] for used in stage.GetUsedLayers()} - {""}
     allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
     return stage
+
+
+def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
+    """The matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
+    matrix = np.eye(4)
+    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
+        matrix = _Z_UP_TO_Y_UP.copy()
+    scale = UsdGeom.GetStageMetersPerUnit(stage)
+    matrix[:3, :3] *= scale if scale > 0 else 1.0
+    return matrix
 
 
 def number_of(attribute: Usd.Attribute) -> float:

@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom
+from pxr import Usd
 
 from garage2usd.documents import read_json
 from garage2usd.errors import StageError
+from garage2usd.stage.reading import metres_y_up
 from garage2usd.view.viewer.guides import lane_curves
 from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
 from garage2usd.view.viewer.walk import StageWalk
@@ -34,7 +35,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     StageError
         If nothing in the stage can be drawn, or the table of labels is none.
     """
-    to_metres = _to_metres(stage)
+    to_metres = metres_y_up(stage)
     walk = StageWalk(stage)
     objects = walk.objects(to_metres)
     if not objects:
@@ -52,15 +53,6 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         bounds_m=_bounds_m(objects, walk.shapes),
         remarks=remarks,
     )
-
-
-def _to_metres(stage: Usd.Stage) -> NDArray[np.float64]:
-    """From the stage's units and axes to metres, Y up."""
-    matrix = np.eye(4)
-    matrix[:3, :3] *= UsdGeom.GetStageMetersPerUnit(stage)
-    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
-        matrix = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=float) @ matrix
-    return matrix
 
 
 def _facts(stage: Usd.Stage) -> dict[str, str]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Usd, UsdGeom, UsdShade
 
+from garage2usd.stage.taxonomy import SQUARE_TAXONOMY, label_of
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
 from garage2usd.view.viewer.meshes import DRAWN_TYPES, Triangles, display_colour, face_sets, triangles_of
@@ -18,8 +19,6 @@ __all__ = ["StageWalk"]
 
 Matrix = NDArray[np.float64]
 _IDENTITY = np.eye(4)
-_LABEL = "semantics:labels:class"
-_SQUARE = "semantics:labels:square"
 _UNDRAWN = frozenset({"Points", "NurbsPatch", "TetMesh", "Volume", "HermiteCurves", "NurbsCurves"})
 _HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
 
@@ -90,12 +89,12 @@ class StageWalk:
             self.hidden.append(prim)
             return
         place = self._place(prim) @ parent
-        label = _text(prim, _LABEL)
+        label = label_of(prim)
         kind = prim.GetTypeName()
         if kind == "PointInstancer":
             found += self._points(prim, place, inherited, label)
             return
-        square = _text(prim, _SQUARE) or inherited.square
+        square = label_of(prim, SQUARE_TAXONOMY) or inherited.square
         if label or kind in DRAWN_TYPES or kind in LIGHT_TYPES or self._is_whole(prim):
             found += self._object(prim, place, _Inherited(inherited.path, square), label)
             return
@@ -124,21 +123,21 @@ class StageWalk:
         if prim.IsInstance():
             return not self._has_label_below(prim.GetPrototype())
         if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
-            return not any(_text(child, _LABEL) for child in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()))
+            return not any(label_of(child) for child in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()))
         return False
 
     def _has_label_below(self, prototype: Usd.Prim) -> bool:
         path = str(prototype.GetPath())
         if path not in self._labelled_prototype:
             below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
-            self._labelled_prototype[path] = any(_text(child, _LABEL) for child in below)
+            self._labelled_prototype[path] = any(label_of(child) for child in below)
         return self._labelled_prototype[path]
 
     def _objects_in(self, prototype: Usd.Prim) -> list[Placed]:
         """The objects of a prototype, with paths from its root on."""
         path = str(prototype.GetPath())
         if path not in self._objects_of_prototype:
-            square = _text(prototype, _SQUARE)
+            square = label_of(prototype, SQUARE_TAXONOMY)
             found = self._objects_of_prototype[path] = []
             for child in prototype.GetChildren():
                 self._walk(child, _IDENTITY, _Inherited(f"/{child.GetName()}", square), found)
@@ -170,7 +169,7 @@ class StageWalk:
         if len(transforms) != len(indices) or (len(indices) and not 0 <= indices.min() <= indices.max() < len(targets)):
             self.undrawn["PointInstancer"] += 1
             return
-        labels = [label or _text(prototype, _LABEL) for prototype in prototypes]
+        labels = [label or label_of(prototype) for prototype in prototypes]
         for number, (index, transform) in enumerate(zip(indices.tolist(), transforms, strict=True)):
             if not mask or mask[number]:
                 own = _Inherited(f"{inherited.path}[{number}]", inherited.square)
@@ -247,13 +246,10 @@ class StageWalk:
         path = str(material.GetPath()) if material else ""
         if path and path in self._surface_of_material:
             return self._surface_of_material[path]
-        surface = surface_of(material, self.time) if material else PLAIN
-        colour = None if material else display_colour(prim, self.time)
-        number = self._surface_of.setdefault(
-            Surface(colour_rgb=colour) if colour is not None else surface, len(self._surface_of)
-        )
+        surface = surface_of(material, self.time) if material else _plain(display_colour(prim, self.time))
+        number = self._surface_of.setdefault(surface, len(self._surface_of))
         if number == len(self.surfaces):
-            self.surfaces.append(Surface(colour_rgb=colour) if colour is not None else surface)
+            self.surfaces.append(surface)
         if path:
             self._surface_of_material[path] = number
         return number
@@ -307,7 +303,6 @@ class StageWalk:
         return purpose.HasAuthoredValue() and purpose.Get() in _HIDDEN_PURPOSES
 
 
-def _text(prim: Usd.Prim, name: str) -> str:
-    """First word of a label; empty for none."""
-    words = prim.GetAttribute(name).Get() if prim.HasAttribute(name) else None
-    return str(words[0]) if words else ""
+def _plain(colour_rgb: tuple[float, float, float] | None) -> Surface:
+    """What has no material looks like."""
+    return PLAIN if colour_rgb is None else Surface(colour_rgb=colour_rgb)

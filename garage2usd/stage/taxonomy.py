@@ -1,0 +1,45 @@
+"""Semantic labels on prims: their taxonomies, and what a prim's label says."""
+
+from pxr import Usd, Vt
+
+from garage2usd.errors import StageError
+
+__all__ = ["LABELS", "LABELS_SCHEMA", "OBJECT_TAXONOMY", "SQUARE_TAXONOMY", "label_of", "labels_name", "labels_of"]
+
+OBJECT_TAXONOMY = "class"
+"""Instance name of the labels that name an object's class."""
+SQUARE_TAXONOMY = "square"
+"""Instance name of what labels say of squares: no class of objects."""
+LABELS = "semantics:labels"
+"""Namespace of the attributes."""
+LABELS_SCHEMA = "SemanticsLabelsAPI"
+"""The schema, applied once for each taxonomy."""
+
+
+def labels_name(taxonomy: str) -> str:
+    """Name of the attribute that holds the labels of a taxonomy, for example ``semantics:labels:class``."""
+    return f"{LABELS}:{taxonomy}"
+
+
+def label_of(prim: Usd.Prim, taxonomy: str = OBJECT_TAXONOMY) -> str:
+    """The first label of a prim in a taxonomy; empty for none. Raises what `labels_of` raises."""
+    labels = labels_of(prim, taxonomy)
+    return labels[0] if labels else ""
+
+
+def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
+    """All labels of a prim in a taxonomy.
+
+    Raises
+    ------
+    StageError
+        If the attribute holds something else: USD gives whatever a file has, not what the schema says.
+    """
+    attribute = prim.GetAttribute(labels_name(taxonomy))
+    labels = attribute.Get(Usd.TimeCode.EarliestTime()) if attribute else None
+    if labels is None:
+        return ()
+    if not isinstance(labels, Vt.TokenArray | Vt.StringArray):
+        file = attribute.GetStage().GetRootLayer().realPath
+        raise StageError(file, f"{attribute.GetPath()} holds no labels")
+    return tuple(map(str, labels))
