@@ -60,6 +60,21 @@ class LaneGraph:
         kind: LaneKind = self.graph.nodes[square]["kind"]
         return kind
 
+    def directed_edges(self) -> list[tuple[Square, Square, bool]]:
+        """Each pair of squares that join, in order, and whether one drives only from the first to the second.
+
+        Notes
+        -----
+        That is so at portals: one comes from an entrance and goes into an exit.
+        """
+        edges = []
+        for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
+            kinds = self.kind(first), self.kind(second)
+            if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
+                first, second = second, first  # noqa: PLW2901
+            edges.append((first, second, LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds))
+        return edges
+
     def kind_counts(self) -> dict[str, int]:
         """How many squares there are of each kind of lane and portal, and of each stall type."""
         counts = Counter(str(kind) for _, kind in self.graph.nodes(data="kind"))

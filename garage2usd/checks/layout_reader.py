@@ -8,7 +8,7 @@ from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, StallOutline, Subject
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.specs import Spec
@@ -26,15 +26,14 @@ def layout_subject(
     layout: Layout, graph: LaneGraph, config: GarageConfig, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
 ) -> Subject:
     """Everything that a layout tells; what only lies on the floor is left out."""
-    squares = sorted(graph.graph.nodes)
-    number = {square: index for index, square in enumerate(squares)}
+    number = _numbers(graph)
     lux = layout.illuminance
     return Subject(
         source=source,
         kind=kind,
         stalls=tuple(_outline(stall, number) for stall in layout.stalls),
-        nodes=_nodes(layout.structure, graph, squares, config.bay),
-        edges=_edges(layout.structure, graph, squares, config.bay),
+        nodes=_nodes(layout.structure, graph, number, config.bay),
+        edges=_edges(layout.structure, graph, number, config.bay),
         things=_things(layout),
         structure=layout.structure,
         lane_lux=lux.lanes.mean if lux.lanes else None,
@@ -47,17 +46,21 @@ def unlaid_subject(
     structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
 ) -> Subject:
     """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
-    squares = sorted(graph.graph.nodes)
-    number = {square: index for index, square in enumerate(squares)}
+    number = _numbers(graph)
     return Subject(
         source=source,
         kind=kind,
         stalls=tuple(_outline(stall, number) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
-        nodes=_nodes(structure, graph, squares, bay),
-        edges=_edges(structure, graph, squares, bay),
+        nodes=_nodes(structure, graph, number, bay),
+        edges=_edges(structure, graph, number, bay),
         structure=structure,
         faults=faults,
     )
+
+
+def _numbers(graph: LaneGraph) -> dict[Square, int]:
+    """Number of each lane and portal, in order."""
+    return {square: number for number, square in enumerate(sorted(graph.graph.nodes))}
 
 
 def _outline(stall: Stall, number: dict[Square, int]) -> StallOutline:
@@ -66,26 +69,20 @@ def _outline(stall: Stall, number: dict[Square, int]) -> StallOutline:
     return StallOutline(stall.name, corners, StallUse(stall.use), number[stall.access_square])
 
 
-def _nodes(structure: Structure, graph: LaneGraph, squares: list[Square], bay: BayConfig) -> tuple[LaneNode, ...]:
+def _nodes(structure: Structure, graph: LaneGraph, number: dict[Square, int], bay: BayConfig) -> tuple[LaneNode, ...]:
     nodes = []
-    for row, col in squares:
+    for row, col in number:
         at = graph.graph.nodes[row, col]
-        width, depth = _clear_m(structure, (row, col), bay)
-        nodes.append(LaneNode(graph.kind((row, col)).value, (at["x_m"], at["z_m"]), (width, depth), f"[{row}, {col}]"))
+        sides = _clear_m(structure, (row, col), bay)
+        nodes.append(LaneNode(graph.kind((row, col)).value, (at["x_m"], at["z_m"]), sides, f"[{row}, {col}]"))
     return tuple(nodes)
 
 
-def _edges(structure: Structure, graph: LaneGraph, squares: list[Square], bay: BayConfig) -> tuple[LaneEdge, ...]:
-    number = {square: index for index, square in enumerate(squares)}
+def _edges(structure: Structure, graph: LaneGraph, number: dict[Square, int], bay: BayConfig) -> tuple[LaneEdge, ...]:
     edges = []
-    for pair in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
-        first, second = pair
+    for first, second, one_way in graph.directed_edges():
         across = 0 if first[1] == second[1] else 1
-        width = min(_clear_m(structure, square, bay)[across] for square in pair)
-        kinds = graph.kind(first), graph.kind(second)
-        one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
-        if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
-            first, second = second, first
+        width = min(_clear_m(structure, square, bay)[across] for square in (first, second))
         edges.append(LaneEdge(number[first], number[second], width, one_way))
     return tuple(edges)
 

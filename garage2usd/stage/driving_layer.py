@@ -8,7 +8,8 @@ import numpy as np
 from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.driving import Manoeuvre, StallProof, Waypoint
-from garage2usd.stage.authoring import attribute, define, set_units
+from garage2usd.stage.authoring import attribute, define, save, set_units
+from garage2usd.stage.curves import author_curves
 
 __all__ = ["write_driving_layer"]
 
@@ -43,24 +44,15 @@ def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
                 if (way := proof.way_in if name == "In" else proof.way_out) is not None and proof.is_proven
             ]
             _author_ways(layer, group.path.AppendChild(name), ways)
-    layer.Export(str(path))
+    save(layer, path)
 
 
 def _author_ways(layer: Sdf.Layer, path: Sdf.Path, ways: Sequence[tuple[StallProof, Manoeuvre]]) -> None:
-    prim = define(layer, path, "BasisCurves")
-    attribute(prim, "type", _TYPES.Token, UsdGeom.Tokens.linear, uniform=True)
-    attribute(prim, "wrap", _TYPES.Token, UsdGeom.Tokens.nonperiodic, uniform=True)
     sampled: list[list[Waypoint]] = [list(way.waypoints(_STEP_M)) for _, way in ways]
     counts = np.array([len(samples) for samples in sampled], dtype=np.int32)
-    attribute(prim, "curveVertexCounts", _TYPES.IntArray, Vt.IntArray.FromNumpy(counts))
     every = [at for samples in sampled for at in samples]
-    points = np.array([(at.pose.x_m, _LIFT_M, at.pose.z_m) for at in every], dtype=np.float32).reshape(-1, 3)
-    attribute(prim, "points", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
-    width = attribute(prim, "widths", _TYPES.FloatArray, Vt.FloatArray([_LINE_WIDTH_M]))
-    width.SetInfo("interpolation", UsdGeom.Tokens.constant)
-    extent = UsdGeom.Curves.ComputeExtent(Vt.Vec3fArray.FromNumpy(points), Vt.FloatArray([_LINE_WIDTH_M]))
-    attribute(prim, "extent", _TYPES.Float3Array, extent)
-
+    line_m = np.array([(at.pose.x_m, at.pose.z_m) for at in every]).reshape(-1, 2)
+    prim = author_curves(layer, path, line_m, counts, lift_m=_LIFT_M, width_m=_LINE_WIDTH_M)
     proofs = [proof for proof, _ in ways]
     names = [proof.stall for proof in proofs]
     attribute(prim, "garage:way:stall", _TYPES.TokenArray, Vt.TokenArray(names))

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.stage.authoring import attribute, define, save, set_units
+from garage2usd.stage.curves import author_curves
 
 __all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
 
@@ -81,20 +82,14 @@ def _author_edges(
     number_of: NDArray[np.int32],
     setback_m: float,
 ) -> None:
-    pairs = sorted(tuple(sorted(edge)) for edge in graph.graph.edges)
-    directions = [_direction(graph, *pair) for pair in pairs]
-    ends = np.array(pairs, dtype=np.int32)
-    turned = [direction == "backward" for direction in directions]
-    ends[turned] = ends[turned, ::-1]
+    edges = graph.directed_edges()
+    ends = np.array([(first, second) for first, second, _ in edges], dtype=np.int32)
     ways = np.stack([_middles_m(structure, squares) for squares in (ends[:, 0], ends[:, 1])], axis=1)
     prim = _author_curves(layer, path, ways, closed=False)
     for name, squares in (("from", ends[:, 0]), ("to", ends[:, 1])):
         _author_numbers(prim, f"garage:lane:{name}", number_of[tuple(squares.T)])
-    _author_words(
-        prim,
-        "garage:lane:direction",
-        ("forward" if direction == "backward" else direction for direction in directions),
-    )
+    directions = ("forward" if one_way else "both" for _, _, one_way in edges)
+    _author_words(prim, "garage:lane:direction", directions)
     lengths = np.linalg.norm(ways[:, 1] - ways[:, 0], axis=1).astype(np.float32)
     attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
     along_z = ends[:, 0, 1] == ends[:, 1, 1]
@@ -127,14 +122,6 @@ def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
     return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
 
-def _direction(graph: LaneGraph, one: Square, other: Square) -> str:
-    """From an entrance, into an exit, or both ways."""
-    kinds = graph.kind(one), graph.kind(other)
-    if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
-        return "backward"
-    return "forward" if kinds[0] is LaneKind.ENTRANCE or kinds[1] is LaneKind.EXIT else "both"
-
-
 def _middles_m(structure: Structure, squares: NDArray[np.int32]) -> NDArray[np.float64]:
     """Middles (x, z) of squares; float64, shape (n, 2)."""
     rows, cols = squares.T
@@ -165,19 +152,9 @@ def _author_numbers(prim: Sdf.PrimSpec, name: str, numbers: NDArray[np.int32]) -
 
 
 def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:
-    """Curves over the floor through (x, z) points, shape (curves, points, 2)."""
+    """Curves through (x, z) points, shape (curves, points, 2)."""
     count, corners, _ = lines.shape
-    points = np.full((count * corners, 3), _LIFT_M, dtype=np.float32)
-    points[:, [0, 2]] = lines.reshape(-1, 2)
-    prim = define(layer, path, "BasisCurves")
-    attribute(prim, "type", _TYPES.Token, UsdGeom.Tokens.linear, uniform=True)
-    wrap = UsdGeom.Tokens.periodic if closed else UsdGeom.Tokens.nonperiodic
-    attribute(prim, "wrap", _TYPES.Token, wrap, uniform=True)
     counts = np.full(count, corners, dtype=np.int32)
-    attribute(prim, "curveVertexCounts", _TYPES.IntArray, Vt.IntArray.FromNumpy(counts))
-    attribute(prim, "points", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
-    width = attribute(prim, "widths", _TYPES.FloatArray, Vt.FloatArray([_LINE_WIDTH_M]))
-    width.SetInfo("interpolation", UsdGeom.Tokens.constant)
-    extent = UsdGeom.Curves.ComputeExtent(Vt.Vec3fArray.FromNumpy(points), Vt.FloatArray([_LINE_WIDTH_M]))
-    attribute(prim, "extent", _TYPES.Float3Array, extent)
-    return prim
+    return author_curves(
+        layer, path, lines.reshape(-1, 2), counts, lift_m=_LIFT_M, width_m=_LINE_WIDTH_M, closed=closed
+    )
