@@ -8,10 +8,12 @@ from typing import Any, NoReturn
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["MAX_SETTINGS_BYTES", "read_bytes", "read_json", "read_text", "read_toml"]
+__all__ = ["MAX_REPORT_BYTES", "MAX_SETTINGS_BYTES", "read_bytes", "read_json", "read_text", "read_toml"]
 
 MAX_SETTINGS_BYTES = 16 * 1024 * 1024
 """Configurations, profiles and structures are no larger."""
+MAX_REPORT_BYTES = 512 * 1024 * 1024
+"""Reports of builds list each stall."""
 
 
 def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> bytes:

@@ -12,6 +12,7 @@ __all__ = [
     "ReportError",
     "StageError",
     "UnreachableStallError",
+    "UnreadableFileError",
 ]
 
 
@@ -101,8 +102,8 @@ class OutputError(Garage2UsdError, OSError):
         return f"{self.path}: {self.reason}"
 
 
-class StageError(Garage2UsdError):
-    """A stage, or a file that belongs to it, that cannot be read.
+class UnreadableFileError(Garage2UsdError):
+    """A file that is not what it should be.
 
     Parameters
     ----------
@@ -118,21 +119,12 @@ class StageError(Garage2UsdError):
         super().__init__(f"{path}: {reason}")
 
 
-class ReportError(Garage2UsdError):
-    """A report of a build that cannot be used.
+class StageError(UnreadableFileError):
+    """A stage, or a file that belongs to it, that cannot be read."""
 
-    Parameters
-    ----------
-    path
-        The file.
-    reason
-        What is wrong with it.
-    """
 
-    def __init__(self, path: object, reason: str) -> None:
-        self.path = path
-        self.reason = reason
-        super().__init__(f"{path}: {reason}")
+class ReportError(UnreadableFileError):
+    """A report of a build that cannot be used."""
 
 
 class MissingExtraError(Garage2UsdError):

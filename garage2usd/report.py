@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
-from garage2usd.documents import read_bytes
+from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
 from garage2usd.errors import ConfigError, ReportError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
@@ -19,8 +19,6 @@ from garage2usd.planning import Plan, area_per_stall_m2, principles, rank_of, ta
 from garage2usd.version import VERSION
 
 __all__ = ["read_report", "write_report"]
-
-_MAX_FILE_BYTES = 512 * 1024 * 1024
 
 
 def write_report(
@@ -110,7 +108,7 @@ def read_report(path: Path) -> GarageConfig:
     ReportError
         If it is no report.
     """
-    text = read_bytes(path, field="report", max_bytes=_MAX_FILE_BYTES)
+    text = read_bytes(path, field="report", max_bytes=MAX_REPORT_BYTES)
     try:
         report = _Report.model_validate_json(text)
     except ValidationError as error:

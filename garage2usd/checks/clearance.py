@@ -1,6 +1,6 @@
 """Rules of the room around a parked car: the design car in the middle of each stall, its nose at the mouth."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,11 +53,9 @@ class _ParkedCar:
     asks="the design car in a stall keeps away from columns",
 )
 def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    clause = profile.column_clearance
-    for car in _parked(subject, profile, clause):
-        required = clause.amount if clause else 0.0
-        near = [solid for solid in subject.solids.at(car.polygon, within_m=required) if solid.label == "column"]
-        yield from _closest(car, near, required, "a column", subject)
+    for car, required in _parked(subject, profile, profile.column_clearance):
+        near = subject.solids.at(car.polygon, within_m=required)
+        yield from _closest(car, near, {"column"}, required, "a column", subject)
 
 
 @BOOK.rule(
@@ -68,11 +66,9 @@ def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from the walls beside it",
 )
 def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    clause = profile.wall_clearance
-    for car in _parked(subject, profile, clause):
-        required = clause.amount if clause else 0.0
-        near = [solid for solid in subject.solids.at(car.ground(beside_m=required)) if solid.label in _WALLS]
-        yield from _closest(car, near, required, "the wall beside", subject)
+    for car, required in _parked(subject, profile, profile.wall_clearance):
+        near = subject.solids.at(car.ground(beside_m=required))
+        yield from _closest(car, near, _WALLS, required, "the wall beside", subject)
 
 
 @BOOK.rule(
@@ -83,11 +79,9 @@ def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from what stands behind it",
 )
 def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    clause = profile.end_clearance
-    for car in _parked(subject, profile, clause):
-        required = clause.amount if clause else 0.0
-        near = [solid for solid in subject.solids.at(car.ground(behind_m=required)) if solid.label in _WALLS]
-        yield from _closest(car, near, required, "the wall behind", subject)
+    for car, required in _parked(subject, profile, profile.end_clearance):
+        near = subject.solids.at(car.ground(behind_m=required))
+        yield from _closest(car, near, _WALLS, required, "the wall behind", subject)
 
 
 @BOOK.rule(
@@ -124,18 +118,25 @@ def _between_columns(stall: StallOutline, places: NDArray[np.float64]) -> float 
     return float(right.min() - left.max()) if len(left) and len(right) else None
 
 
-def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterator[_ParkedCar]:
+def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterator[tuple[_ParkedCar, float]]:
+    """A car in each stall, and the room around it that a clause asks for in metres; none without a clause."""
     length, width = profile.design_car_length, profile.design_car_width
     if clause is None or length is None or width is None:
         return
     for stall in subject.parking_stalls:
-        yield _ParkedCar(stall, length.amount, width.amount)
+        yield _ParkedCar(stall, length.amount, width.amount), clause.amount
 
 
-def _closest(car: _ParkedCar, near: list[Solid], required: float, what: str, subject: Subject) -> Iterator[Miss]:
-    """The least distance of a car to some pieces; those that stand in its stall have rules of their own."""
+def _closest(
+    car: _ParkedCar, near: Iterable[Solid], labels: Container[str], required: float, what: str, subject: Subject
+) -> Iterator[Miss]:
+    """The least distance of a car to pieces of some labels; those that stand in its stall have rules of their own."""
     inside = {solid.name for solid in standing_in(car.stall, subject)}
-    distances = [(car.polygon.distance(solid.footprint), solid.name) for solid in near if solid.name not in inside]
+    distances = [
+        (car.polygon.distance(solid.footprint), solid.name)
+        for solid in near
+        if solid.label in labels and solid.name not in inside
+    ]
     if distances:
         measured, name = min(distances)
         if measured < required - ROUNDING_M:

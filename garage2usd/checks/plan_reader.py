@@ -7,7 +7,7 @@ from typing import Any
 from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
 from garage2usd.checks.subject import Fault, Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
-from garage2usd.documents import read_json, read_text
+from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
 from garage2usd.lanes import build_lane_graph, unproven_lane_graph
@@ -17,7 +17,6 @@ from garage2usd.site.given import check_structure
 
 __all__ = ["plan_subject"]
 
-_MAX_REPORT_BYTES = 256 * 1024 * 1024
 _FIELD = "PATH"
 _MOVED_M = 0.001
 
@@ -49,7 +48,7 @@ def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject
         text = read_text(path, field=_FIELD)
         config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
         return _of_config(config, path, kind="plan"), config
-    document = read_json(path, field=_FIELD, max_bytes=_MAX_REPORT_BYTES)
+    document = read_json(path, field=_FIELD, max_bytes=MAX_REPORT_BYTES)
     if isinstance(document, dict) and "config" in document:
         return _of_report(document, path)
     config = config_from_mapping(_given(profile) | _settings_of(document, path))

@@ -37,13 +37,14 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     other tools have edited, or the report of a build. The car is 4.8 x 1.8 m with a turning radius
     of 6 m. Stalls without ways are named with what is in the way, and the exit code is 1.
     """
-    from garage2usd.output import check_name  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415
 
-    if output is not None and output.suffix not in _FORMATS:
-        raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
     if output is not None:
+        if output.suffix not in _FORMATS:
+            raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
         check_name(output)
+        check_writable(output.parent)
     with Bars(sys.stderr) as progress:
         if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
             if seed is not None:
@@ -78,10 +79,9 @@ def _proofs_of_file(path: Path, progress: "Progress") -> "tuple[StallProof, ...]
 
 def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.output import publish, staging_folder  # noqa: PLC0415
     from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
 
-    check_writable(output.parent)
     with staging_folder() as staging:
         file = staging / output.name
         if output.suffix == ".json":

@@ -71,15 +71,15 @@ class Arrangement:
     names: NDArray[np.bytes_]
     name: NDArray[np.signedinteger[Any]]
 
-    def on_tile(self, tile: int) -> NDArray[np.intp]:
+    def on_tile(self, tile: int) -> NDArray[np.int32]:
         """Rows of the objects of a tile."""
         return self.order[self.borders[tile] : self.borders[tile + 1]]
 
-    def on_all_tiles(self) -> NDArray[np.intp]:
+    def on_all_tiles(self) -> NDArray[np.int32]:
         """Rows of the objects of all tiles, one tile after the other."""
         return self.order[self.borders[0] : self.borders[-1]]
 
-    def on_tiles(self) -> Iterator[NDArray[np.intp]]:
+    def on_tiles(self) -> Iterator[NDArray[np.int32]]:
         """Rows of the objects of each tile in turn."""
         return (self.order[start:end] for start, end in pairwise(self.borders.tolist()))
 
