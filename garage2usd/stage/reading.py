@@ -70,7 +70,7 @@ def number_of(attribute: Usd.Attribute) -> float:
     value = attribute.Get()
     try:
         return float(0.0 if value is None else value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _no_numbers(attribute) from None
 
 
@@ -86,7 +86,7 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
     try:
         numbers = np.asarray(() if value is None else value, dtype=dtype)
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _no_numbers(attribute) from None
 
 
