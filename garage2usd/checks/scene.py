@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
+from garage2usd.errors import StageError
 from garage2usd.stage.reading import metres_y_up, number_of
 from garage2usd.stage.taxonomy import label_of
 
 __all__ = ["RectLight", "Scene", "read_scene"]
 
+_FARTHEST_M = 1e6
 _LUMINANCE = "garage:light:luminance"
 
 
@@ -54,6 +56,12 @@ class _Entry(NamedTuple):
     touches: bool
     light: tuple[float, float, float] | None
 
+    def reach_m(self) -> float:
+        """A distance from the world's origin that it does not surpass."""
+        turn, move = np.abs(self.matrix[:3, :3]), np.abs(self.matrix[3, :3])
+        size = 0.0 if self.shape is None else self.shape.reach
+        return float((turn.sum(axis=0) * size + move).max())
+
 
 def read_scene(stage: Usd.Stage) -> Scene:
     """Read all labelled objects, each with its meshes, and what is not labelled, mesh by mesh.
@@ -61,11 +69,20 @@ def read_scene(stage: Usd.Stage) -> Scene:
     Notes
     -----
     What is drawn by a shared prototype is read once. Guides, and what is hidden, is left out.
+
+    Raises
+    ------
+    StageError
+        If something lies more than 1000 km from the origin, where geometry loses its millimetres.
     """
     reader = _Reader()
     things: dict[str, tuple[str, list[Body]]] = {}
     lights = []
     for entry in reader.below(stage.GetPseudoRoot(), metres_y_up(stage), "", ""):
+        reach_m = entry.reach_m()
+        if not reach_m <= _FARTHEST_M:  # nor is NaN
+            prim = entry.thing or "a light"
+            raise StageError(stage.GetRootLayer().realPath, f"{prim} lies {reach_m:.3g} m from the origin")
         if entry.light is not None:
             lights.append(RectLight(entry.matrix, *entry.light))
         if entry.shape is not None:
