@@ -9,6 +9,7 @@ from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.stage.reading import usd_text
 from garage2usd.stage.taxonomy import LABELS, LABELS_SCHEMA, labels_of
 
 __all__ = ["BOOK"]
@@ -163,11 +164,12 @@ def _validation(subject: Subject, _: Profile) -> Iterator[Miss]:
     seen = set()
     absolute = [path for path, _ in _absolute(subject.stage)]
     for error in errors:
+        message = usd_text(error.GetMessage)
         # a path that is absolute, and so missing here, has a rule of its own
-        if error.GetName() == _UNRESOLVED and any(path in error.GetMessage() for path in absolute):
+        if error.GetName() == _UNRESOLVED and any(path in message for path in absolute):
             continue
         sites = [str(site.GetPrim().GetPath()) for site in error.GetSites() if site.IsPrim()]
-        miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {' '.join(error.GetMessage().split())}")
+        miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {message}")
         if miss not in seen:
             seen.add(miss)
             yield miss

@@ -5,7 +5,7 @@ import pytest
 from pxr import Sdf, Usd
 
 from garage2usd.errors import StageError
-from garage2usd.stage.reading import number_of, numbers_of, open_stage
+from garage2usd.stage.reading import number_of, numbers_of, open_stage, usd_text
 from garage2usd.stage.taxonomy import label_of, labels_of
 
 TEXT = '#usda 1.0\n(\n    defaultPrim = "Garage"\n)\ndef Xform "Garage" (\n    references = @./asset.usdc@\n)\n{\n}\n'
@@ -116,3 +116,8 @@ def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
     assert labels_of(lamp, "other") == ()
     with pytest.raises(StageError, match=r"/Lamp.semantics:labels:square holds no labels"):
         label_of(lamp, "square")
+
+
+def test_what_usd_says_is_one_line_of_text_whatever_it_repeats():
+    assert usd_text(lambda: " two\n lines ") == "two lines"
+    assert usd_text(lambda: b"\x80".decode()) == "it holds bytes that are no text"
