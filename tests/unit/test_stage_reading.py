@@ -120,4 +120,4 @@ def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
 
 def test_what_usd_says_is_one_line_of_text_whatever_it_repeats():
     assert usd_text(lambda: " two\n lines ") == "two lines"
-    assert usd_text(lambda: b"\x80".decode()) == "it holds bytes that are no text"
+    assert usd_text(b"\x80".decode) == "it holds bytes that are no text"
