@@ -56,12 +56,6 @@ class _Entry(NamedTuple):
     touches: bool
     light: tuple[float, float, float] | None
 
-    def reach_m(self) -> float:
-        """A distance from the world's origin that it does not surpass."""
-        turn, move = np.abs(self.matrix[:3, :3]), np.abs(self.matrix[3, :3])
-        size = 0.0 if self.shape is None else self.shape.reach
-        return float((turn.sum(axis=0) * size + move).max())
-
 
 def read_scene(stage: Usd.Stage) -> Scene:
     """Read all labelled objects, each with its meshes, and what is not labelled, mesh by mesh.
@@ -78,11 +72,9 @@ def read_scene(stage: Usd.Stage) -> Scene:
     reader = _Reader()
     things: dict[str, tuple[str, list[Body]]] = {}
     lights = []
-    for entry in reader.below(stage.GetPseudoRoot(), metres_y_up(stage), "", ""):
-        reach_m = entry.reach_m()
-        if not reach_m <= _FARTHEST_M:  # nor is NaN
-            prim = entry.thing or "a light"
-            raise StageError(stage.GetRootLayer().realPath, f"{prim} lies {reach_m:.3g} m from the origin")
+    entries = list(reader.below(stage.GetPseudoRoot(), metres_y_up(stage), "", ""))
+    _check_reach(stage, entries)
+    for entry in entries:
         if entry.light is not None:
             lights.append(RectLight(entry.matrix, *entry.light))
         if entry.shape is not None:
@@ -92,6 +84,18 @@ def read_scene(stage: Usd.Stage) -> Scene:
         tuple(Thing(name, label, tuple(bodies)) for name, (label, bodies) in things.items()),
         tuple(lights),
     )
+
+
+def _check_reach(stage: Usd.Stage, entries: list[_Entry]) -> None:
+    if not entries:
+        return
+    matrices = np.abs([entry.matrix for entry in entries])
+    sizes = np.array([0.0 if entry.shape is None else entry.shape.reach for entry in entries])
+    reach_m = (matrices[:, :3, :3].sum(axis=1) * sizes[:, None] + matrices[:, 3, :3]).max(axis=1)
+    far = np.flatnonzero(~(reach_m <= _FARTHEST_M))  # as NaN is
+    if len(far):
+        prim = entries[far[0]].thing or "a light"
+        raise StageError(stage.GetRootLayer().realPath, f"{prim} lies {reach_m[far[0]]:.3g} m from the origin")
 
 
 class _Reader:

@@ -53,10 +53,11 @@ def _units(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("nested-rigid-body", asks="no rigid body lies in another one")
 def _nested_rigid_bodies(subject: Subject, _: Profile) -> Iterator[Miss]:
-    # a body above an instance is seen from the instances' contents alone
     stage = subject.stage
-    prims = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()) if stage else ()
-    for prim in prims:
+    if stage is None or not any(prim.HasAPI(UsdPhysics.RigidBodyAPI) for prim in _prims(stage)):
+        return
+    # a body above an instance is seen from the instances' contents alone
+    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         if prim.HasAPI(UsdPhysics.RigidBodyAPI):
             above = prim.GetParent()
             while above and not above.HasAPI(UsdPhysics.RigidBodyAPI):
