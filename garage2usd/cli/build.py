@@ -23,13 +23,13 @@ __all__ = ["build"]
 @click.option(
     "--tape", metavar="TAPE", help="The tape of a plan, as its report has it: make its lanes again instead of learning."
 )
-@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well (*_learning.png).")
+@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well (a_learning.png).")
 @click.option(
     "--best-plans",
     metavar="N",
     type=click.IntRange(0, 200),
     default=0,
-    help="Draw so many of the best plans as well (*_best.png).",
+    help="Draw so many of the best plans as well (a_best.png).",
 )
 @click.option(
     "--output",
@@ -52,8 +52,8 @@ def build(
 ) -> None:
     """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
 
-    Beside the stage it writes a picture of the plan (*_plan.png), a report (*_report.json), the classes and bounds of
-    all objects (*_labels.json) and, unless the stage is a .usdz, the assets (*_assets/).
+    Beside the stage, say out/a.usda, it writes a picture of the plan (out/a_plan.png), a report (a_report.json), the
+    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/).
 
     \b
     Examples:
