@@ -1,7 +1,8 @@
 """Directives whose text is made from the code when the documentation is built, so that it cannot lag behind.
 
 ``configuration-reference``: all settings, from the JSON schema. ``class-list``: semantic classes with their ids.
-``profile-tables``: the clauses of the shipped standards. ``deviations``: what docstrings say after ``Deviation:``.
+``profile-tables``: the clauses of the shipped standards. ``rule-list``: the rules of check. ``deviations``: what
+docstrings say after ``Deviation:``.
 """
 
 from collections.abc import Iterator
@@ -12,6 +13,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+from garage2usd.checks import RULES
 from garage2usd.config import config_schema
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
@@ -115,18 +117,38 @@ class ClassList(MadeFromCode):
             yield f"| {number} | `{name}` | {cityscapes} | {kinds} |"
 
 
+class RuleList(MadeFromCode):
+    """The rules of check."""
+
+    def lines(self) -> Iterator[str]:
+        """One table."""
+        yield from ("| rule | asks that | clauses | severity |", "|---|---|---|---|")
+        for rule in RULES:
+            clauses = ", ".join(f"`{clause}`" for clause in rule.clauses)
+            severity = "the clause's" if rule.clauses else rule.severity.value
+            yield f"| `{rule.name}` | {rule.asks} | {clauses} | {severity} |"
+
+
 class ProfileTables(MadeFromCode):
     """The clauses of every shipped profile."""
 
     def lines(self) -> Iterator[str]:
-        """A table a profile."""
+        """All clauses side by side, then a table a profile with the sources."""
+        profiles = [dict(load_profile(name).clauses()) for name in PROFILE_NAMES]
+        yield from ("## All clauses", "")
+        yield f"| clause | what it is | {' | '.join(PROFILE_NAMES)} |"
+        yield "|---" * (2 + len(PROFILE_NAMES)) + "|"
+        for key, field in Profile.model_fields.items():
+            if key not in {"name", "title"}:
+                values = (_required(clauses[key]) if key in clauses else "" for clauses in profiles)
+                yield f"| `{key}` | {_cell(field.description or '')} | {' | '.join(values)} |"
+        yield ""
         for name in PROFILE_NAMES:
             profile = load_profile(name)
             yield from (f"## {name}", "", f"{profile.title}.", "")
-            yield from ("| clause | value | in words | source | confidence | to miss it |", "|---|---|---|---|---|---|")
+            yield from ("| clause | in words | source | confidence | to miss it |", "|---|---|---|---|---|")
             for key, clause in profile.clauses():
-                words = clause.text or Profile.model_fields[key].description or ""
-                cells = (f"`{key}`", _required(clause), _cell(words), _cell(clause.source), clause.confidence)
+                cells = (f"`{key}`", _cell(clause.text), _cell(clause.source), clause.confidence)
                 yield f"| {' | '.join(cells)} | {clause.severity} |"
             yield ""
 
@@ -163,6 +185,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     """Register the directives."""
     app.add_directive("configuration-reference", ConfigurationReference)
     app.add_directive("class-list", ClassList)
+    app.add_directive("rule-list", RuleList)
     app.add_directive("profile-tables", ProfileTables)
     app.add_directive("deviations", Deviations)
     return {"parallel_read_safe": True}

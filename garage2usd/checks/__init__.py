@@ -96,7 +96,7 @@ def read_subject(path: str | Path, *, profile: Profile | None = None) -> tuple[S
     """Read what is checked, and what it is checked against; as for `check_file`."""
     path = Path(path)
     if not path.is_file():
-        raise ConfigError("PATH", str(path), "a file")
+        raise ConfigError("PATH", str(path), "an existing file")
     if path.suffix.lower() in STAGE_SUFFIXES:
         subject = stage_subject(path)
         name = profile_name(subject.stage)

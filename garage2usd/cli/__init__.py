@@ -19,7 +19,15 @@ from garage2usd.version import VERSION
 __all__ = ["main", "run"]
 
 
-@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+_EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
+refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
+
+
+@click.group(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog=_EXIT_CODES,
+)
 @click.version_option(VERSION, "-V", "--version", prog_name="garage2usd")
 def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""

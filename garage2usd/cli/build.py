@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
+from garage2usd.cli.parameters import INPUT_FILE, profile_option, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.pipeline import Build
@@ -15,20 +16,29 @@ if TYPE_CHECKING:
 __all__ = ["build"]
 
 
-@click.command()
-@click.argument("config", required=False, type=click.Path(dir_okay=False, path_type=Path))
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
-@click.option("--profile", help="The standard to design to: a name, or a TOML file; in place of the configuration's.")
-@click.option("--tape", help="The tape of a plan, as its report has it: make its lanes again instead of learning.")
-@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well.")
-@click.option("--best-plans", type=click.IntRange(0, 200), default=0, help="Draw so many of the best plans as well.")
+@click.command(short_help="Build a garage and write it as a USD stage.")
+@click.argument("config", required=False, type=INPUT_FILE)
+@seed_option
+@profile_option("The standard to design to, in place of the configuration's")
+@click.option(
+    "--tape", metavar="TAPE", help="The tape of a plan, as its report has it: make its lanes again instead of learning."
+)
+@click.option("--learning-curve", is_flag=True, help="Draw the return of each episode as well (a_learning.png).")
+@click.option(
+    "--best-plans",
+    metavar="N",
+    type=click.IntRange(0, 200),
+    default=0,
+    help="Draw so many of the best plans as well (a_best.png).",
+)
 @click.option(
     "--output",
     "-o",
+    metavar="FILE",
     type=click.Path(path_type=Path),
     default="garage.usdz",
     show_default=True,
-    help="The stage: .usda, .usdc or .usdz. Plan picture and report are written beside it.",
+    help="The stage: .usda, .usdc or .usdz. Its folder is made; files of that name are replaced.",
 )
 def build(
     *,
@@ -40,7 +50,10 @@ def build(
     best_plans: int,
     output: Path,
 ) -> None:
-    """Build the garage that CONFIG (TOML) describes, or a good default one.
+    """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
+
+    Beside the stage, say out/a.usda, it writes a picture of the plan (out/a_plan.png), a report (a_report.json), the
+    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/).
 
     \b
     Examples:

@@ -6,21 +6,23 @@ from pathlib import Path
 
 import click
 
+from garage2usd.cli.parameters import INPUT_FILE, profile_option
+
 __all__ = ["check"]
 
 _MOST_OF_A_RULE = 10
 
 
-@click.command()
-@click.argument("path", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.option("--profile", help="The standard to check against: a name, or a TOML file of your own.")
-@click.option("--json", "as_json", is_flag=True, help="Print all findings as JSON.")
+@click.command(short_help="Check a stage, a report or a plan against a standard.")
+@click.argument("path", type=INPUT_FILE)
+@profile_option("The standard to check against, in place of the one that it was designed to")
+@click.option("--json", "as_json", is_flag=True, help="Print all findings as JSON; the table has ten of a rule.")
 @click.pass_context
 def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool) -> None:
     """Check a stage, a report or a plan against a standard.
 
     PATH is a stage, also one that other tools have edited, the report of a build, a configuration with a structure, or
-    a structure as text or JSON. Ends in 1 if there are errors.
+    a structure as text or JSON. The exit code is 1 if there are errors; warnings and remarks are none.
 
     \b
     Examples:

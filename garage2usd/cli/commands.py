@@ -10,7 +10,7 @@ from garage2usd.errors import ConfigError, Garage2UsdError
 
 __all__ = ["Commands"]
 
-_USAGE_FIELDS = {"output", "profile"}
+_USAGE_FIELDS = {"frames", "output", "profile"}
 
 
 class Commands(click.Group):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
+from garage2usd.cli.parameters import INPUT_FILE, refuse_seed, seed_option
 from garage2usd.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -21,12 +22,13 @@ __all__ = ["drive"]
 _FORMATS = (".json", ".usda", ".usdc")
 
 
-@click.command()
-@click.argument("path", required=False, type=click.Path(dir_okay=False, path_type=Path))
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@click.command(short_help="Prove that a car gets into each stall and out again.")
+@click.argument("path", required=False, type=INPUT_FILE)
+@seed_option
 @click.option(
     "--output",
     "-o",
+    metavar="FILE",
     type=click.Path(path_type=Path),
     help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage.",
 )
@@ -34,9 +36,15 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     """Prove that a car drives into each stall and out again without a touch.
 
     PATH is a configuration, and the garage the one that `build` makes of it and the seed; or a stage, also one that
-    other tools have edited, or the report of a build. The car is 4.8 x 1.8 m with a turning radius
-    of 6 m. Stalls without ways are named with what is in the way, and the exit code is 1.
-    """
+    other tools have edited, or the report of a build. Without PATH it is the default garage. The car is 4.8 x 1.8 m
+    with a turning radius of 6 m. Access aisles and stalls for turning hold no car and are left out. Stalls without ways
+    are named with what is in the way, and the exit code is 1.
+
+    \b
+    Examples:
+      garage2usd drive garage.usdz
+      garage2usd drive --seed 7 -o ways.json
+    """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415
 
@@ -47,8 +55,7 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
         check_writable(output.parent)
     with Bars(sys.stderr) as progress:
         if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
-            if seed is not None:
-                raise ConfigError("seed", seed, "none for a garage that is made already")
+            refuse_seed(seed)
             proofs = _proofs_of_file(path, progress)
         else:
             proofs = _proofs_of_config(path, seed, progress)
@@ -99,7 +106,7 @@ def _describe(proofs: "Sequence[StallProof]") -> None:
     for name, count in noses.most_common():
         click.echo(f"{count:6}  {name}")
     for number, count in sorted(changes.items()):
-        click.echo(f"{count:6}  with {number} changes of gear on the way in")
+        click.echo(f"{count:6}  with {number} change{'' if number == 1 else 's'} of gear on the way in")
     for proof in proven:
         if not proof.is_full:
             click.echo(f"{proof.stall}: only with the stalls free that are free")

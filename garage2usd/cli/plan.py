@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
+from garage2usd.cli.parameters import INPUT_FILE, refuse_seed, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.pipeline import Garage
@@ -18,15 +19,16 @@ __all__ = ["plan"]
 _FORMATS = (".png", ".svg")
 
 
-@click.command()
-@click.argument("path", type=click.Path(dir_okay=False, path_type=Path))
-@click.option("--stall", "number", help="Number or id of a stall whose route is drawn, as B2-07.")
+@click.command(short_help="Draw a plan with dimensions, as SVG or PNG.")
+@click.argument("path", type=INPUT_FILE)
+@click.option("--stall", "number", metavar="NUMBER|ID", help="A stall whose route is drawn, as B2-07.")
 @click.option("--findings", "with_findings", is_flag=True, help="Draw what `check` finds in PATH at its place.")
-@click.option("--seed", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's.")
+@seed_option
 @click.option(
     "--output",
     "-o",
     "outputs",
+    metavar="FILE",
     type=click.Path(dir_okay=False, path_type=Path),
     multiple=True,
     help="The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
@@ -97,10 +99,14 @@ def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
 
     if path.suffix == ".toml":
         return generate(load_config(path), seed=seed, progress=progress)
-    if seed is not None:
-        raise ConfigError("seed", seed, "a seed beside a configuration only")
+    refuse_seed(seed)
     if path.suffix == ".json":
         return generate(read_report(path), progress=progress)
     if path.suffix in set(StageFormat):
-        return generate(read_report(path.with_name(f"{path.stem}_report.json")), progress=progress)
-    raise ConfigError("path", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")
+        if not path.is_file():
+            raise ConfigError("PATH", str(path), "an existing file")
+        report = path.with_name(f"{path.stem}_report.json")
+        if not report.exists():
+            raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
+        return generate(read_report(report), progress=progress)
+    raise ConfigError("PATH", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")

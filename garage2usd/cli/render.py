@@ -5,8 +5,10 @@ import sys
 from pathlib import Path
 
 import click
+from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
+from garage2usd.cli.parameters import INPUT_FILE
 
 __all__ = ["render"]
 
@@ -44,18 +46,46 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
             self.fail(f"{unknown[0]!r} is none of {', '.join(_PICTURES)}", param, ctx)
         return kinds
 
+    def shell_complete(self, _ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """The kinds that the last word may become."""
+        begun, comma, last = incomplete.rpartition(",")
+        return [CompletionItem(f"{begun}{comma}{kind}") for kind in _PICTURES if kind.startswith(last)]
 
-@click.command()
-@click.argument("stage", metavar="PATH", type=click.Path(dir_okay=False, path_type=Path))
-@click.option("--camera", "cameras", multiple=True, help="Name or path of a camera; may be repeated. [default: all]")
-@click.option("--frames", help="Frames of cameras that move: 0, 0:96, 0:960x24.  [default: every 48th]")
+
+@click.command(short_help="Render a stage's cameras with ground truth, by Blender.")
+@click.argument("stage", metavar="PATH", type=INPUT_FILE)
+@click.option(
+    "--camera", "cameras", metavar="NAME|PRIM", multiple=True, help="A camera; may be repeated.  [default: all]"
+)
+@click.option(
+    "--frames",
+    metavar="FRAMES",
+    help="Frames of cameras that move: 0, 0:96, 0:960x24, several with commas.  [default: every 48th]",
+)
 @click.option("--size", type=_Size(), default="1280x720", show_default=True, help="Width and height in pixels.")
-@click.option("--samples", type=click.IntRange(1, 65536), default=64, show_default=True, help="Samples of each pixel.")
-@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of the samples.")
-@click.option("--only", "pictures", type=_Pictures(), default=_PICTURES, help=f"Some of {', '.join(_PICTURES)}.")
+@click.option(
+    "--samples",
+    metavar="N",
+    type=click.IntRange(1, 65536),
+    default=64,
+    show_default=True,
+    help="Samples of each pixel of the colour.",
+)
+@click.option(
+    "--seed",
+    metavar="N",
+    type=click.IntRange(0, 2**31 - 1),
+    default=0,
+    show_default=True,
+    help="Seed of the samples, not of the garage.",
+)
+@click.option(
+    "--only", "pictures", type=_Pictures(), default=_PICTURES, help=f"Some of {', '.join(_PICTURES)}.  [default: all]"
+)
 @click.option(
     "--output",
     "-o",
+    metavar="FOLDER",
     type=click.Path(file_okay=False, path_type=Path),
     default="dataset",
     show_default=True,
@@ -74,7 +104,8 @@ def render(
 ) -> None:
     """Draw what the cameras of the stage PATH see: colour, depth, normals, instances and classes.
 
-    Needs the extra `blender`. frames.json in the folder says where each camera stood and what can be seen.
+    Needs the extra `blender`, which is for Python 3.11. frames.json in the folder says where each camera
+    stood and what can be seen.
 
     \b
     Examples:

@@ -7,7 +7,7 @@ import click
 __all__ = ["textures"]
 
 
-@click.command()
+@click.command(short_help="Bake the texture set that the package ships.")
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
 def textures(folder: Path) -> None:
     """Bake the texture set that the wheel ships into FOLDER, byte for byte, a folder for each quality."""

@@ -7,14 +7,18 @@ from pathlib import Path
 
 import click
 
+from garage2usd.cli.parameters import INPUT_FILE
+
 __all__ = ["view"]
 
 _MOST_PORT = 65535
 
 
-@click.command()
-@click.argument("path", type=click.Path(path_type=Path))
-@click.option("--port", type=click.IntRange(0, _MOST_PORT), default=0, help="TCP port; any that is free if left out.")
+@click.command(short_help="Show a stage in the browser.")
+@click.argument("path", type=INPUT_FILE)
+@click.option(
+    "--port", metavar="N", type=click.IntRange(0, _MOST_PORT), default=0, help="TCP port.  [default: any that is free]"
+)
 @click.option("--no-browser", is_flag=True, help="Say the address only; open no browser.")
 def view(*, path: Path, port: int, no_browser: bool) -> None:
     """Show the stage at PATH (.usd, .usda, .usdc or .usdz) in a browser until Ctrl-C.

@@ -40,9 +40,9 @@ class SiteConfig(Settings):
     """Where the garage is: random by the paper's rules, or any part of it given."""
 
     width_cells: int | None = Field(None, ge=3, le=1000)
-    """Columns of the structure matrix, the paper's w; 9 unless it is given or drawn."""
+    """Columns of the structure matrix, the paper's w; 9 unless it or a drawing of the site is given."""
     height_cells: int | None = Field(None, ge=3, le=1000)
-    """Rows of the structure matrix, the paper's h; 7 unless it is given or drawn."""
+    """Rows of the structure matrix, the paper's h; 7 unless it or a drawing of the site is given."""
     rectangles: int = Field(0, ge=0, le=64)
     """How many random rectangles make the contour, the paper's n; 0 fills the whole width and height."""
     min_fill: float = Field(0.5, ge=0, le=0.9)

@@ -63,7 +63,11 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     -----
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
     down, left, right, stay; on large sites over what becomes of a whole aisle. Deviation: the paper words epsilon
-    opposite to its formula; the formula stands.
+    opposite to its formula; the formula stands. Deviation: by default the agent has the preset ``tuned``: it sees less,
+    cannot bump, goes on from what was good before and starts several times, as it finds better plans so; ``paper`` is
+    the paper's agent. Deviation: the best plans are polished after learning, unless ``climb`` is false. Deviation:
+    where no episode joined all portals, shortest ways between them are the lanes. Deviation: a dead end that is too
+    long counts as one stall less when plans are compared (``dead_ends``); the reported score has no such term.
     """
     from garage2usd.planning.board import new_board  # noqa: PLC0415 - only planning pays for the compiler
 

@@ -39,7 +39,8 @@ def draw_contour(site: SiteConfig, *, seed: int, attempt: int = 0) -> Mask:
     Algorithm 1. Deviation: as printed it asks that the rectangles overlap without saying which; requiring all pairs
     fails for almost every draw of many rectangles. A rectangle is accepted when it overlaps one accepted before it by
     2 x 2 squares, so that the union is connected and nowhere narrower than two squares. Deviation: sides are at least
-    three squares, so that a portal has a lane and a stall behind it.
+    three squares, so that a portal has a lane and a stall behind it. Deviation: a union that covers less than
+    ``min_fill`` of the squares is drawn again, as small ones hold few stalls.
     """
     height, width = site.shape
     if site.rectangles == 0:

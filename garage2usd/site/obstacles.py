@@ -46,7 +46,8 @@ def draw_obstacles(cells: CellArray, site: SiteConfig, *, seed: int, attempt: in
     Notes
     -----
     ``o in eta`` and ``M(o_i, o_j) >= sigma_2``. Deviation: eta is taken before portals are written, and squares beside
-    a portal are left free, so that an obstacle never blocks a portal's mouth.
+    a portal are left free, so that an obstacle never blocks a portal's mouth. Deviation: an obstacle that would cut the
+    free squares apart is not taken, as no lanes could join them.
     """
     if site.obstacles == 0:
         return cells

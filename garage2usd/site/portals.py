@@ -98,7 +98,8 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
 
     Notes
     -----
-    ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given.
+    ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given. Deviation: portals open onto the outside
+    and not onto a court, and a draw after which the free squares are no longer one piece is drawn again.
     """
     kinds: list[Cell] = []
     if site.entrance_cells is None:

@@ -14,6 +14,7 @@ from sample_files import REPOSITORY
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema
+from garage2usd.profiles import PROFILE_NAMES
 
 QUICK = "[plan]\nepisodes = 200\n"
 
@@ -201,3 +202,27 @@ def test_version_and_help():
     assert "garage2usd" in run("--version").output
     for command in ("build", "plan", "render", "schema", "textures"):
         assert run(command, "--help").exit_code == 0
+
+
+def test_every_command_has_its_whole_summary_in_the_list_of_commands():
+    listed = run("--help").output.partition("Commands:")[2]
+    assert "..." not in listed
+    assert all(f"  {name}  " in listed for name in main.commands)
+
+
+def test_the_help_of_a_profile_names_all_that_are_shipped():
+    for command in ("build", "check"):
+        (option,) = (parameter for parameter in main.commands[command].params if parameter.name == "profile")
+        assert all(name in option.help for name in PROFILE_NAMES)
+
+
+@pytest.mark.parametrize("command", ["build", "check", "drive", "plan", "render", "view"])
+@pytest.mark.parametrize(("path", "code"), [("none.usda", 1), (".", 2)])
+def test_a_file_that_is_missing_is_refused_alike_by_all_commands(tmp_path, monkeypatch, command, path, code):
+    monkeypatch.chdir(tmp_path)
+    result = run(command, path)
+    assert result.exit_code == code, result.output
+    assert path in result.output
+    if code == 1:
+        assert len(result.output.strip().splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []

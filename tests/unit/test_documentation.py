@@ -100,9 +100,10 @@ def text_of(page):
 
 
 def test_the_built_reference_has_all_that_the_code_has(site):
+    from garage2usd.checks import RULES
     from garage2usd.cli import main
     from garage2usd.config import GarageConfig
-    from garage2usd.profiles import PROFILE_NAMES, load_profile
+    from garage2usd.profiles import PROFILE_NAMES, Profile, load_profile
     from garage2usd.stage.labels import CITYSCAPES
 
     configuration = text_of(site / "reference" / "configuration.html")
@@ -122,8 +123,13 @@ def test_the_built_reference_has_all_that_the_code_has(site):
         assert f"{number} {name} {cityscapes}" in classes
 
     profiles = text_of(site / "reference" / "profiles.html")
-    for clause, times in Counter(key for name in PROFILE_NAMES for key, _ in load_profile(name).clauses()).items():
-        assert len(re.findall(rf"\b{clause}\b", profiles)) >= times
+    listed = Counter(key for name in PROFILE_NAMES for key, _ in load_profile(name).clauses())
+    for clause in Profile.model_fields.keys() - {"name", "title"}:
+        assert len(re.findall(rf"\b{clause}\b", profiles)) >= 1 + listed[clause]
+
+    rules = text_of(site / "reference" / "rules.html")
+    for rule in RULES:
+        assert f"{rule.name} {rule.asks}" in rules
 
 
 def test_every_deviation_in_the_code_is_listed(site):

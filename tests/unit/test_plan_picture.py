@@ -315,9 +315,10 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
     [
         ([HAND_DRAWN, "-o", "p.gif"], 2, "a path that ends in .png, .svg"),
         ([HAND_DRAWN, "--stall", "Z1-01"], 1, "stall: got 'Z1-01'; allowed: numbers as A1-01"),
-        (["none.usdc"], 1, "none_report.json'; allowed: a readable file (No such file"),
+        (["none.usdc"], 1, "PATH: got 'none.usdc'; allowed: an existing file"),
+        (["alone.usdc"], 1, "a stage with the report of its build beside it, alone_report.json"),
         (["none.json"], 1, "none.json'; allowed: a readable file (No such file"),
-        (["none.obj"], 1, "path: got 'none.obj'"),
+        (["none.obj"], 1, "PATH: got 'none.obj'"),
         (["pipe.json"], 1, "allowed: a regular file"),
         (["broken.json"], 1, "broken.json: no report of a build"),
         (["other.json"], 1, "other.json: no report of a build: seed"),
@@ -327,6 +328,7 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
 def test_what_cannot_be_drawn_ends_in_one_line_and_no_file(tmp_path, monkeypatch, arguments, code, said):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "broken.json").write_text("{")
+    (tmp_path / "alone.usdc").touch()
     os.mkfifo(tmp_path / "pipe.json")
     (tmp_path / "other.json").write_text(json.dumps({"classes": []}))
     before = set(tmp_path.iterdir())

@@ -184,7 +184,14 @@ def test_without_blender_one_line_names_the_extra(build, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     "arguments",
-    [["--size", "1280"], ["--size", "axb"], ["--only", "colour,smell"], ["--samples", "0"], ["--seed", "-1"]],
+    [
+        ["--size", "1280"],
+        ["--size", "axb"],
+        ["--only", "colour,smell"],
+        ["--samples", "0"],
+        ["--seed", "-1"],
+        ["--frames", "a"],
+    ],
 )
 def test_bad_usage_ends_in_two(build, tmp_path, arguments):
     assert run(build.stage, "-o", tmp_path / "out", *arguments).exit_code == 2

@@ -84,7 +84,7 @@ def test_the_readme_can_be_followed_with_the_wheel_alone(installed, tmp_path):
     assert (tmp_path / "ways.usda").exists()
 
 
-def test_bash_completes_commands_and_options(installed, tmp_path):
+def test_bash_completes_commands_options_and_values(installed, tmp_path):
     from garage2usd.cli import main
 
     def completions(*words, begun=""):
@@ -101,3 +101,8 @@ def test_bash_completes_commands_and_options(installed, tmp_path):
 
     assert completions("garage2usd") == set(main.commands)
     assert completions("garage2usd", "build", begun="--se") == {"--seed"}
+    assert completions("garage2usd", "check", "--profile", begun="u") == {"uk-istructe", "us-ada"}
+    assert completions("garage2usd", "render", "--only", begun="depth,se") == {
+        "depth,semantic",
+        "depth,semantic_preview",
+    }

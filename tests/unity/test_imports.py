@@ -8,9 +8,19 @@ import subprocess
 import numpy as np
 import pytest
 import reader
-from layer import EDITOR, UNITY_6, compile_assembly, compile_package, compile_prefab_dump, sources_of
+from documentation import blocks
+from layer import (
+    EDITOR,
+    LAYER,
+    UNITY_6,
+    compile_assembly,
+    compile_layer,
+    compile_package,
+    compile_prefab_dump,
+    sources_of,
+)
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
-from sample_files import SAMPLES
+from sample_files import REPOSITORY, SAMPLES
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
 
@@ -23,6 +33,15 @@ SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
 )
 def test_the_package_compiles_without_a_warning(tmp_path, defines):
     compile_package(tmp_path, *defines)
+
+
+@pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))
+def test_the_script_of_the_guide_compiles(tmp_path):
+    compile_layer(tmp_path)
+    (script,) = (block for block in blocks(REPOSITORY / "docs" / "guides" / "unity.md") if block.language == "csharp")
+    source = tmp_path / "ToTheStall.cs"
+    source.write_text(script.text)
+    compile_assembly(tmp_path / "Guide.dll", [source], LAYER, ())
 
 
 @pytest.mark.skipif(reader.missing() is not None, reason=str(reader.missing()))

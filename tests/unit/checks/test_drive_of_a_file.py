@@ -48,4 +48,4 @@ def test_what_was_put_into_a_stage_is_driven_around_or_named(made, tmp_path):
 def test_a_garage_that_is_made_takes_no_seed(made):
     result = driven(made.stage, "--seed", "3")
     assert result.exit_code != 0
-    assert "none for a garage that is made already" in result.output + str(result.exception)
+    assert "this garage is made already" in result.output + str(result.exception)

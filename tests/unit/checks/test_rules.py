@@ -2,12 +2,11 @@
 
 import importlib.util
 import re
-import tomllib
 
 from sample_files import REPOSITORY
 
 from garage2usd.checks import RULES
-from garage2usd.profiles import Profile, read_profile
+from garage2usd.profiles import Profile
 
 HERE = REPOSITORY / "tests" / "unit" / "checks"
 BROKEN_ELSEWHERE = {
@@ -55,19 +54,3 @@ def test_every_clause_is_read_by_a_rule():
     # swept-path takes the usual ones where a profile has none
     driven = {"design_car_height", "turning_radius"}
     assert read | driven == set(Profile.model_fields) - {"name", "title"}
-
-
-def test_the_page_lists_all_rules_and_clauses():
-    page = (REPOSITORY / "docs" / "check.md").read_text(encoding="utf-8")
-    assert loaded(REPOSITORY / "docs" / "make_rules.py").written(page) == page
-
-
-def blocks(language):
-    page = (REPOSITORY / "docs" / "check.md").read_text(encoding="utf-8")
-    return re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
-
-
-def test_the_profile_on_the_page_is_one():
-    (text,) = blocks("toml")
-    profile = read_profile(tomllib.loads(text))
-    assert {name for name, _ in profile.clauses()} == {"stall_width", "portals"}

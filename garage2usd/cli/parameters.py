@@ -1,0 +1,40 @@
+"""Parameters that several commands share, so that the same thing has the same name, help and completion."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+from click.shell_completion import CompletionItem
+
+from garage2usd.errors import ConfigError
+
+__all__ = ["INPUT_FILE", "profile_option", "refuse_seed", "seed_option"]
+
+INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
+"""A file that is read; one that is missing or damaged ends in 1, as whatever reads it says."""
+
+seed_option = click.option(
+    "--seed", metavar="N", type=click.IntRange(0, 2**63 - 1), help="Seed, in place of the configuration's."
+)
+"""The seed of a garage that is made from a configuration."""
+
+
+def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The standard; `text` says what for."""
+    names = "cn-jgj100, uk-istructe, us-ada or a TOML file"
+    return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
+
+
+def refuse_seed(seed: int | None) -> None:
+    """Raise `ConfigError` for a seed beside a garage that is made already."""
+    if seed is not None:
+        raise ConfigError("seed", seed, "a seed beside a configuration only, as this garage is made already")
+
+
+def _profiles(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """The shipped profiles that begin so, else whatever file the shell finds."""
+    from garage2usd.profiles import PROFILE_NAMES  # noqa: PLC0415 - keeps --help instant
+
+    names = [CompletionItem(name) for name in PROFILE_NAMES if name.startswith(incomplete)]
+    return names or [CompletionItem(incomplete, type="file")]
