@@ -86,7 +86,7 @@ namespace Garage.Usd
                 throw Error("'" + name + "' is no name of a prim");
             }
             var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
-            if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
+            if (!parent.Children.Add(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
             layer.SpecCount++;
             Enter(name);
             if (Take('(')) { ReadPrimMetadata(prim); }
@@ -133,11 +133,11 @@ namespace Garage.Usd
             }
         }
 
-        // "uniform", "token", "rel", "custom", "bool", "asset", "string"; lines of numbers are rarely equal
+        // "uniform", "token", "rel", "custom", "bool", "asset", "string", "float", "int"
         static bool MayComeOften(byte first)
         {
             return first == 'u' || first == 't' || first == 'r' || first == 'c' || first == 'b' || first == 'a'
-                || first == 's';
+                || first == 's' || first == 'f' || first == 'i';
         }
 
         // a line that was read before, of a property that the prim does not have yet: both prims share it
@@ -145,17 +145,13 @@ namespace Garage.Usd
         {
             int stop;
             var known = lines.Find(at, out stop) as PropertySpec;
-            if (known == null || prim.Properties.Find(known.Name) != null) { return false; }
+            if (known == null) { return false; }
             int start = at;
             at = stop;
             // what belongs to it may stand on the next line
-            if (Next() == '(')
-            {
-                at = start;
-                return false;
-            }
-            prim.Properties.Add(known);
-            return true;
+            if (Next() != '(' && prim.Properties.Add(known)) { return true; }
+            at = start;
+            return false;
         }
 
         bool AtReorder()
