@@ -6,6 +6,9 @@ namespace Garage.Usd
     /// <summary>Reads text layers (.usda).</summary>
     sealed class UsdaReader : UsdaListReader
     {
+        // in bytes; a longer prim is read anew, so that comparing is never much of the work
+        const int LongestKnown = 2048;
+
         readonly Layer layer;
         readonly LineMemo lines;
         int variantDepth;
@@ -77,7 +80,7 @@ namespace Garage.Usd
             }
         }
 
-        void ReadPrim(PrimSpec parent, Specifier specifier)
+        PrimSpec ReadPrim(PrimSpec parent, Specifier specifier)
         {
             string typeName = AtQuote() ? "" : Name();
             string name = QuotedString(false);
@@ -93,6 +96,7 @@ namespace Garage.Usd
             Expect('{');
             ReadBody(prim);
             Leave();
+            return prim;
         }
 
         void ReadBody(PrimSpec prim)
@@ -105,13 +109,16 @@ namespace Garage.Usd
                     at++;
                     return;
                 }
-                int start = at;
-                if (MayComeOften(text[at]) && TakeKnownProperty(prim)) { continue; }
+                int relativeBefore = RelativePaths;
+                LineMemo.Line line;
+                object known = lines.Find(at, out line);
+                if (known != null && TakeKnown(known, line, prim)) { continue; }
                 string word = Name();
                 Specifier specifier;
                 if (TrySpecifier(word, out specifier))
                 {
-                    ReadPrim(prim, specifier);
+                    PrimSpec child = ReadPrim(prim, specifier);
+                    if (RelativePaths == relativeBefore) { KeepPrim(child, line, known as KnownPrim); }
                 }
                 else if (word == "variantSet")
                 {
@@ -128,30 +135,54 @@ namespace Garage.Usd
                 {
                     int before = prim.Properties.Count;
                     ReadProperty(prim, word);
-                    if (prim.Properties.Count > before) { lines.Keep(start, at, prim.Properties[before]); }
+                    bool isOneLine = at == line.Stop && RelativePaths == relativeBefore;
+                    if (isOneLine && prim.Properties.Count > before) { lines.Keep(line, prim.Properties[before]); }
                 }
             }
         }
 
-        // "uniform", "token", "rel", "custom", "bool", "asset", "string", "float", "int"
-        static bool MayComeOften(byte first)
+        // a prim without children, and where its text is
+        sealed class KnownPrim
         {
-            return first == 'u' || first == 't' || first == 'r' || first == 'c' || first == 'b' || first == 'a'
-                || first == 's' || first == 'f' || first == 'i';
+            public PrimSpec Prim;
+            public int Start, Length;
         }
 
-        // a line that was read before, of a property that the prim does not have yet: both prims share it
-        bool TakeKnownProperty(PrimSpec prim)
+        // what was read before of equal text, if the prim does not have it yet: both prims share it
+        bool TakeKnown(object known, LineMemo.Line line, PrimSpec prim)
         {
-            int stop;
-            var known = lines.Find(at, out stop) as PropertySpec;
-            if (known == null) { return false; }
-            int start = at;
-            at = stop;
+            var child = known as KnownPrim;
+            if (child != null)
+            {
+                if (child.Length > end - at || !ByteRuns.AreEqual(text, child.Start, at, child.Length)) { return false; }
+                Enter(child.Prim.Name);
+                Leave();
+                if (!prim.Children.Add(child.Prim)) { return false; }
+                layer.SpecCount++;
+                at += child.Length;
+                return true;
+            }
+            var property = known as PropertySpec;
+            if (property == null) { return false; }
+            at = line.Stop;
             // what belongs to it may stand on the next line
-            if (Next() != '(' && prim.Properties.Add(known)) { return true; }
-            at = start;
+            if (Next() != '(' && prim.Properties.Add(property)) { return true; }
+            at = line.Start;
             return false;
+        }
+
+        void KeepPrim(PrimSpec prim, LineMemo.Line line, KnownPrim known)
+        {
+            int length = at - line.Start;
+            if (length > LongestKnown || prim.Children.Count > 0 || prim.VariantSets != null) { return; }
+            if (known == null)
+            {
+                known = new KnownPrim();
+                lines.Keep(line, known);
+            }
+            known.Prim = prim;
+            known.Start = line.Start;
+            known.Length = length;
         }
 
         bool AtReorder()
@@ -354,12 +385,13 @@ namespace Garage.Usd
                     prim.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
                     continue;
                 }
-                int start = at, stop = at;
+                var line = new LineMemo.Line();
+                int relativeBefore = RelativePaths;
                 bool isList = text[at] == 'p' || text[at] == 'r' || text[at] == 'a';
-                var known = isList ? lines.Find(start, out stop) as SharedField : null;
+                var known = isList ? lines.Find(at, out line) as SharedField : null;
                 if (known != null && known.AddTo(prim))
                 {
-                    at = stop;
+                    at = line.Stop;
                     continue;
                 }
                 string edit = null, key = Name();
@@ -373,7 +405,8 @@ namespace Garage.Usd
                     || (key == "inherits" && prim.Inherits == null)
                     || (key == "apiSchemas" && prim.ApiSchemas == null));
                 ReadPrimField(prim, edit, key);
-                if (isFirst) { lines.Keep(start, at, new SharedField(prim, key)); }
+                bool isOneLine = at == line.Stop && RelativePaths == relativeBefore;
+                if (isFirst && isOneLine) { lines.Keep(line, new SharedField(prim, key)); }
             }
         }
 

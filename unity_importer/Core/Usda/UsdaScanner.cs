@@ -75,21 +75,26 @@ namespace Garage.Usd
         {
             byte[] s = text;
             int i = at;
-            for (;;)
+            byte letter = s[i];
+            while (letter == ' ') { letter = s[++i]; }
+            at = i;
+            if (letter <= ' ' || letter == '#' || letter == '/') { SkipLines(); }
+        }
+
+        void SkipLines()
+        {
+            byte[] s = text;
+            int i = at;
+            while (i < end)
             {
                 byte letter = s[i];
-                while (letter == ' ') { letter = s[++i]; }
-                if (letter > ' ' && letter != '#' && letter != '/')
+                if (letter == '\n')
                 {
-                    at = i;
-                    return;
+                    i++;
+                    // a line is mostly indented
+                    while (i + 8 <= end && ByteRuns.Eight(s, i) == ByteRuns.Spaces) { i += 8; }
                 }
-                if (i >= end)
-                {
-                    at = i;
-                    return;
-                }
-                if (letter == '\n' || letter == '\t' || letter == '\r')
+                else if (letter == ' ' || letter == '\t' || letter == '\r')
                 {
                     i++;
                 }
@@ -107,10 +112,10 @@ namespace Garage.Usd
                 }
                 else
                 {
-                    at = i;
-                    return;
+                    break;
                 }
             }
+            at = i;
         }
 
         /// <summary>Passes white space and semicolons between statements.</summary>
