@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 
 namespace Garage.Usd
 {
@@ -47,7 +46,7 @@ namespace Garage.Usd
         {
             int slot;
             if (PlaceOf(item.Name, out slot) >= 0) { return false; }
-            if (items == null) { items = new T[2]; }
+            if (items == null) { items = new T[3]; }
             if (Count == items.Length)
             {
                 Array.Resize(ref items, 2 * Count);
@@ -113,17 +112,21 @@ namespace Garage.Usd
             bool isOrdered = names.Length >= Count;
             for (int i = 0; i < Count && isOrdered; i++) { isOrdered = items[i].Name == names[i]; }
             if (isOrdered) { return; }
-            var places = new Dictionary<string, int>(names.Length);
-            foreach (string name in names) { places[name] = places.Count; }
-            var keys = new long[Count];
+            var ordered = new T[Count];
+            var isPlaced = new bool[Count];
+            int next = 0;
+            foreach (string name in names)
+            {
+                int slot, place = PlaceOf(name, out slot);
+                if (place < 0 || isPlaced[place]) { continue; }
+                isPlaced[place] = true;
+                ordered[next++] = items[place];
+            }
             for (int i = 0; i < Count; i++)
             {
-                int place;
-                if (!places.TryGetValue(items[i].Name, out place)) { place = names.Length; }
-                keys[i] = ((long)place << 32) + i;
+                if (!isPlaced[i]) { ordered[next++] = items[i]; }
             }
-            Array.Resize(ref items, Count);
-            Array.Sort(keys, items);
+            items = ordered;
             table = null;
         }
     }

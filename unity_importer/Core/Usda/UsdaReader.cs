@@ -437,6 +437,12 @@ namespace Garage.Usd
 
         void ReadPrimField(PrimSpec prim, string edit, string key)
         {
+            // apart, as looking it up among the others takes as long as the rest of its line, and very many prims have it
+            if (key == "instanceable")
+            {
+                prim.IsInstanceable = Truth();
+                return;
+            }
             switch (key)
             {
                 case "references": prim.References = Edited(prim.References, edit, ArcList()); break;
@@ -446,7 +452,6 @@ namespace Garage.Usd
                 case "variantSets": prim.VariantSetNames = Edited(prim.VariantSetNames, edit, NameList()); break;
                 case "apiSchemas": prim.ApiSchemas = Edited(prim.ApiSchemas, edit, NameList()); break;
                 case "active": prim.IsActive = Truth(); break;
-                case "instanceable": prim.IsInstanceable = Truth(); break;
                 case "variants": ReadVariantSelections(prim); break;
                 case "subLayers": ReadSubLayers(prim); break;
                 case "relocates": RefuseRelocates(); break;
