@@ -62,7 +62,7 @@ namespace Garage.Usd
             return values[slot];
         }
 
-        /// <summary>Keeps what the statement with a line was read as, if it does not depend on where it stands.</summary>
+        /// <summary>Keeps what the statement with a line was read as, which must be the same anywhere.</summary>
         public void Keep(Line line, object value)
         {
             int slot = line.Slot;

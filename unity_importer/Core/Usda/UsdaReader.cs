@@ -6,9 +6,6 @@ namespace Garage.Usd
     /// <summary>Reads text layers (.usda).</summary>
     sealed class UsdaReader : UsdaListReader
     {
-        // in bytes; a longer prim is read anew, so that comparing is never much of the work
-        const int LongestKnown = 2048;
-
         readonly Layer layer;
         readonly LineMemo lines;
         int variantDepth;
@@ -141,29 +138,11 @@ namespace Garage.Usd
             }
         }
 
-        // a prim without children, and where its text is
-        sealed class KnownPrim
-        {
-            public PrimSpec Prim;
-            public int Start, Length;
-        }
-
         // what was read before of equal text, if the prim does not have it yet: both prims share it
         bool TakeKnown(object known, LineMemo.Line line, PrimSpec prim)
         {
-            var child = known as KnownPrim;
-            if (child != null)
-            {
-                if (child.Length > end - at || !ByteRuns.AreEqual(text, child.Start, at, child.Length)) { return false; }
-                Enter(child.Prim.Name);
-                Leave();
-                if (!prim.Children.Add(child.Prim)) { return false; }
-                layer.SpecCount++;
-                at += child.Length;
-                return true;
-            }
             var property = known as PropertySpec;
-            if (property == null) { return false; }
+            if (property == null) { return TakeKnownPrim(known as KnownPrim, prim); }
             at = line.Stop;
             // what belongs to it may stand on the next line
             if (Next() != '(' && prim.Properties.Add(property)) { return true; }
@@ -171,18 +150,28 @@ namespace Garage.Usd
             return false;
         }
 
+        bool TakeKnownPrim(KnownPrim known, PrimSpec parent)
+        {
+            if (known == null || !known.IsAt(text, at, end)) { return false; }
+            Enter(known.Prim.Name);
+            Leave();
+            if (!parent.Children.Add(known.Prim)) { return false; }
+            layer.SpecCount++;
+            at += known.Length;
+            return true;
+        }
+
+        // the latest of the prims with the same first line
         void KeepPrim(PrimSpec prim, LineMemo.Line line, KnownPrim known)
         {
             int length = at - line.Start;
-            if (length > LongestKnown || prim.Children.Count > 0 || prim.VariantSets != null) { return; }
+            if (!KnownPrim.MayBe(prim, length)) { return; }
             if (known == null)
             {
                 known = new KnownPrim();
                 lines.Keep(line, known);
             }
-            known.Prim = prim;
-            known.Start = line.Start;
-            known.Length = length;
+            known.Set(prim, line.Start, length);
         }
 
         bool AtReorder()
@@ -437,7 +426,7 @@ namespace Garage.Usd
 
         void ReadPrimField(PrimSpec prim, string edit, string key)
         {
-            // apart, as looking it up among the others takes as long as the rest of its line, and very many prims have it
+            // apart, as very many prims have it, and finding it among the others takes as long as reading its line
             if (key == "instanceable")
             {
                 prim.IsInstanceable = Truth();
