@@ -1,5 +1,6 @@
 """One layer at a time: the C# readers against ``pxr``, every opinion of every spec."""
 
+import json
 import os
 import random
 import subprocess
@@ -175,6 +176,15 @@ def "E" {
         path = tmp_path / f"equal{index}.usda"
         path.write_text(text)
         same(usd_dump, path)
+
+
+def test_metadata_on_the_next_line_belongs_to_its_property_alone(usd_dump, tmp_path):
+    """Files that ``pxr`` wrote have it on the line of the property, and it reads nothing else."""
+    texts = ['string s = "x"', 'string s = "x"\n(\n doc = "own"\n)']
+    path = tmp_path / "next_line.usda"
+    path.write_text("#usda 1.0\n" + "".join(f'def "P{i}" {{\n{text}\n}}\n' for i, text in enumerate(texts)))
+    root = usd_dump.ask("layer", path)["root"]
+    assert [json.dumps(child).count("own") for child in root["children"]] == [0, 1]
 
 
 @pytest.mark.parametrize("end", ["", "\n", "\n\n", "\n\n\n", " \n\n", "\r\n\r\n", "\n\n ", "# a\n\n"])
