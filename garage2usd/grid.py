@@ -134,6 +134,8 @@ def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: in
         given = np.asarray(sides_m, dtype=np.float64)
     except ValueError:
         raise ConfigError(field, sides_m, "rows of equal length") from None
+    except (TypeError, OverflowError):
+        raise ConfigError(field, sides_m, "metres as numbers") from None
     if not np.isfinite(given).all():
         raise ConfigError(field, given.tolist(), "finite metres")
     if given.ndim == 2 and given.shape == shape:  # noqa: PLR2004
@@ -213,7 +215,10 @@ class Structure:
         ConfigError
             If a shape or value does not fit, or R or C vary where tiles would no longer meet.
         """
-        given = np.asarray(S)
+        try:
+            given = np.asarray(S)
+        except ValueError:
+            raise ConfigError("S", S, "rows of equal length") from None
         if given.dtype.kind not in "iu":
             raise ConfigError("S", f"dtype {given.dtype}", "integers -1, 0, 1, 2, 3")
         if given.ndim != 2:  # noqa: PLR2004

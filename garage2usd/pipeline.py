@@ -213,26 +213,13 @@ def _generate(
             "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
         )
     layout = lay_out(plan.structure, graph, config)
-    if config.plan.unreachable_stalls is UnreachableStalls.MARK:
-        layout = _with_marked_stalls(layout, graph, config, progress)
+    if config.plan.unreachable_stalls is not UnreachableStalls.KEEP:
+        from garage2usd.driving import without_unreachable  # noqa: PLC0415 - compiled code that only this setting needs
+
+        layout = without_unreachable(layout, graph, config, progress=progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
-
-
-def _with_marked_stalls(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
-    """The layout with all stalls marked that cars do not get into and out of."""
-    from garage2usd.driving import prove_stalls  # noqa: PLC0415 - compiled code that only this setting needs
-
-    marked: set[str] = set()
-    while True:
-        proofs = prove_stalls(layout, graph, setback_m=config.bay.carriageway_setback_m, progress=progress)
-        unreachable = {proof.stall for proof in proofs if not proof.is_proven}
-        if not unreachable:
-            return layout
-        # a charger, an access aisle or a car that went elsewhere may stand in another's way
-        marked |= unreachable
-        layout = lay_out(layout.structure, graph, config, unreachable=marked)
 
 
 def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:

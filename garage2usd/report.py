@@ -67,6 +67,7 @@ def write_report(
         "illuminance": asdict(layout.illuminance),
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),
+        "unreachable_stalls": sorted(layout.unreachable),
         "stalls": [
             {
                 "name": stall.name,

@@ -95,12 +95,21 @@ def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:
     """Convex pieces as fewer ones that hold them: one where they nearly fill it, none with more than eight corners."""
     if len(pieces) > 1:
         whole = shapely.union_all(pieces)
-        pieces = [whole.convex_hull] if whole.convex_hull.area - whole.area <= _SLACK_M2 else pieces
-    return shapely.MultiPolygon([_eight_cornered(piece) for piece in pieces])
+        hull = whole.convex_hull
+        # what is as thin as a line has no area to be filled
+        if isinstance(hull, shapely.Polygon) and hull.area - whole.area <= _SLACK_M2:
+            pieces = [hull]
+    return shapely.GeometryCollection([_eight_cornered(piece) for piece in pieces])
 
 
-def _eight_cornered(piece: shapely.Polygon) -> shapely.Polygon:
-    """A convex polygon, or the tightest one around it with eight sides along and halfway between those of its box."""
+def _eight_cornered(piece: shapely.Polygon) -> shapely.Geometry:
+    """A convex polygon, or the tightest one around it with eight sides along and halfway between those of its box.
+
+    One that is as thin as a line becomes that line.
+    """
+    hull = piece.convex_hull
+    if not isinstance(hull, shapely.Polygon):
+        return hull
     corners = np.asarray(piece.exterior.coords)[:-1]
     if len(corners) <= _CORNERS:
         return piece

@@ -7,7 +7,9 @@ from typing import Any
 from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
 from garage2usd.checks.subject import Fault, Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
+from garage2usd.config.plan import UnreachableStalls
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
+from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
 from garage2usd.lanes import build_lane_graph, unproven_lane_graph
@@ -98,17 +100,26 @@ def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, Garage
         raise ConfigError(_FIELD, str(path), "a report with config, S, R and C")
     config = config_from_mapping(settings)
     structure = Structure.from_arrays(cells_from_text(_drawing(drawing, path), field="S"), document["R"], document["C"])
-    listed = document.get("stalls")
-    return _subject(structure, config, path, kind="report", listed=listed if isinstance(listed, list) else None), config
+    listed, unreachable = document.get("stalls"), document.get("unreachable_stalls", [])
+    if not isinstance(unreachable, list) or not all(isinstance(name, str) for name in unreachable):
+        raise ConfigError(_FIELD, str(path), "a report whose unreachable_stalls are names of stalls")
+    told = listed if isinstance(listed, list) else None
+    return _subject(structure, config, path, kind="report", listed=told, unreachable=unreachable), config
 
 
 def _subject(
-    structure: Structure, config: GarageConfig, path: Path, *, kind: str, listed: Sequence[Any] | None = None
+    structure: Structure,
+    config: GarageConfig,
+    path: Path,
+    *,
+    kind: str,
+    listed: Sequence[Any] | None = None,
+    unreachable: Sequence[str] | None = None,
 ) -> Subject:
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
     graph = unproven_lane_graph(structure, config.bay)
-    layout, refusal = _laid_out(structure, config)
+    layout, refusal = _laid_out(structure, config, unreachable)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
@@ -116,8 +127,13 @@ def _subject(
     return layout_subject(layout, graph, config, source=str(path), kind=kind, faults=differences)
 
 
-def _laid_out(structure: Structure, config: GarageConfig) -> tuple[Layout | None, str | None]:
-    """The layout, or None and what refuses it; without words for faults that rules name."""
+def _laid_out(
+    structure: Structure, config: GarageConfig, unreachable: Sequence[str] | None
+) -> tuple[Layout | None, str | None]:
+    """The layout, or None and what refuses it; without words for faults that rules name.
+
+    Stalls that cars do not get into are those that a report names, else found as by a build.
+    """
     try:
         check_structure(structure.cells)
         graph = build_lane_graph(structure, config.bay)
@@ -126,7 +142,9 @@ def _laid_out(structure: Structure, config: GarageConfig) -> tuple[Layout | None
     if not graph.stall_rows:
         return None, "no square beside a lane takes a stall"
     try:
-        return lay_out(structure, graph, config), None
+        layout = lay_out(structure, graph, config, unreachable=unreachable or ())
+        must_prove = unreachable is None and config.plan.unreachable_stalls is not UnreachableStalls.KEEP
+        return without_unreachable(layout, graph, config) if must_prove else layout, None
     except ConfigError as error:
         if error.field.startswith("bay."):
             return None, str(error)

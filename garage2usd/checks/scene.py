@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
+from garage2usd.errors import StageError
 from garage2usd.stage.reading import metres_y_up, number_of
 from garage2usd.stage.taxonomy import label_of
 
 __all__ = ["RectLight", "Scene", "read_scene"]
 
+_FARTHEST_M = 1e6
 _LUMINANCE = "garage:light:luminance"
 
 
@@ -61,11 +63,18 @@ def read_scene(stage: Usd.Stage) -> Scene:
     Notes
     -----
     What is drawn by a shared prototype is read once. Guides, and what is hidden, is left out.
+
+    Raises
+    ------
+    StageError
+        If something lies more than 1000 km from the origin, where geometry loses its millimetres.
     """
     reader = _Reader()
     things: dict[str, tuple[str, list[Body]]] = {}
     lights = []
-    for entry in reader.below(stage.GetPseudoRoot(), metres_y_up(stage), "", ""):
+    entries = list(reader.below(stage.GetPseudoRoot(), metres_y_up(stage), "", ""))
+    _check_reach(stage, entries)
+    for entry in entries:
         if entry.light is not None:
             lights.append(RectLight(entry.matrix, *entry.light))
         if entry.shape is not None:
@@ -75,6 +84,18 @@ def read_scene(stage: Usd.Stage) -> Scene:
         tuple(Thing(name, label, tuple(bodies)) for name, (label, bodies) in things.items()),
         tuple(lights),
     )
+
+
+def _check_reach(stage: Usd.Stage, entries: list[_Entry]) -> None:
+    if not entries:
+        return
+    matrices = np.abs([entry.matrix for entry in entries])
+    sizes = np.array([0.0 if entry.shape is None else entry.shape.reach for entry in entries])
+    reach_m = (matrices[:, :3, :3].sum(axis=1) * sizes[:, None] + matrices[:, 3, :3]).max(axis=1)
+    far = np.flatnonzero(~(reach_m <= _FARTHEST_M))  # as NaN is
+    if len(far):
+        prim = entries[far[0]].thing or "a light"
+        raise StageError(stage.GetRootLayer().realPath, f"{prim} lies {reach_m[far[0]]:.3g} m from the origin")
 
 
 class _Reader:

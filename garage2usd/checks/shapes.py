@@ -66,6 +66,11 @@ class Shape:
         return float(self.points[:, 1].min())
 
     @cached_property
+    def reach(self) -> float:
+        """Greatest coordinate of its points, without sign."""
+        return float(np.abs(self.points).max())
+
+    @cached_property
     def whole(self) -> Piece:
         """All of it as one piece."""
         return _piece(self.points)

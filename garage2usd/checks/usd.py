@@ -9,6 +9,7 @@ from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.stage.reading import usd_text
 from garage2usd.stage.taxonomy import LABELS, LABELS_SCHEMA, labels_of
 
 __all__ = ["BOOK"]
@@ -52,10 +53,11 @@ def _units(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("nested-rigid-body", asks="no rigid body lies in another one")
 def _nested_rigid_bodies(subject: Subject, _: Profile) -> Iterator[Miss]:
-    # a body above an instance is seen from the instances' contents alone
     stage = subject.stage
-    prims = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()) if stage else ()
-    for prim in prims:
+    if stage is None or not any(prim.HasAPI(UsdPhysics.RigidBodyAPI) for prim in _prims(stage)):
+        return
+    # a body above an instance is seen from the instances' contents alone
+    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
         if prim.HasAPI(UsdPhysics.RigidBodyAPI):
             above = prim.GetParent()
             while above and not above.HasAPI(UsdPhysics.RigidBodyAPI):
@@ -163,11 +165,12 @@ def _validation(subject: Subject, _: Profile) -> Iterator[Miss]:
     seen = set()
     absolute = [path for path, _ in _absolute(subject.stage)]
     for error in errors:
+        message = usd_text(error.GetMessage)
         # a path that is absolute, and so missing here, has a rule of its own
-        if error.GetName() == _UNRESOLVED and any(path in error.GetMessage() for path in absolute):
+        if error.GetName() == _UNRESOLVED and any(path in message for path in absolute):
             continue
         sites = [str(site.GetPrim().GetPath()) for site in error.GetSites() if site.IsPrim()]
-        miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {' '.join(error.GetMessage().split())}")
+        miss = Miss(sites[0] if sites else "/", None, f"{error.GetName()}: {message}")
         if miss not in seen:
             seen.add(miss)
             yield miss

@@ -45,6 +45,8 @@ class UnreachableStalls(StrEnum):
     """They are stalls as the others; nothing is proven."""
     MARK = "mark"
     """Each stall is proven, and those without ways are hatched and kept free."""
+    DROP = "drop"
+    """Each stall is proven, and those without ways are left out; the floor there is bare."""
 
 
 class SarsaParameters(NamedTuple):
@@ -144,8 +146,8 @@ class PlanConfig(Settings):
     counts as one stall lost."""
 
     unreachable_stalls: UnreachableStalls = UnreachableStalls.KEEP
-    """'keep', or 'mark': stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and out of
-    without a touch are hatched and kept free."""
+    """'keep', 'mark' or 'drop': stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and
+    out of without a touch are hatched and kept free, or left out."""
 
     choice: Choice = Choice.BEST
     """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""

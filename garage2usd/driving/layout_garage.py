@@ -3,6 +3,7 @@
 from collections import defaultdict
 from itertools import pairwise
 
+from garage2usd.config import GarageConfig
 from garage2usd.dead_ends import dead_ends
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import DrivenGarage, DrivenStall, StallProof, prove_garage
@@ -11,10 +12,10 @@ from garage2usd.driving.proof import Limits
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, Square
-from garage2usd.layout import Layout, ObjectKind, Stall
+from garage2usd.layout import Layout, ObjectKind, Stall, lay_out
 from garage2usd.progress import Progress, silent
 
-__all__ = ["layout_garage", "numbered_squares", "prove_stalls", "square_directions"]
+__all__ = ["layout_garage", "numbered_squares", "prove_stalls", "square_directions", "without_unreachable"]
 
 _USES = {Cell.LANE: SquareUse.LANE, Cell.ENTRANCE: SquareUse.ENTRANCE, Cell.EXIT: SquareUse.EXIT}
 
@@ -45,6 +46,34 @@ def prove_stalls(
         One for each stall that takes cars, in the order of the stalls.
     """
     return prove_garage(layout_garage(layout, graph, setback_m), car=car, limits=limits, progress=progress)
+
+
+def without_unreachable(
+    layout: Layout, graph: LaneGraph, config: GarageConfig, *, progress: Progress = silent
+) -> Layout:
+    """The layout anew, with the stalls marked or left out that cars do not get into and out of.
+
+    Parameters
+    ----------
+    layout, graph, config
+        The garage, and whether ``plan.unreachable_stalls`` marks them or leaves them out.
+    progress
+        As for `garage2usd.driving.prove_garage`.
+
+    Raises
+    ------
+    ConfigError
+        If none is left, or the configuration names a stall that is left out.
+    """
+    unreachable: set[str] = set()
+    while True:
+        proofs = prove_stalls(layout, graph, setback_m=config.bay.carriageway_setback_m, progress=progress)
+        found = {proof.stall for proof in proofs if not proof.is_proven}
+        if not found:
+            return layout
+        # a charger, an access aisle or a car that went elsewhere may stand in another's way
+        unreachable |= found
+        layout = lay_out(layout.structure, graph, config, unreachable=unreachable)
 
 
 def layout_garage(layout: Layout, graph: LaneGraph, setback_m: float) -> DrivenGarage:

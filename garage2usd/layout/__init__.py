@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from garage2usd.config import GarageConfig
-from garage2usd.config.plan import DeadEnds
+from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.dead_ends import dead_ends
+from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
@@ -58,6 +59,8 @@ class Layout:
         Height of the ceiling's underside.
     illuminance
         How bright its floor is.
+    unreachable
+        Names of the stalls that are marked or left out.
     """
 
     structure: Structure
@@ -65,6 +68,7 @@ class Layout:
     stalls: StallTable
     ceiling_height_m: float
     illuminance: Illuminance
+    unreachable: frozenset[str] = frozenset()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
@@ -90,7 +94,8 @@ def lay_out(
     config
         Sizes, fittings, parking and seed.
     unreachable
-        Names of stalls that are hatched and kept free.
+        Names of stalls that cars do not get into: left out where ``plan.unreachable_stalls`` is ``drop``, else hatched
+        and kept free.
 
     Returns
     -------
@@ -100,23 +105,20 @@ def lay_out(
     Raises
     ------
     ConfigError
-        If a lane or a door is too narrow for cars, or a stall that is named is not there or takes no car.
+        If a lane or a door is too narrow for cars, a stall that is named is not there or takes no car, or all are
+        left out.
     """
     bay, fittings, seed = config.bay, config.fittings, config.seed
-    grid = TileGrid(structure, graph, bay)
+    is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
+    grid = TileGrid(structure, graph, bay, left_out=unreachable if is_dropped else ())
+    if not grid.stall_places:
+        raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
     shell = outer_walls(structure, grid, fittings)
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
-    stalls = tuple(
-        replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall
-        for stall in stalls_of(grid, graph, bay)
-    )
-    if config.plan.dead_ends is DeadEnds.STANDARD:
-        long_ends = [end for end in dead_ends(structure) if end.needs_turning_stall]
-        stalls = with_turning_stalls(stalls, grid, long_ends)
-    stalls = with_designated_stalls(stalls, _foot_exits(structure, grid), config.parking, config.standard)
+    stalls = _used_stalls(grid, graph, config, unreachable)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
@@ -161,10 +163,31 @@ def lay_out(
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
 
-    return Layout(structure, ObjectTable(parts()), StallTable(stalls), fittings.ceiling_height_m, illuminance)
+    return Layout(
+        structure,
+        ObjectTable(parts()),
+        StallTable(stalls),
+        fittings.ceiling_height_m,
+        illuminance,
+        frozenset(unreachable),
+    )
 
 
-def _foot_exits(structure: Structure, grid: TileGrid) -> list[Point]:
+def _used_stalls(
+    grid: TileGrid, graph: LaneGraph, config: GarageConfig, unreachable: Collection[str]
+) -> tuple[Stall, ...]:
+    """All stalls, each with its use."""
+    stalls = tuple(
+        replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall
+        for stall in stalls_of(grid, graph, config.bay)
+    )
+    if config.plan.dead_ends is DeadEnds.STANDARD:
+        long_ends = [end for end in dead_ends(grid.structure) if end.needs_turning_stall]
+        stalls = with_turning_stalls(stalls, grid, long_ends)
+    return with_designated_stalls(stalls, _foot_exits(grid), config.parking, config.standard)
+
+
+def _foot_exits(grid: TileGrid) -> list[Point]:
     """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
-    squares = core_doors(structure) or structure.where(Cell.EXIT)[:1]
+    squares = core_doors(grid.structure) or grid.structure.where(Cell.EXIT)[:1]
     return [(grid.tiles[square].x_m, grid.tiles[square].z_m) for square in squares]

@@ -1,6 +1,5 @@
 """What hangs over single squares or stands on them: tube lights, speed bumps, signs, cones."""
 
-from collections import Counter
 from collections.abc import Iterable
 
 import numpy as np
@@ -60,8 +59,8 @@ def tube_lights(grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels)
 
 def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
     if tile.cell is Cell.FREE:
-        rows = grid.rows_by_square.get(tile.square)
-        return not rows or NEIGHBOUR_STEPS[rows[0].edge][0] != 0
+        places = grid.stall_places.get(tile.square)
+        return not places or NEIGHBOUR_STEPS[places[0].row.edge][0] != 0
     return tile.axis_is_x is not False
 
 
@@ -90,7 +89,7 @@ def no_parking_signs(grid: TileGrid, fittings: FittingsConfig, *, seed: int) -> 
     rng = generator(seed, Step.SIGNS)
     signs = []
     for tile in grid:
-        if tile.cell is not Cell.FREE or tile.square in grid.rows_by_square:
+        if tile.cell is not Cell.FREE or tile.square in grid.stall_places:
             continue
         if rng.random() < fittings.no_parking_sign_rate:
             yaw = float(rng.integers(4)) * _QUARTER_TURN
@@ -106,9 +105,8 @@ def cones(
 ) -> list[Placement]:
     """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
     taken = {(car.square, car.name) for car in cars}
-    most = max(Counter(stall.square for stall in stalls).values(), default=0)
+    most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
-    place_on_square: Counter[Square] = Counter()
     placed: list[Placement] = []
 
     def place(name: str, points: Iterable[Point], middle: Point, yaw_rad: float, square: Square) -> None:
@@ -118,15 +116,14 @@ def cones(
             placed.append(Placement(f"{name}_{number}", ObjectKind.CONE, ConeSpec(), position, yaw_rad, square))
 
     for stall in stalls:
-        place_on_square[stall.square] += 1
-        is_drawn = numbers[stall.square][place_on_square[stall.square]] < fittings.cone_rate
+        is_drawn = numbers[stall.square][stall.ordinal] < fittings.cone_rate
         if is_drawn and stall.use is StallUse.STANDARD and (stall.square, stall.named("Car")) not in taken:
             along = stall.length_m / 2 - _CONES_FROM_MOUTH_M
             points = [(across, along) for across in _CONES_ACROSS_M]
             place(stall.named("Cone"), points, stall.centre_m, stall.yaw_rad, stall.square)
     for tile in grid:
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
-        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.rows_by_square
+        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
             place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), (tile.x_m, tile.z_m), 0.0, tile.square)
     return placed

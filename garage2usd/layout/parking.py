@@ -1,7 +1,6 @@
 """Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
 
 import math
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import lru_cache
@@ -46,24 +45,19 @@ _HATCHES = {
 
 def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
-    stalls: list[Stall] = []
-    for tile in grid:
-        number = 0
-        for row in grid.rows_by_square.get(tile.square, []):
-            for index in range(row.count):
-                number += 1
-                stalls.append(
-                    Stall(
-                        square=tile.square,
-                        ordinal=number,
-                        edge=row.edge,
-                        stall_type=graph.stall_types[tile.square],
-                        centre_m=_middle(tile, stall_rectangle(tile, row, index, bay)),
-                        width_m=bay.stall_width_m,
-                        length_m=bay.stall_length_m,
-                    )
-                )
-    return tuple(stalls)
+    return tuple(
+        Stall(
+            square=tile.square,
+            ordinal=place.ordinal,
+            edge=place.row.edge,
+            stall_type=graph.stall_types[tile.square],
+            centre_m=_middle(tile, stall_rectangle(tile, place.row, place.slot, bay)),
+            width_m=bay.stall_width_m,
+            length_m=bay.stall_length_m,
+        )
+        for tile in grid
+        for place in grid.stall_places.get(tile.square, [])
+    )
 
 
 def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterable[DeadEnd]) -> tuple[Stall, ...]:
@@ -140,14 +134,12 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
     A car is drawn among the bodies that fit, then its yaw, then its offset from what the turned footprint leaves
     between the lines. Every stall draws the same number of times, so that the occupancy moves no other car.
     """
-    most = max(Counter(stall.square for stall in stalls).values(), default=0)
+    most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CARS, most, _DRAWS_A_CAR)
     holds_car = _occupancy(stalls, parking)
-    place_on_square: Counter[Square] = Counter()
     placements = []
     for stall in stalls:
-        drawn = numbers[stall.square][place_on_square[stall.square]].tolist()
-        place_on_square[stall.square] += 1
+        drawn = numbers[stall.square][stall.ordinal - 1].tolist()
         occupied, reverse, yaw_share, side_share, along_share, body_index, paint_index = drawn
         if not holds_car.get(stall.name, occupied < parking.occupancy) or not stall.use.takes_cars:
             continue

@@ -1,7 +1,9 @@
 """Squares in metres: where each one lies, what surrounds it, and its floor and ceiling."""
 
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,11 +20,20 @@ from garage2usd.layout.markings import (
     two_way_arrows,
     zebra,
 )
-from garage2usd.layout.placement import ObjectKind, Placement
+from garage2usd.layout.placement import ObjectKind, Placement, stall_name
 from garage2usd.layout.specs import CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
 from garage2usd.stalls import Edge, StallRow
 
-__all__ = ["Tile", "TileGrid", "ceiling_panel", "floor_panel", "lane_edges", "neighbour", "stall_rectangle"]
+__all__ = [
+    "StallPlace",
+    "Tile",
+    "TileGrid",
+    "ceiling_panel",
+    "floor_panel",
+    "lane_edges",
+    "neighbour",
+    "stall_rectangle",
+]
 
 CEILING_THICKNESS_M = 0.25
 _OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
@@ -80,17 +91,43 @@ class Tile:
         return None
 
 
+class StallPlace(NamedTuple):
+    """Where a stall lies in its row.
+
+    Attributes
+    ----------
+    ordinal
+        Its number on the square, from 1.
+    row
+        The row.
+    slot
+        Its place in the row, from 0.
+    is_first, is_last
+        Whether no stall lies beside it in the row, before it and after it.
+    """
+
+    ordinal: int
+    row: StallRow
+    slot: int
+    is_first: bool
+    is_last: bool
+
+
 class TileGrid:
     """All tiles of a structure, by square."""
 
-    def __init__(self, structure: Structure, graph: LaneGraph, bay: BayConfig) -> None:
-        """Place every square of `structure` and look at what surrounds it."""
+    def __init__(
+        self, structure: Structure, graph: LaneGraph, bay: BayConfig, *, left_out: Collection[str] = ()
+    ) -> None:
+        """Place every square of `structure` and look at what surrounds it; `left_out` names stalls that are none."""
         self.structure = structure
         self.setback_m = bay.carriageway_setback_m
-        self.rows_by_square: dict[Square, list[StallRow]] = {}
-        for row in graph.stall_rows:
-            self.rows_by_square.setdefault((row.row, row.col), []).append(row)
-        mouths = {(*neighbour((row.row, row.col), row.edge), _OPPOSITE[row.edge]) for row in graph.stall_rows}
+        self.stall_places = _stall_places(graph.stall_rows, left_out)
+        mouths = {
+            (*neighbour(square, place.row.edge), _OPPOSITE[place.row.edge])
+            for square, places in self.stall_places.items()
+            for place in places
+        }
         x, z = structure.column_edges_m, structure.row_edges_m
         self.tiles = {
             (row, col): Tile(
@@ -124,6 +161,26 @@ class TileGrid:
         return width - self.setback_m * sum(not tile.drivable[edge] for edge in across)
 
 
+def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[Square, list[StallPlace]]:
+    """The stalls of each square that has any, as they are numbered there."""
+    ordinals: Counter[Square] = Counter()
+    places: dict[Square, list[StallPlace]] = {}
+    for row in rows:
+        square = row.row, row.col
+        first = ordinals[square] + 1
+        ordinals[square] += row.count
+        is_stall = [stall_name(square, first + index) not in left_out for index in range(row.count)]
+        around = [False, *is_stall, False]
+        found = [
+            StallPlace(first + index, row, index, not around[index], not around[index + 2])
+            for index in range(row.count)
+            if is_stall[index]
+        ]
+        if found:
+            places.setdefault(square, []).extend(found)
+    return places
+
+
 def lane_edges(tile: Tile) -> list[Edge]:
     """The edges of a tile that a car drives across."""
     return [edge for edge in Edge if tile.drivable[edge]]
@@ -136,9 +193,9 @@ def floor_panel(tile: Tile, grid: TileGrid, bay: BayConfig, *, has_bump: bool, h
     if tile.cell is Cell.LANE:
         markings = _lane_markings(tile, grid, has_bump=has_bump, has_crossing=has_crossing)
     elif tile.cell is Cell.FREE:
-        rows = grid.rows_by_square.get(tile.square, [])
-        openings = [stall_rectangle(tile, row, index, bay) for row in rows for index in range(row.count)]
-        markings = _row_end_lines(tile, rows, bay) if rows else hatching(tile.half_x_m, tile.half_z_m)
+        places = grid.stall_places.get(tile.square, [])
+        openings = [stall_rectangle(tile, place.row, place.slot, bay) for place in places]
+        markings = _row_end_lines(tile, places, bay) if places else hatching(tile.half_x_m, tile.half_z_m)
     else:
         markings = _portal_markings(tile)
     spec = PanelSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
@@ -152,9 +209,9 @@ def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
     return Placement("Ceiling", ObjectKind.CEILING, spec, position, square=tile.square)
 
 
-def stall_rectangle(tile: Tile, row: StallRow, index: int, bay: BayConfig) -> Polygon:
+def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Polygon:
     """The rectangle of one stall of a row in the tile's coordinates."""
-    start = -row.count * bay.stall_width_m / 2 + index * bay.stall_width_m
+    start = _row_start_m(row, bay) + slot * bay.stall_width_m
     return _row_rectangle(tile, row.edge, start, start + bay.stall_width_m, bay.stall_length_m)
 
 
@@ -170,15 +227,21 @@ def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, length: flo
     return rectangle(*(round(value, 6) for value in corners))
 
 
-def _row_end_lines(tile: Tile, rows: list[StallRow], bay: BayConfig) -> tuple[Marking, ...]:
-    """The outer half of the lines at both ends of each row of stalls."""
+def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig) -> tuple[Marking, ...]:
+    """The outer half of the lines beside stalls that have no other one there."""
     lines: list[Marking] = []
-    for row in rows:
-        end = row.count * bay.stall_width_m / 2
-        for start in (-end - LINE_WIDTH_M / 2, end):
-            shape = _row_rectangle(tile, row.edge, start, start + LINE_WIDTH_M / 2, bay.stall_length_m)
+    for place in places:
+        start = _row_start_m(place.row, bay) + place.slot * bay.stall_width_m
+        ends = [start - LINE_WIDTH_M / 2] * place.is_first + [start + bay.stall_width_m] * place.is_last
+        for end in ends:
+            shape = _row_rectangle(tile, place.row.edge, end, end + LINE_WIDTH_M / 2, bay.stall_length_m)
             lines.append(Marking(shape, Surface.PAINT_WHITE))
     return tuple(lines)
+
+
+def _row_start_m(row: StallRow, bay: BayConfig) -> float:
+    """Where a row begins along its edge, from the edge's middle."""
+    return -row.count * bay.stall_width_m / 2
 
 
 def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, has_crossing: bool) -> tuple[Marking, ...]:

@@ -3,6 +3,7 @@
 import re
 import stat
 import zipfile
+from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import TypeVar
 
@@ -13,7 +14,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
 
-__all__ = ["STAGE_SUFFIXES", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason"]
+__all__ = ["STAGE_SUFFIXES", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason", "usd_text"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
@@ -70,7 +71,7 @@ def number_of(attribute: Usd.Attribute) -> float:
     value = attribute.Get()
     try:
         return float(0.0 if value is None else value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _no_numbers(attribute) from None
 
 
@@ -86,7 +87,7 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
     try:
         numbers = np.asarray(() if value is None else value, dtype=dtype)
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise _no_numbers(attribute) from None
 
 
@@ -122,12 +123,17 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
 
 def usd_reason(error: Exception) -> str:
     """What an error of USD says, without the place in USD's sources where it was raised."""
-    try:
-        text = " ".join(str(error).split())
-    except UnicodeDecodeError:  # it repeats bytes of the file
-        text = "it holds bytes that are no text"
+    text = usd_text(lambda: str(error))
     said = _SAID.findall(text)
     return "; ".join(dict.fromkeys(said) or [text])[:_REASON_CHARACTERS]
+
+
+def usd_text(read: Callable[[], str]) -> str:
+    """A text of USD in one line, which may repeat bytes of a file that are none."""
+    try:
+        return " ".join(read().split())
+    except UnicodeDecodeError:
+        return "it holds bytes that are no text"
 
 
 def _check_file(path: Path) -> None:

@@ -41,6 +41,13 @@ _STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.ACCESSIBLE: (168, 196, 246),
     StallUse.ACCESS_AISLE: (232, 226, 196),
     StallUse.TURNING: (240, 212, 140),
+    StallUse.UNREACHABLE: (226, 178, 170),
+}
+_STALL_WORDS = {
+    StallUse.STANDARD: "stall",
+    StallUse.EV: "EV stall",
+    StallUse.TURNING: "kept for turning",
+    StallUse.ACCESS_AISLE: "access aisle",
 }
 _FREE: Colour = (226, 224, 216)
 _SOLID: Colour = (120, 112, 108)
@@ -104,8 +111,7 @@ def _legend(layout: Layout, graph: LaneGraph, *, with_route: bool) -> list[tuple
 
 
 def _stall_words(use: StallUse) -> str:
-    words = {StallUse.STANDARD: "stall", StallUse.EV: "EV stall", StallUse.TURNING: "kept for turning"}
-    return words.get(use) or ("access aisle" if use is StallUse.ACCESS_AISLE else f"{use} stall")
+    return _STALL_WORDS.get(use, f"{use} stall")
 
 
 def _squares(layout: Layout, graph: LaneGraph) -> Iterator[Area | Line]:

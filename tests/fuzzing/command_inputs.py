@@ -149,6 +149,8 @@ def arguments(corpus: Corpus, draw: Random) -> Case:
     """Options that make no sense, in any order."""
     words = [word for _ in range(draw.randrange(1, 4)) for word in draw.choice(ARGUMENTS)]
     command = draw.choice(["build", "check", "drive", "plan", "view", "render", "schema", "textures", "nothing", ""])
+    if command == "build":  # which writes beside its configuration if it is told nothing else
+        words = ["--output", "out/garage.usdz", *words]
     return Case(
         "arguments", (command, draw.choice(["config.toml", "none.toml", ""]), *words), {"config.toml": CONFIG.encode()}
     )

@@ -45,6 +45,8 @@ def test_from_arrays_takes_matrices_constant_along_their_line():
         (8.1, float("inf"), "C"),
         (8.1, [[1.0], [2.0, 3.0]], "C"),
         (1e300, 8.1, "R"),
+        (8.1, {"C": 8.1}, "C"),
+        (8.1, [8.1, 10**400], "C"),
     ],
 )
 def test_sides_that_do_not_meet_are_refused(R, C, field):
@@ -53,10 +55,10 @@ def test_sides_that_do_not_meet_are_refused(R, C, field):
     assert caught.value.field == field
 
 
-@pytest.mark.parametrize("S", [[[0, 4]], [[0.5, 1]], [0, 1], [[]], [[300, 0]]])
+@pytest.mark.parametrize("S", [[[0, 4]], [[0.5, 1]], [0, 1], [[]], [[300, 0]], [[0, 1], [2]]])
 def test_bad_matrices_are_refused(S):
     with pytest.raises(ConfigError):
-        Structure.from_arrays(np.array(S), 8.1, 8.1)
+        Structure.from_arrays(S, 8.1, 8.1)
 
 
 def test_structures_are_read_only_and_copied():

@@ -5,7 +5,8 @@ import pytest
 from pxr import Sdf, Usd
 
 from garage2usd.errors import StageError
-from garage2usd.stage.reading import number_of, numbers_of, open_stage
+from garage2usd.stage.reading import number_of, numbers_of, open_stage, usd_text
+from garage2usd.stage.taxonomy import label_of, labels_of
 
 TEXT = '#usda 1.0\n(\n    defaultPrim = "Garage"\n)\ndef Xform "Garage" (\n    references = @./asset.usdc@\n)\n{\n}\n'
 
@@ -87,7 +88,7 @@ def test_layers_in_circles_open(tmp_path):
     assert open_stage(tmp_path / "a.usda").GetPrimAtPath("/P")
 
 
-def test_numbers_are_numbers_whatever_the_file_says(tmp_path):
+def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
     layer = Sdf.Layer.CreateNew(str(tmp_path / "light.usda"))
     prim = Sdf.CreatePrimInLayer(layer, "/Lamp")
     for name, kind, value in (
@@ -96,6 +97,8 @@ def test_numbers_are_numbers_whatever_the_file_says(tmp_path):
         ("nothing", Sdf.ValueTypeNames.Float, None),
         ("points", Sdf.ValueTypeNames.Point3fArray, [(1, 2, 3), (4, 5, 6)]),
         ("words", Sdf.ValueTypeNames.TokenArray, ["a", "b"]),
+        ("semantics:labels:class", Sdf.ValueTypeNames.TokenArray, ["lamp", "light"]),
+        ("semantics:labels:square", Sdf.ValueTypeNames.Int, 7),
     ):
         attribute = Sdf.AttributeSpec(prim, name, kind)
         if value is not None:
@@ -109,3 +112,12 @@ def test_numbers_are_numbers_whatever_the_file_says(tmp_path):
     for read in (lambda: number_of(lamp.GetAttribute("height")), lambda: numbers_of(lamp.GetAttribute("words"), float)):
         with pytest.raises(StageError, match=r"/Lamp.* holds no numbers"):
             read()
+    assert label_of(lamp) == "lamp"
+    assert labels_of(lamp, "other") == ()
+    with pytest.raises(StageError, match=r"/Lamp.semantics:labels:square holds no labels"):
+        label_of(lamp, "square")
+
+
+def test_what_usd_says_is_one_line_of_text_whatever_it_repeats():
+    assert usd_text(lambda: " two\n lines ") == "two lines"
+    assert usd_text(b"\x80".decode) == "it holds bytes that are no text"

@@ -10,6 +10,7 @@ from small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.checks import check
 from garage2usd.checks.stage_reader import subject_of_stage
+from garage2usd.errors import StageError
 from garage2usd.profiles import load_profile
 
 PROFILE = load_profile("cn-jgj100")
@@ -242,6 +243,29 @@ def test_what_is_hidden_or_a_guide_is_in_nobodys_way(stage):
     cube.GetVisibilityAttr().Clear()
     cube.CreatePurposeAttr(UsdGeom.Tokens.guide)
     assert rules_found(stage) == FOUND_IN_GOOD_ONE
+
+
+def test_a_sheet_without_any_thickness_is_in_the_way(stage):
+    """A net across a mouth, with more points along it than a polygon of the ground would keep."""
+    net = UsdGeom.Mesh.Define(stage, "/Garage/Added")
+    across = np.linspace(11.5, 12.8, 12)
+    points = [(x, y, 8.28) for x in across for y in (0.0, 1.0)]
+    faces = [(2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2) for k in range(11)]
+    net.CreatePointsAttr(points)
+    net.CreateFaceVertexCountsAttr([4] * 11)
+    net.CreateFaceVertexIndicesAttr([corner for face in faces for corner in face])
+    UsdSemantics.LabelsAPI.Apply(net.GetPrim(), "class").CreateLabelsAttr(["static"])
+    found = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    assert [f.place for f in found] == ["Stall_r00_c01_2"]
+    assert "; in the way: /Garage/Added, " in found[0].message
+
+
+@pytest.mark.parametrize("far_m", [1e7, 1e200])
+def test_what_lies_beyond_all_measure_is_named(far_m, stage):
+    box(12.15, 0.0, 8.28, label="static", side=0.3)(stage)
+    UsdGeom.Xformable(stage.GetPrimAtPath("/Garage/Added")).AddTranslateOp(opSuffix="far").Set((0, 0, far_m))
+    with pytest.raises(StageError, match=r"/Garage/Added lies 1e\+\d+ m from the origin"):
+        subject_of_stage(stage, source="")
 
 
 def test_points_of_an_instancer_stand_where_they_are_drawn(stage):

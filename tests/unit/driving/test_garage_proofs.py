@@ -1,5 +1,6 @@
 import json
 import math
+from collections import Counter
 from dataclasses import replace
 
 import networkx as nx
@@ -11,12 +12,14 @@ from pxr import Usd, UsdGeom
 from sample_files import REPOSITORY
 
 import garage2usd
+from garage2usd.checks import check_file
 from garage2usd.driving import DesignCar, DrivenGarage, Manoeuvre, Obstacles, prove_garage, prove_stalls
 from garage2usd.driving.layout_garage import layout_garage, numbered_squares, square_directions
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.driving.witness import write_witness
+from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell
-from garage2usd.layout import StallUse
+from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
 
 DRAWN = """
@@ -191,10 +194,46 @@ def test_stalls_without_ways_are_marked_and_hold_nothing():
         assert not stall.number
 
 
-def test_where_all_is_proven_marking_changes_nothing(garage):
-    marked = drawn(plan={"unreachable_stalls": "mark"})
-    assert list(marked.layout.stalls) == list(garage.layout.stalls)
-    assert list(marked.layout.placements) == list(garage.layout.placements)
+def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
+    kept, dropped = drawn(**NARROW), drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+    failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
+    assert failed
+    assert failed <= dropped.layout.unreachable
+    names = {stall.name for stall in kept.layout.stalls}
+    assert {stall.name for stall in dropped.layout.stalls} == names - dropped.layout.unreachable
+    assert all(proof.is_proven for proof in proofs_of(dropped))
+    stalls_on = Counter(stall.square for stall in dropped.layout.stalls)
+    for floor in dropped.layout.of_kind(ObjectKind.FLOOR):
+        assert len(floor.spec.openings) == stalls_on[floor.square]
+    assert len(dropped.layout.of_kind(ObjectKind.STALL)) == len(dropped.layout.stalls)
+
+
+def test_a_garage_without_any_stall_that_cars_get_into_is_refused():
+    names = {stall.name for stall in drawn(**NARROW).layout.stalls}
+    narrow = drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+    with pytest.raises(ConfigError, match=r"plan.unreachable_stalls: got 'drop'; allowed: a plan that leaves a stall"):
+        lay_out(narrow.layout.structure, narrow.graph, narrow.config, unreachable=names)
+
+
+@pytest.mark.parametrize("choice", ["mark", "drop"])
+def test_a_build_says_what_it_marked_or_left_out_and_passes_the_proof(choice, tmp_path):
+    site = {"structure": NARROW["structure"]}
+    config = garage2usd.GarageConfig(site=site, bay=NARROW["bay"], plan={"unreachable_stalls": choice})
+    built = garage2usd.build(config, tmp_path / "garage.usdc")
+    told = json.loads(built.report.read_text())
+    assert set(told["unreachable_stalls"]) == built.garage.layout.unreachable != set()
+    for path in (built.stage, built.report):
+        found = {finding.rule for finding in check_file(path)[0]}
+        assert "aisle-width" in found
+        assert not {"swept-path", "report-stalls", "plan-refused"} & found
+
+
+@pytest.mark.parametrize("choice", ["mark", "drop"])
+def test_where_all_is_proven_nothing_is_marked_or_left_out(choice, garage):
+    proven = drawn(plan={"unreachable_stalls": choice})
+    assert list(proven.layout.stalls) == list(garage.layout.stalls)
+    assert list(proven.layout.placements) == list(garage.layout.placements)
+    assert not proven.layout.unreachable
 
 
 def test_a_single_cause_is_named():
