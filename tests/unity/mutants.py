@@ -53,6 +53,36 @@ MUTANTS = (
         "ascending &= times[i - 1] < times[i];",
         "ascending &= times[i - 1] < times[i] || i > 0;",
     ),
+    Mutant(
+        "equal-prims-with-relative-paths",
+        USDA + "UsdaReader.cs",
+        "if (RelativePaths == relativeBefore) { KeepPrim(child, line, known as KnownPrim); }",
+        "KeepPrim(child, line, known as KnownPrim);",
+    ),
+    Mutant(
+        "equal-prims-by-their-first-line",
+        USDA + "KnownPrim.cs",
+        "return Length <= end - place && ByteRuns.AreEqual(text, start, place, Length);",
+        "return Length <= end - place;",
+    ),
+    Mutant(
+        "equal-lines-with-metadata",
+        USDA + "UsdaReader.cs",
+        "if (Next() != '(' && prim.Properties.Add(property)) { return true; }",
+        "if (prim.Properties.Add(property)) { return true; }",
+    ),
+    Mutant(
+        "equal-bytes-in-eights-alone",
+        USDA + "ByteRuns.cs",
+        "if (text[first] != text[second]) { return false; }",
+        "",
+    ),
+    Mutant(
+        "names-found-after-a-new-order",
+        DATA + "NamedList.cs",
+        "items = ordered;\n            table = null;",
+        "items = ordered;",
+    ),
     # ---- crates
     Mutant(
         "lz4-overlapping-copies",

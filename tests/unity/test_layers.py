@@ -1,5 +1,6 @@
 """One layer at a time: the C# readers against ``pxr``, every opinion of every spec."""
 
+import json
 import os
 import random
 import subprocess
@@ -108,6 +109,118 @@ def test_crates_of_many_chunks(usd_dump, tmp_path):
     same(usd_dump, chunked)
 
 
+EQUAL = """#usda 1.0
+def "A" {
+ def "k" (
+  prepend references = </A/B>
+ ) {
+  rel near = <../B>
+  rel far = </A/B>
+  float a = 1
+  float a.connect = <.b>
+ }
+ def "j" {
+  float a = 1
+  string s = "x"
+ }
+ def "l" {
+  float a = 1
+ }
+ def "long" {
+  string s = "%s"
+ }
+}
+"""
+"""Prims and lines, some of which mean something else below another prim."""
+
+
+def test_equal_text_means_what_its_place_says(usd_dump, tmp_path):
+    others = (
+        EQUAL.replace('def "A"', 'def "C"'),
+        EQUAL.replace('def "A"', 'def "D"').replace("string s = ", "token s = "),
+    )
+    overridden = """
+def "E" {
+ float a = 1
+ float a = 2
+ string s = "x"
+ string s = "x" (
+  doc = "its own"
+ )
+ def "j" {
+  float a = 1
+  string s = "x"
+ }
+ def "l" {
+  float a = 1
+ }
+ def "m" {
+  float a = 1
+  token visibility = "x"
+  token visibility = "y"
+ }
+ variantSet "v" = {
+  "one" {
+   def "j" {
+    float a = 1
+    string s = "x"
+   }
+  }
+ }
+}
+"""
+    texts = [(EQUAL + "".join(others).replace("#usda 1.0", "") + overridden).replace("%s", "y" * 3000)]
+    # indented alike, wherever it stands
+    texts.append("\n".join(line.strip() for line in texts[0].split("\n")))
+    for index, text in enumerate(texts):
+        path = tmp_path / f"equal{index}.usda"
+        path.write_text(text)
+        same(usd_dump, path)
+
+
+def test_metadata_on_the_next_line_belongs_to_its_property_alone(usd_dump, tmp_path):
+    """Files that ``pxr`` wrote have it on the line of the property, and it reads nothing else."""
+    texts = ['string s = "x"', 'string s = "x"\n(\n doc = "own"\n)']
+    path = tmp_path / "next_line.usda"
+    path.write_text("#usda 1.0\n" + "".join(f'def "P{i}" {{\n{text}\n}}\n' for i, text in enumerate(texts)))
+    root = usd_dump.ask("layer", path)["root"]
+    assert [json.dumps(child).count("own") for child in root["children"]] == [0, 1]
+
+
+@pytest.mark.parametrize("end", ["", "\n", "\n\n", "\n\n\n", " \n\n", "\r\n\r\n", "\n\n ", "# a\n\n"])
+def test_any_end_of_a_text_is_its_end(usd_dump, tmp_path, end):
+    path = tmp_path / "end.usda"
+    path.write_bytes(f'#usda 1.0\ndef "A" {{\n float a = 1\n}}{end}'.encode())
+    same(usd_dump, path)
+
+
+@pytest.mark.parametrize("end", ["", "\n", "\n\n", "\n\n\n"])
+@pytest.mark.parametrize(
+    "open_", ["", "float[] a = [1,", 'string a = """', "/*", "rel a = <", "float a", "float2 a = ("]
+)
+def test_a_text_that_ends_too_early_is_refused(usd_dump, tmp_path, open_, end):
+    path = tmp_path / "end.usda"
+    path.write_text(f'#usda 1.0\ndef "A" {{\n {open_}{end}')
+    assert "refused" in usd_dump.ask("layer", path)
+
+
+@pytest.mark.parametrize("count", [9, 10, 11, 40, 500])
+def test_many_children_are_found_and_in_the_order_of_the_layer(usd_dump, tmp_path, count):
+    names = [f"p{index}" for index in range(count)]
+    random.Random(count).shuffle(names)  # noqa: S311 - of test inputs
+    for ending in ("usda", "usdc"):
+        layer = Sdf.Layer.CreateNew(str(tmp_path / f"many{count}.{ending}"))
+        parent = Sdf.CreatePrimInLayer(layer, "/A")
+        for name in names:
+            Sdf.PrimSpec(parent, name, Sdf.SpecifierDef)
+            Sdf.AttributeSpec(parent, name.replace("p", "a"), Sdf.ValueTypeNames.Float)
+        layer.Save()
+        same(usd_dump, layer.identifier)
+    path = tmp_path / "twice.usda"
+    path.write_text("#usda 1.0\n" + "".join(f'def "{name}" {{}}\n' for name in [*names, names[0]]))
+    assert "a second prim" in usd_dump.ask("layer", path)["refused"][2]
+
+
 def decimal(draw: random.Random) -> str:
     """Numbers of all lengths and sizes, many of them close to the middle between two doubles."""
     if draw.random() < 0.3:
@@ -140,6 +253,9 @@ def test_numbers_are_the_nearest(usd_dump, tmp_path):
         ('#usda 1.0\ndef "A" (\n relocates = { <B>: <C> }\n) {}', "relocates are not supported"),
         ('#usda 1.0\ndef "A" { int[] a = edit [ append 1 ] }', "edits of arrays are not supported"),
         ("#usda 1.0\n" + 'def "A" {' * 2000, "nested more than"),
+        ("#usda 1.0\n" + 'def "A" {\ndef "k" {\n}\n' * 400, "nested more than"),
+        ('#usda 1.0\ndef "A" (\nadd references = </B>\n) {\nadd references = </B>\n}', "expected a name"),
+        ('#usda 1.0\ndef "A" {\ndef "B" {\n}\ndef "B" {\n}\n}', "a second prim 'B'"),
         ("#usda 1.0\n(a = " + "[" * 5000, "nested more than"),
         ("#usda 1.0\n(customLayerData = " + "{ dictionary a = " * 5000, "nested more than"),
     ],

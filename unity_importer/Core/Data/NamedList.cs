@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 
 namespace Garage.Usd
 {
@@ -16,14 +15,16 @@ namespace Garage.Usd
         }
     }
 
-    /// <summary>Specs in the order of the layer, which are also found by their names.</summary>
+    /// <summary>Specs in the order of the layer, each with a name of its own by which it is found.</summary>
     public struct NamedList<T> where T : NamedSpec
     {
         // up to here, looking at each is as quick as a table
         const int MostWithoutTable = 10;
 
         T[] items;
-        Dictionary<string, T> byName;
+
+        // places in items plus 1, each at the hash of its name or behind it; 0 where there is none
+        int[] table;
 
         /// <summary>How many there are.</summary>
         public int Count { get; private set; }
@@ -40,40 +41,69 @@ namespace Garage.Usd
             if (items == null && count > 0) { items = new T[count]; }
         }
 
-        /// <summary>Adds an item behind the others, also where there is one of its name.</summary>
-        public void Add(T item)
+        /// <summary>Adds an item behind the others; false where there is one of its name already.</summary>
+        public bool Add(T item)
         {
-            if (items == null) { items = new T[2]; }
-            if (Count == items.Length) { Array.Resize(ref items, 2 * Count); }
+            int slot;
+            if (PlaceOf(item.Name, out slot) >= 0) { return false; }
+            if (items == null) { items = new T[3]; }
+            if (Count == items.Length)
+            {
+                Array.Resize(ref items, 2 * Count);
+                table = null;
+            }
             items[Count++] = item;
-            if (byName != null) { byName[item.Name] = item; }
+            if (table != null) { table[slot] = Count; }
+            return true;
         }
 
-        /// <summary>The item with this name, the last of several; null where there is none.</summary>
+        /// <summary>The item with this name; null where there is none.</summary>
         public T Find(string name)
         {
+            int slot, place = PlaceOf(name, out slot);
+            return place < 0 ? null : items[place];
+        }
+
+        /// <summary>Puts an item at the place of the one with its name.</summary>
+        public void Replace(T item)
+        {
+            int slot;
+            items[PlaceOf(item.Name, out slot)] = item;
+        }
+
+        // -1 where there is none; slot is then where the table has room for it
+        int PlaceOf(string name, out int slot)
+        {
+            slot = 0;
             if (Count <= MostWithoutTable)
             {
                 for (int i = Count - 1; i >= 0; i--)
                 {
-                    if (items[i].Name == name) { return items[i]; }
+                    string other = items[i].Name;
+                    if (other.Length == name.Length && other == name) { return i; }
                 }
-                return null;
+                return -1;
             }
-            if (byName == null)
+            if (table == null) { MakeTable(); }
+            int mask = table.Length - 1;
+            for (slot = name.GetHashCode() & mask; table[slot] != 0; slot = (slot + 1) & mask)
             {
-                byName = new Dictionary<string, T>(2 * Count);
-                for (int i = 0; i < Count; i++) { byName[items[i].Name] = items[i]; }
+                if (items[table[slot] - 1].Name == name) { return table[slot] - 1; }
             }
-            T found;
-            return byName.TryGetValue(name, out found) ? found : null;
+            return -1;
         }
 
-        /// <summary>Puts another item of the same name at the place of one.</summary>
-        public void Replace(T item, T other)
+        void MakeTable()
         {
-            items[Array.IndexOf(items, item, 0, Count)] = other;
-            if (byName != null) { byName[other.Name] = other; }
+            int size = 16;
+            while (size < 2 * items.Length) { size *= 2; }
+            table = new int[size];
+            for (int i = 0; i < Count; i++)
+            {
+                int slot = items[i].Name.GetHashCode() & (size - 1);
+                while (table[slot] != 0) { slot = (slot + 1) & (size - 1); }
+                table[slot] = i + 1;
+            }
         }
 
         /// <summary>Puts the items in the order of the names, those without a name there last.</summary>
@@ -82,17 +112,22 @@ namespace Garage.Usd
             bool isOrdered = names.Length >= Count;
             for (int i = 0; i < Count && isOrdered; i++) { isOrdered = items[i].Name == names[i]; }
             if (isOrdered) { return; }
-            var places = new Dictionary<string, int>(names.Length);
-            foreach (string name in names) { places[name] = places.Count; }
-            var keys = new long[Count];
+            var ordered = new T[Count];
+            var isPlaced = new bool[Count];
+            int next = 0;
+            foreach (string name in names)
+            {
+                int slot, place = PlaceOf(name, out slot);
+                if (place < 0 || isPlaced[place]) { continue; }
+                isPlaced[place] = true;
+                ordered[next++] = items[place];
+            }
             for (int i = 0; i < Count; i++)
             {
-                int place;
-                if (!places.TryGetValue(items[i].Name, out place)) { place = names.Length; }
-                keys[i] = ((long)place << 32) + i;
+                if (!isPlaced[i]) { ordered[next++] = items[i]; }
             }
-            Array.Resize(ref items, Count);
-            Array.Sort(keys, items);
+            items = ordered;
+            table = null;
         }
     }
 }

@@ -195,14 +195,6 @@ namespace Garage.Usd
             set { Rare.PropertyOrder = value; }
         }
 
-        /// <summary>Adds a child; false where one of that name is there already.</summary>
-        public bool AddChild(PrimSpec child)
-        {
-            if (Children.Find(child.Name) != null) { return false; }
-            Children.Add(child);
-            return true;
-        }
-
         /// <summary>
         /// The property with this name as one that no other prim shares, so that it can be changed; null where there is
         /// none.
@@ -212,7 +204,7 @@ namespace Garage.Usd
             PropertySpec property = Properties.Find(name);
             if (property == null) { return null; }
             PropertySpec own = property.Copy();
-            Properties.Replace(property, own);
+            Properties.Replace(own);
             return own;
         }
 

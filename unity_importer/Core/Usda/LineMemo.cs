@@ -1,73 +1,81 @@
-using System;
-
 namespace Garage.Usd
 {
     /// <summary>
-    /// What whole lines of a text were read as, so that equal lines are read once and share what they say.
+    /// What statements of a text were read as, by their first lines, so that equal ones are read once and share what
+    /// they say.
     /// </summary>
     sealed class LineMemo
     {
         const int Longest = 256;
-        const int Slots = 4096;
+        const int SlotBits = 12;
+        const ulong Mixer = 0x9E3779B97F4A7C15;
 
         readonly byte[] text;
         readonly int end;
-        readonly int[] starts = new int[Slots];
-        readonly int[] lengths = new int[Slots];
-        readonly object[] values = new object[Slots];
-        readonly bool[] wasFound = new bool[Slots];
-        int lastStart = -1, lastStop, lastSlot;
+        readonly int[] starts = new int[1 << SlotBits];
+        readonly int[] lengths = new int[1 << SlotBits];
+        readonly object[] values = new object[1 << SlotBits];
+        readonly bool[] wasFound = new bool[1 << SlotBits];
 
-        /// <summary>The text needs a byte behind its end.</summary>
+        /// <summary>A line that was looked for.</summary>
+        public struct Line
+        {
+            /// <summary>From its first byte to the newline.</summary>
+            public int Start, Stop;
+
+            /// <summary>Where it is kept; -1 where it is too long for that.</summary>
+            public int Slot;
+        }
+
+        /// <summary>The text has a newline at its end.</summary>
         public LineMemo(byte[] text, int end)
         {
             this.text = text;
             this.end = end;
         }
 
-        /// <summary>What the line from here was read as, or null; stop is where the line ends.</summary>
-        public object Find(int start, out int stop)
+        /// <summary>What the statement with the line from here was read as, or null.</summary>
+        public object Find(int start, out Line line)
         {
             byte[] s = text;
-            stop = Array.IndexOf(s, (byte)'\n', start, Math.Min(Longest, end - start));
-            lastStart = -1;
-            if (stop < 0) { return null; }
-            int length = stop - start, hash = length;
-            for (int i = start; i < stop; i += 3) { hash = hash * 31 + s[i]; }
-            int slot = (hash ^ hash >> 12) & (Slots - 1);
-            lastStart = start;
-            lastStop = stop;
-            lastSlot = slot;
-            if (values[slot] == null || lengths[slot] != length) { return null; }
-            for (int i = start, other = starts[slot]; i < stop; i++, other++)
+            int stop = start, furthest = end - start > Longest ? start + Longest : end;
+            ulong hash = 0;
+            for (; stop + 8 <= furthest; stop += 8)
             {
-                if (s[i] != s[other]) { return null; }
+                ulong eight = ByteRuns.Eight(s, stop);
+                if (ByteRuns.HasNewline(eight)) { break; }
+                hash = (hash ^ eight) * Mixer;
             }
+            byte letter = s[stop];
+            while (letter != '\n' && stop < furthest)
+            {
+                hash = (hash ^ letter) * Mixer;
+                letter = s[++stop];
+            }
+            line.Start = start;
+            line.Stop = stop;
+            line.Slot = letter == '\n' ? (int)(hash >> (64 - SlotBits)) : -1;
+            int slot = line.Slot;
+            if (slot < 0 || values[slot] == null || lengths[slot] != stop - start) { return null; }
+            if (!ByteRuns.AreEqual(s, starts[slot], start, stop - start)) { return null; }
             wasFound[slot] = true;
             return values[slot];
         }
 
-        /// <summary>
-        /// Keeps what the line was read as that Find looked for last, if it began and ended at these places and does
-        /// not depend on where it stands.
-        /// </summary>
-        public void Keep(int start, int stop, object value)
+        /// <summary>Keeps what the statement with a line was read as, which must be the same anywhere.</summary>
+        public void Keep(Line line, object value)
         {
-            if (start != lastStart || stop != lastStop) { return; }
+            int slot = line.Slot;
+            if (slot < 0) { return; }
             // a line that has been of use stays for one more
-            if (wasFound[lastSlot])
+            if (wasFound[slot])
             {
-                wasFound[lastSlot] = false;
+                wasFound[slot] = false;
                 return;
             }
-            for (int i = start; i < stop; i++)
-            {
-                // a relative path
-                if ((text[i] == '<' && text[i + 1] != '/') || (text[i] == '.' && text[i + 1] == '.')) { return; }
-            }
-            starts[lastSlot] = start;
-            lengths[lastSlot] = stop - start;
-            values[lastSlot] = value;
+            starts[slot] = line.Start;
+            lengths[slot] = line.Stop - line.Start;
+            values[slot] = value;
         }
     }
 }

@@ -13,6 +13,9 @@ namespace Garage.Usd
         int depth;
         string primPath;
 
+        /// <summary>How many paths were read whose meaning depends on the prim that they are in.</summary>
+        protected int RelativePaths { get; private set; }
+
         protected UsdaListReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
         }
@@ -142,6 +145,7 @@ namespace Garage.Usd
                 throw Error("a path is empty");
             }
             if (path[0] == '/' && path.IndexOf("..", StringComparison.Ordinal) < 0) { return path; }
+            RelativePaths++;
             primPath = primPath ?? "/" + string.Join("/", names, 0, depth);
             string absolute = UsdPaths.Absolute(primPath, path);
             if (absolute == null) { throw Error("the path <" + path + "> leads out of the layer"); }

@@ -77,7 +77,7 @@ namespace Garage.Usd
             }
         }
 
-        void ReadPrim(PrimSpec parent, Specifier specifier)
+        PrimSpec ReadPrim(PrimSpec parent, Specifier specifier)
         {
             string typeName = AtQuote() ? "" : Name();
             string name = QuotedString(false);
@@ -86,13 +86,14 @@ namespace Garage.Usd
                 throw Error("'" + name + "' is no name of a prim");
             }
             var prim = new PrimSpec(name) { Specifier = specifier, TypeName = typeName };
-            if (!parent.AddChild(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
+            if (!parent.Children.Add(prim)) { throw Error("a second prim '" + name + "' below the same parent"); }
             layer.SpecCount++;
             Enter(name);
             if (Take('(')) { ReadPrimMetadata(prim); }
             Expect('{');
             ReadBody(prim);
             Leave();
+            return prim;
         }
 
         void ReadBody(PrimSpec prim)
@@ -105,13 +106,16 @@ namespace Garage.Usd
                     at++;
                     return;
                 }
-                int start = at;
-                if (MayComeOften(text[at]) && TakeKnownProperty(prim)) { continue; }
+                int relativeBefore = RelativePaths;
+                LineMemo.Line line;
+                object known = lines.Find(at, out line);
+                if (known != null && TakeKnown(known, line, prim)) { continue; }
                 string word = Name();
                 Specifier specifier;
                 if (TrySpecifier(word, out specifier))
                 {
-                    ReadPrim(prim, specifier);
+                    PrimSpec child = ReadPrim(prim, specifier);
+                    if (RelativePaths == relativeBefore) { KeepPrim(child, line, known as KnownPrim); }
                 }
                 else if (word == "variantSet")
                 {
@@ -128,34 +132,46 @@ namespace Garage.Usd
                 {
                     int before = prim.Properties.Count;
                     ReadProperty(prim, word);
-                    if (prim.Properties.Count > before) { lines.Keep(start, at, prim.Properties[before]); }
+                    bool isOneLine = at == line.Stop && RelativePaths == relativeBefore;
+                    if (isOneLine && prim.Properties.Count > before) { lines.Keep(line, prim.Properties[before]); }
                 }
             }
         }
 
-        // "uniform", "token", "rel", "custom", "bool", "asset", "string"; lines of numbers are rarely equal
-        static bool MayComeOften(byte first)
+        // what was read before of equal text, if the prim does not have it yet: both prims share it
+        bool TakeKnown(object known, LineMemo.Line line, PrimSpec prim)
         {
-            return first == 'u' || first == 't' || first == 'r' || first == 'c' || first == 'b' || first == 'a'
-                || first == 's';
+            var property = known as PropertySpec;
+            if (property == null) { return TakeKnownPrim(known as KnownPrim, prim); }
+            at = line.Stop;
+            // what belongs to it may stand on the next line
+            if (Next() != '(' && prim.Properties.Add(property)) { return true; }
+            at = line.Start;
+            return false;
         }
 
-        // a line that was read before, of a property that the prim does not have yet: both prims share it
-        bool TakeKnownProperty(PrimSpec prim)
+        bool TakeKnownPrim(KnownPrim known, PrimSpec parent)
         {
-            int stop;
-            var known = lines.Find(at, out stop) as PropertySpec;
-            if (known == null || prim.Properties.Find(known.Name) != null) { return false; }
-            int start = at;
-            at = stop;
-            // what belongs to it may stand on the next line
-            if (Next() == '(')
-            {
-                at = start;
-                return false;
-            }
-            prim.Properties.Add(known);
+            if (known == null || !known.IsAt(text, at, end)) { return false; }
+            Enter(known.Prim.Name);
+            Leave();
+            if (!parent.Children.Add(known.Prim)) { return false; }
+            layer.SpecCount++;
+            at += known.Length;
             return true;
+        }
+
+        // the latest of the prims with the same first line
+        void KeepPrim(PrimSpec prim, LineMemo.Line line, KnownPrim known)
+        {
+            int length = at - line.Start;
+            if (!KnownPrim.MayBe(prim, length)) { return; }
+            if (known == null)
+            {
+                known = new KnownPrim();
+                lines.Keep(line, known);
+            }
+            known.Set(prim, line.Start, length);
         }
 
         bool AtReorder()
@@ -358,12 +374,13 @@ namespace Garage.Usd
                     prim.AddField("comment", UsdValue.OfString(UsdType.String, QuotedString()));
                     continue;
                 }
-                int start = at, stop = at;
+                var line = new LineMemo.Line();
+                int relativeBefore = RelativePaths;
                 bool isList = text[at] == 'p' || text[at] == 'r' || text[at] == 'a';
-                var known = isList ? lines.Find(start, out stop) as SharedField : null;
+                var known = isList ? lines.Find(at, out line) as SharedField : null;
                 if (known != null && known.AddTo(prim))
                 {
-                    at = stop;
+                    at = line.Stop;
                     continue;
                 }
                 string edit = null, key = Name();
@@ -377,7 +394,8 @@ namespace Garage.Usd
                     || (key == "inherits" && prim.Inherits == null)
                     || (key == "apiSchemas" && prim.ApiSchemas == null));
                 ReadPrimField(prim, edit, key);
-                if (isFirst) { lines.Keep(start, at, new SharedField(prim, key)); }
+                bool isOneLine = at == line.Stop && RelativePaths == relativeBefore;
+                if (isFirst && isOneLine) { lines.Keep(line, new SharedField(prim, key)); }
             }
         }
 
@@ -408,6 +426,12 @@ namespace Garage.Usd
 
         void ReadPrimField(PrimSpec prim, string edit, string key)
         {
+            // apart, as very many prims have it, and finding it among the others takes as long as reading its line
+            if (key == "instanceable")
+            {
+                prim.IsInstanceable = Truth();
+                return;
+            }
             switch (key)
             {
                 case "references": prim.References = Edited(prim.References, edit, ArcList()); break;
@@ -417,7 +441,6 @@ namespace Garage.Usd
                 case "variantSets": prim.VariantSetNames = Edited(prim.VariantSetNames, edit, NameList()); break;
                 case "apiSchemas": prim.ApiSchemas = Edited(prim.ApiSchemas, edit, NameList()); break;
                 case "active": prim.IsActive = Truth(); break;
-                case "instanceable": prim.IsInstanceable = Truth(); break;
                 case "variants": ReadVariantSelections(prim); break;
                 case "subLayers": ReadSubLayers(prim); break;
                 case "relocates": RefuseRelocates(); break;

@@ -10,12 +10,13 @@ namespace Garage.Usd
         static readonly bool[] InName = new bool[256];
         static readonly bool[] InNamespacedName = new bool[256];
 
-        // the text with a zero behind its end, so that looking at one byte needs no comparison with the length
+        // the text with two newlines behind its end, so that looking at one byte needs no comparison with the length
         protected readonly byte[] text;
         protected readonly int end;
         protected int at;
 
         readonly string file;
+        readonly int length;
         readonly TextMemo strings;
 
         static UsdaScanner()
@@ -31,10 +32,20 @@ namespace Garage.Usd
         protected UsdaScanner(byte[] bytes, string file)
         {
             this.file = file;
-            end = bytes.Length;
-            text = new byte[end + 2];
-            Buffer.BlockCopy(bytes, 0, text, 0, end);
+            length = bytes.Length;
+            // layers that USD writes end in two newlines; these need no copy, which costs as much as a pass over them
+            bool isEnded = bytes[length - 2] == '\n' && bytes[length - 1] == '\n';
+            end = isEnded ? length - 2 : length;
+            text = isEnded ? bytes : Ended(bytes);
             strings = new TextMemo(text, end);
+        }
+
+        static byte[] Ended(byte[] bytes)
+        {
+            var text = new byte[bytes.Length + 2];
+            Buffer.BlockCopy(bytes, 0, text, 0, bytes.Length);
+            text[bytes.Length] = text[bytes.Length + 1] = (byte)'\n';
+            return text;
         }
 
         protected UsdFormatException Error(string reason)
@@ -44,8 +55,8 @@ namespace Garage.Usd
 
         UsdFormatException ErrorAt(int place, string reason)
         {
-            int line = 1;
-            for (int i = 0; i < place && i < end; i++)
+            int line = 1, stop = place < end ? place : length;
+            for (int i = 0; i < stop; i++)
             {
                 if (text[i] == '\n') { line++; }
             }
@@ -64,16 +75,26 @@ namespace Garage.Usd
         {
             byte[] s = text;
             int i = at;
-            for (;;)
+            byte letter = s[i];
+            while (letter == ' ') { letter = s[++i]; }
+            at = i;
+            if (letter <= ' ' || letter == '#' || letter == '/') { SkipLines(); }
+        }
+
+        void SkipLines()
+        {
+            byte[] s = text;
+            int i = at;
+            while (i < end)
             {
                 byte letter = s[i];
-                while (letter == ' ') { letter = s[++i]; }
-                if (letter > ' ' && letter != '#' && letter != '/')
+                if (letter == '\n')
                 {
-                    at = i;
-                    return;
+                    i++;
+                    // a line is mostly indented
+                    while (i + 8 <= end && ByteRuns.Eight(s, i) == ByteRuns.Spaces) { i += 8; }
                 }
-                if (letter == '\n' || letter == '\t' || letter == '\r')
+                else if (letter == ' ' || letter == '\t' || letter == '\r')
                 {
                     i++;
                 }
@@ -91,10 +112,10 @@ namespace Garage.Usd
                 }
                 else
                 {
-                    at = i;
-                    return;
+                    break;
                 }
             }
+            at = i;
         }
 
         /// <summary>Passes white space and semicolons between statements.</summary>
@@ -339,7 +360,7 @@ namespace Garage.Usd
             byte[] s = text;
             int i = at;
             byte letter = s[i];
-            while (letter == ' ' || letter == '\n') { letter = s[++i]; }
+            while (letter == ' ' || (letter == '\n' && i < end)) { letter = s[++i]; }
             bool negative = letter == '-';
             if (negative) { letter = s[++i]; }
             int start = i;

@@ -267,7 +267,7 @@ namespace Garage.Usd
             if (!isVariant)
             {
                 var prim = new PrimSpec(element);
-                if (element.Length == 0 || !parent.AddChild(prim))
+                if (element.Length == 0 || !parent.Children.Add(prim))
                 {
                     throw Error("SPECS", "a second prim <" + paths.Text(path) + ">");
                 }
@@ -403,16 +403,12 @@ namespace Garage.Usd
 
         void ReadProperty(PrimSpec prim, string name, bool isRelationship, int set)
         {
-            if (prim.Properties.Find(name) != null) { throw Error("SPECS", "a second property '" + name + "'"); }
             PropertySpec property = propertyOfSet[FirstField(set)];
-            if (property != null && property.Name == name && property.IsRelationship == isRelationship)
-            {
-                prim.Properties.Add(property);
-                return;
-            }
-            property = new PropertySpec(name) { IsRelationship = isRelationship };
+            bool isKnown = property != null && property.Name == name && property.IsRelationship == isRelationship;
+            if (!isKnown) { property = new PropertySpec(name) { IsRelationship = isRelationship }; }
+            if (!prim.Properties.Add(property)) { throw Error("SPECS", "a second property '" + name + "'"); }
+            if (isKnown) { return; }
             propertyOfSet[set] = property;
-            prim.Properties.Add(property);
             int field;
             for (int place = FirstField(set); (field = FieldAt(place)) >= 0; place++)
             {
