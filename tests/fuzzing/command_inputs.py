@@ -151,6 +151,8 @@ def arguments(corpus: Corpus, draw: Random) -> Case:
     command = draw.choice(["build", "check", "drive", "plan", "view", "render", "schema", "textures", "nothing", ""])
     if command == "build":  # which writes beside its configuration if it is told nothing else
         words = ["--output", "out/garage.usdz", *words]
+    if command == "textures":  # which takes its time
+        words.append("--nonsense")
     return Case(
         "arguments", (command, draw.choice(["config.toml", "none.toml", ""]), *words), {"config.toml": CONFIG.encode()}
     )

@@ -1,9 +1,12 @@
 import os
 import zipfile
 
+import click
 import pytest
+from click.testing import CliRunner
 from pxr import Sdf, Usd
 
+from garage2usd.cli.commands import Commands
 from garage2usd.errors import StageError
 from garage2usd.stage.reading import number_of, numbers_of, open_stage, usd_text
 from garage2usd.stage.taxonomy import label_of, labels_of
@@ -121,3 +124,26 @@ def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
 def test_what_usd_says_is_one_line_of_text_whatever_it_repeats():
     assert usd_text(lambda: " two\n lines ") == "two lines"
     assert usd_text(b"\x80".decode) == "it holds bytes that are no text"
+
+
+def test_a_name_that_is_no_text_ends_a_command_in_one_line(tmp_path):
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "names.usdc"))
+    Sdf.CreatePrimInLayer(layer, "/P").typeName = "QQQQZZZZ"
+    layer.Save()
+    damaged = tmp_path / "damaged.usdc"
+    data = (tmp_path / "names.usdc").read_bytes()
+    assert data.count(b"QQQQZZZZ") == 1
+    damaged.write_bytes(data.replace(b"QQQQZZZZ", b"QQQQ\xffZZZ"))
+
+    @click.group(cls=Commands)
+    def program():
+        """A program."""
+
+    @program.command()
+    def names():
+        stage = open_stage(damaged)  # which a prim does not keep open
+        stage.GetPrimAtPath("/P").GetTypeName()
+
+    ended = CliRunner().invoke(program, ["names"])
+    assert (ended.exit_code, ended.stdout) == (1, "")
+    assert ended.stderr == "Error: USD cannot read the stage (it holds bytes that are no text)\n"
