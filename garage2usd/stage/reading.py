@@ -23,6 +23,7 @@ _MAX_PACKAGE_FILES = 100_000
 _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 """Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
 _REASON_CHARACTERS = 300
+_NO_TEXT = "it holds bytes that are no text"
 _Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
 
@@ -123,7 +124,7 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
 
 def usd_reason(error: Exception) -> str:
     """What an error of USD says, without the place in USD's sources where it was raised."""
-    text = usd_text(lambda: str(error))
+    text = _NO_TEXT if isinstance(error, UnicodeDecodeError) else usd_text(lambda: str(error))
     said = _SAID.findall(text)
     return "; ".join(dict.fromkeys(said) or [text])[:_REASON_CHARACTERS]
 
@@ -133,7 +134,7 @@ def usd_text(read: Callable[[], str]) -> str:
     try:
         return " ".join(read().split())
     except UnicodeDecodeError:
-        return "it holds bytes that are no text"
+        return _NO_TEXT
 
 
 def _check_file(path: Path) -> None:
