@@ -14,7 +14,8 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from garage2usd.checks import RULES
-from garage2usd.config import config_schema
+from garage2usd.config import PlanConfig, config_schema
+from garage2usd.config.plan import SarsaParameters
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
 from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
@@ -62,8 +63,18 @@ def _settings_table(properties: dict[str, Any], definitions: dict[str, Any]) -> 
     yield from ("| setting | value | default | what it is |", "|---|---|---|---|")
     for name, schema in properties.items():
         default = schema.get("default")
-        shown = "" if default is None else f"`{_toml(default)}`"
+        shown = _by_preset(name) if default is None else f"`{_toml(default)}`"
         yield f"| `{name}` | {_values(schema, definitions)} | {shown} | {_cell(schema['description'])} |"
+
+
+def _by_preset(setting: str) -> str:
+    """What a parameter of Sarsa is that is not given; nothing for any other setting."""
+    if setting not in SarsaParameters._fields:
+        return ""
+    presets = [("paper", PlanConfig(preset="paper").resolved()), ("tuned", PlanConfig().resolved())]
+    presets.append(("over aisles", PlanConfig().resolved(aisles=True)))
+    values = [(name, _toml(getattr(parameters, setting))) for name, parameters in presets]
+    return ", ".join(f"`{value}` {name}" for name, value in values)
 
 
 def _values(schema: dict[str, Any], definitions: dict[str, Any]) -> str:  # noqa: PLR0911 - one a type

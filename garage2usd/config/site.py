@@ -106,7 +106,7 @@ class BayConfig(Settings):
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)
-    """Length of one stall from its mouth to its wheel stop's wall."""
+    """Length of one stall from its mouth on the lane to its rear line."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
     dimensioned: bool = False

@@ -1,6 +1,7 @@
 """What README and documentation show runs as it stands there, and the documentation is built without a warning."""
 
 import html
+import json
 import re
 import subprocess
 import sys
@@ -9,13 +10,21 @@ from collections import Counter
 from importlib import import_module
 
 import pytest
-from documentation import PAGES, README, RUN, SHOWN, blocks, check_unrun, follow_page
+from documentation import PAGES, README, RUN, SHOWN, Reader, blocks, check_unrun, follow_page
 from sample_files import REPOSITORY
 
 EVERY_BLOCK = [block for page in PAGES for block in blocks(page)]
 # test_wheel.py follows the README, as someone who has the wheel alone
 PAGES_THAT_RUN = [page for page in PAGES if page != README and any(block.language in RUN for block in blocks(page))]
 MOST_THAT_ARE_NOT_RUN = 8
+
+
+def test_the_page_of_a_builds_files_names_every_key_in_them(tmp_path):
+    Reader(tmp_path).start_with_a_garage()
+    report, labels = (json.loads((tmp_path / f"garage_{name}.json").read_text()) for name in ("report", "labels"))
+    keys = {*report, *report["stalls"][0], *labels, *labels["classes"][0], *labels["objects"][0]}
+    told = set(re.findall(r"`(\w+)`", (REPOSITORY / "docs" / "files.md").read_text()))
+    assert keys <= told
 
 
 def page_name(page):
@@ -111,6 +120,7 @@ def test_the_built_reference_has_all_that_the_code_has(site):
         assert name in configuration
         for setting in getattr(field.annotation, "model_fields", {}):
             assert re.search(rf"\b{setting}\b", configuration), f"{name}.{setting}"
+    assert "0.1 paper, 0.5 tuned, 0.03 over aisles Learning rate" in configuration
 
     commands = text_of(site / "reference" / "command_line.html")
     for name, command in main.commands.items():
