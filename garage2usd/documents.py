@@ -1,6 +1,7 @@
 """Text, TOML and JSON that anybody may have written: read as far as a limit, and refused in one kind of error."""
 
 import json
+import os
 import stat
 import tomllib
 from pathlib import Path
@@ -8,12 +9,17 @@ from typing import Any, NoReturn
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["MAX_REPORT_BYTES", "MAX_SETTINGS_BYTES", "read_bytes", "read_json", "read_text", "read_toml"]
+__all__ = ["MAX_REPORT_BYTES", "MAX_SETTINGS_BYTES", "is_file", "read_bytes", "read_json", "read_text", "read_toml"]
 
 MAX_SETTINGS_BYTES = 16 * 1024 * 1024
 """Configurations, profiles and structures are no larger."""
 MAX_REPORT_BYTES = 512 * 1024 * 1024
 """Reports of builds list each stall."""
+
+
+def is_file(path: Path) -> bool:
+    """Whether a path leads to a regular file; `pathlib` raises for names that no file can have."""
+    return os.path.isfile(path)  # noqa: PTH113
 
 
 def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> bytes:

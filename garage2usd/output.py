@@ -10,20 +10,29 @@ from pathlib import Path
 
 from garage2usd.errors import ConfigError, OutputError
 
-__all__ = ["check_name", "check_writable", "publish", "staging_folder"]
+__all__ = ["check_length", "check_name", "check_writable", "publish", "staging_folder"]
 
 _PREFIX = ".garage2usd-"
+_LONGEST_NAME_BYTES = 220
+"""File systems take 255, of which other files' endings take some."""
 _UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 
 
+def check_length(path: Path) -> None:
+    """Find out whether files can have a name, and ``_learning.png`` after it; raises `ConfigError` if they cannot."""
+    if len(path.name.encode("utf-8", "surrogatepass")) > _LONGEST_NAME_BYTES:
+        raise ConfigError("output", str(path), f"a file name of at most {_LONGEST_NAME_BYTES} bytes")
+
+
 def check_name(path: Path) -> None:
-    """Find out whether USD can say the name of a layer that is to be written.
+    """Find out whether a layer that is to be written can have a name, and USD say it.
 
     Raises
     ------
     ConfigError
         If it cannot.
     """
+    check_length(path)
     if _UNSPEAKABLE.search(path.name):
         raise ConfigError("output", str(path), "a file name in UTF-8 without '@', '\\' and control characters")
 
@@ -36,8 +45,8 @@ def check_writable(folder: Path) -> None:
     OutputError
         If they cannot.
     """
-    existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
     try:
+        existing = next(parent for parent in (folder, *folder.absolute().parents) if parent.exists())
         with tempfile.TemporaryFile(dir=existing):
             pass
     except OSError as error:

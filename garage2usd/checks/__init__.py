@@ -22,6 +22,7 @@ from garage2usd.checks.plan_reader import plan_subject
 from garage2usd.checks.rule import Rule
 from garage2usd.checks.stage_reader import profile_name, stage_subject
 from garage2usd.checks.subject import Subject
+from garage2usd.documents import is_file
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.stage.reading import STAGE_SUFFIXES
@@ -95,7 +96,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
 def read_subject(path: str | Path, *, profile: Profile | None = None) -> tuple[Subject, Profile]:
     """Read what is checked, and what it is checked against; as for `check_file`."""
     path = Path(path)
-    if not path.is_file():
+    if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")
     if path.suffix.lower() in STAGE_SUFFIXES:
         subject = stage_subject(path)

@@ -45,7 +45,7 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
       garage2usd plan garage.usdz --findings -o findings.png
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.output import check_length, check_writable, publish, staging_folder  # noqa: PLC0415
     from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
     from garage2usd.view.raster import to_image  # noqa: PLC0415
     from garage2usd.view.route import find_stall  # noqa: PLC0415
@@ -55,6 +55,7 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
     for output in outputs:
         if output.suffix not in _FORMATS or not output.stem:
             raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+        check_length(output)
         check_writable(output.parent)
     with Bars(sys.stderr) as progress:
         garage = _garage(path, seed, progress)
@@ -92,6 +93,7 @@ def _marks(path: Path) -> "list[Mark]":
 def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     """Made from a configuration, or again from a report."""
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.documents import is_file  # noqa: PLC0415
     from garage2usd.errors import ConfigError  # noqa: PLC0415
     from garage2usd.pipeline import generate  # noqa: PLC0415
     from garage2usd.report import read_report  # noqa: PLC0415
@@ -103,10 +105,10 @@ def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     if path.suffix == ".json":
         return generate(read_report(path), progress=progress)
     if path.suffix in set(StageFormat):
-        if not path.is_file():
+        if not is_file(path):
             raise ConfigError("PATH", str(path), "an existing file")
         report = path.with_name(f"{path.stem}_report.json")
-        if not report.exists():
+        if not is_file(report):
             raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
         return generate(read_report(report), progress=progress)
     raise ConfigError("PATH", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")

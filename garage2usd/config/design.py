@@ -1,7 +1,6 @@
 """What a profile asks of the settings: sizes that a garage needs to pass its own check."""
 
 import math
-import sys
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -14,6 +13,8 @@ __all__ = ["designed_settings"]
 
 _CARS_BETWEEN_COLUMNS = 3
 _STEP_M = 0.01
+_LARGEST = 1e6
+"""No setting of a size is larger; what is larger is refused where it is validated."""
 
 
 def designed_settings(profile: Profile, settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -130,7 +131,7 @@ def _given(
         value = given.get(key)
     elif isinstance(given, Settings) and key in given.model_fields_set:
         value = getattr(given, key)
-    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max:
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
         return value
     return _default(model, key) if fallback is None else fallback
 
@@ -145,7 +146,7 @@ def _at_least(clause: Length | None, model: type[Settings], key: str) -> float:
 
 
 def _rounded_up(length_m: float) -> float:
-    return round(math.ceil(length_m / _STEP_M - 1e-6) * _STEP_M, 6)
+    return round(max(math.ceil(length_m / _STEP_M - 1e-6), 1) * _STEP_M, 6)
 
 
 def _default(model: type[Settings], key: str) -> Any:  # noqa: ANN401

@@ -8,7 +8,7 @@ from typing import Annotated
 from pxr import Usd, UsdGeom
 from pydantic import BaseModel, Field, ValidationError
 
-from garage2usd.documents import read_bytes
+from garage2usd.documents import is_file, read_bytes
 from garage2usd.errors import StageError
 from garage2usd.stage.labels import CITYSCAPES
 from garage2usd.stage.taxonomy import label_of
@@ -83,7 +83,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
         If it is none, or does not fit its form.
     """
     table = path.with_name(f"{path.stem}_labels.json")
-    if not table.exists():
+    if not is_file(table):
         return _labels_of(stage)
     text = read_bytes(table, field="labels", max_bytes=_MAX_FILE_BYTES)
     try:

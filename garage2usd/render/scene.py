@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from enum import Enum, auto
 from pathlib import Path
 
 import numpy as np
@@ -42,13 +43,31 @@ class Scene:
     to_world: NDArray[np.float64]
 
 
+class _Role(Enum):
+    """What a prim of a type is to a renderer."""
+
+    POINTS = auto()
+    DOME = auto()
+    SHAPE = auto()
+    OTHER = auto()
+
+
+_TYPES = {
+    _Role.POINTS: (UsdGeom.PointInstancer,),
+    _Role.DOME: (UsdLux.DomeLight, UsdLux.DomeLight_1),
+    _Role.SHAPE: (UsdGeom.Gprim,),
+}
+
+
 class _Reader:
     """Collects the drawn prims of a stage at one time."""
 
     def __init__(self, stage: Usd.Stage, ids: Mapping[str, int]) -> None:
         self._ids = ids
         self._places = UsdGeom.XformCache(Usd.TimeCode.EarliestTime())
-        self._metres = UsdGeom.GetStageMetersPerUnit(stage)
+        metres = UsdGeom.GetStageMetersPerUnit(stage)
+        self._to_metres = np.diag([metres, metres, metres, 1.0])
+        self._roles: dict[str, _Role] = {}
         self._numbers: dict[Sdf.Path, int] = {}
         self.shapes: list[Sdf.Path] = []
         self.materials: set[Sdf.Path] = set()
@@ -58,15 +77,25 @@ class _Reader:
     def read(self, root: Usd.Prim) -> None:
         prims = iter(_drawn_range(root))
         for prim in prims:
-            if prim.IsA(UsdGeom.PointInstancer):
+            role = self._role(prim)
+            if role is _Role.POINTS:
                 prims.PruneChildren()
                 if _is_shown(prim):
                     self._read_points(UsdGeom.PointInstancer(prim))
-            elif prim.IsA(UsdLux.DomeLight) or prim.IsA(UsdLux.DomeLight_1):
+            elif role is _Role.DOME:
                 self.domes.append(prim.GetPath())
-            elif _is_drawable(prim) and _is_shown(prim):
+            elif (role is _Role.SHAPE or prim.HasAPI(UsdLux.LightAPI)) and _is_shown(prim):
                 place = _array(self._places.GetLocalToWorldTransform(prim))
                 self._add(prim, place, _owner(prim.GetPath(), self._ids))
+
+    def _role(self, prim: Usd.Prim) -> _Role:
+        """What a prim is by its type alone; a stage has many prims of few types."""
+        type_name = prim.GetTypeName()
+        if type_name not in self._roles:
+            self._roles[type_name] = next(
+                (role for role, types in _TYPES.items() if any(prim.IsA(schema) for schema in types)), _Role.OTHER
+            )
+        return self._roles[type_name]
 
     def _read_points(self, instancer: UsdGeom.PointInstancer) -> None:
         """The shapes of each prototype, once for each point."""
@@ -102,8 +131,7 @@ class _Reader:
             number = self._numbers[source] = len(self.shapes)
             self.shapes.append(prim.GetPath())
             self.materials.update(_materials(prim))
-        scale = np.diag([self._metres, self._metres, self._metres, 1.0])
-        self.drawn.append((number, owner, scale @ place))
+        self.drawn.append((number, owner, self._to_metres @ place))
 
 
 def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:

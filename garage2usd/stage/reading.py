@@ -17,6 +17,7 @@ from garage2usd.limits import allow_seconds
 __all__ = ["STAGE_SUFFIXES", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason", "usd_text"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
+_DEFAULT_TIME = Usd.TimeCode.Default()
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
@@ -61,7 +62,7 @@ def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
     return matrix
 
 
-def number_of(attribute: Usd.Attribute) -> float:
+def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = _DEFAULT_TIME) -> float:
     """The number that an attribute holds; 0 for none.
 
     Raises
@@ -69,14 +70,16 @@ def number_of(attribute: Usd.Attribute) -> float:
     StageError
         If it holds something else: USD gives whatever a file has, not what the schema says.
     """
-    value = attribute.Get()
+    value = attribute.Get(time)
     try:
         return float(0.0 if value is None else value)
     except (TypeError, ValueError, OverflowError):
         raise _no_numbers(attribute) from None
 
 
-def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1) -> NDArray[_Scalar]:
+def numbers_of(
+    attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1, time: Usd.TimeCode = _DEFAULT_TIME
+) -> NDArray[_Scalar]:
     """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
 
     Raises
@@ -84,7 +87,7 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
     StageError
         If it holds something else.
     """
-    value = attribute.Get()
+    value = attribute.Get(time)
     try:
         numbers = np.asarray(() if value is None else value, dtype=dtype)
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)

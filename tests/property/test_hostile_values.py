@@ -21,6 +21,7 @@ scalars = (
     | st.integers()
     | st.integers(-(10**400), 10**400)
     | st.floats()
+    | st.sampled_from([1e308, -1e308, 5e-324, 1e15])
     | st.text(max_size=20)
     | st.sampled_from(["nan", "\0", "../../etc/passwd", "\udcff", "1e999"])
 )

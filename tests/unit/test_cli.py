@@ -148,6 +148,26 @@ def test_an_unwritable_output_is_named_before_the_work(config, output):
     assert len(result.output.strip().splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["build", "--output", "n" * 300 + ".usda"],
+        ["build", "--output", "n" * 300 + "/g.usda"],
+        ["textures", "n" * 300],
+        ["check", "n" * 300 + ".usda"],
+        ["plan", "n" * 300 + ".usda"],
+        ["drive", "--output", "n" * 300 + ".json"],
+    ],
+)
+def test_names_that_no_file_can_have_are_refused_in_one_line(tmp_path, monkeypatch, arguments):
+    monkeypatch.chdir(tmp_path)
+    result = run(*arguments)
+    assert result.exit_code in {1, 2}
+    assert result.output.startswith("Error: ")
+    assert len(result.output.strip().splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("deadly", [signal.SIGTERM, signal.SIGKILL, signal.SIGINT])
 def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
     path = config("[site]\nwidth_cells = 30\nheight_cells = 20\n[plan]\nepisodes = 1000000\n")

@@ -3,6 +3,7 @@
 import numpy as np
 from pxr import Usd, UsdLux
 
+from garage2usd.stage.reading import number_of, numbers_of
 from garage2usd.view.viewer.scene import Light
 
 __all__ = ["LIGHT_TYPES", "light_of"]
@@ -16,7 +17,7 @@ def light_of(prim: Usd.Prim, time: Usd.TimeCode) -> Light:
     light = UsdLux.LightAPI(prim)
     sizes = [_number(prim, name, time) for name in ("inputs:width", "inputs:height", "inputs:radius", "inputs:length")]
     width, height, radius, length = sizes
-    red, green, blue = np.nan_to_num(np.asarray(light.GetColorAttr().Get(time), dtype=np.float64)).tolist()
+    ((red, green, blue),) = np.nan_to_num(numbers_of(light.GetColorAttr(), np.float64, width=3, time=time)).tolist()
     return Light(
         kind=str(prim.GetTypeName()),
         matrix=np.eye(4),
@@ -28,5 +29,5 @@ def light_of(prim: Usd.Prim, time: Usd.TimeCode) -> Light:
 
 
 def _number(prim: Usd.Prim, name: str, time: Usd.TimeCode) -> float:
-    value = prim.GetAttribute(name).Get(time) if prim.HasAttribute(name) else None
-    return float(np.clip(np.nan_to_num(float(value or 0.0)), -64, 1e9))
+    value = number_of(prim.GetAttribute(name), time) if prim.HasAttribute(name) else 0.0
+    return float(np.clip(np.nan_to_num(value), -64, 1e9))

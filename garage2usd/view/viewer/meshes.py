@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
+from garage2usd.stage.reading import numbers_of
 from garage2usd.view.viewer.solids import solid_faces
 
 __all__ = ["DRAWN_TYPES", "FaceSet", "Triangles", "display_colour", "face_sets", "triangles_of"]
@@ -100,9 +101,9 @@ def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "
     if prim.GetTypeName() != "Mesh":
         return _of_solid(prim, time)
     mesh = UsdGeom.Mesh(prim)
-    points = np.asarray(mesh.GetPointsAttr().Get(time) or (), dtype=np.float32).reshape(-1, 3)
-    counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get(time) or (), dtype=np.int64)
-    corners = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(time) or (), dtype=np.int64)
+    points = numbers_of(mesh.GetPointsAttr(), np.float32, width=3, time=time)
+    counts = numbers_of(mesh.GetFaceVertexCountsAttr(), np.int64, time=time)
+    corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64, time=time)
     if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(points):
         return None
     fans, face_of = _fans(counts)
@@ -132,8 +133,8 @@ def face_sets(prim: Usd.Prim, time: Usd.TimeCode) -> Iterator[FaceSet]:
     if not subsets:
         yield FaceSet(prim, None)
         return
-    faces_of = [np.asarray(UsdGeom.Subset(child).GetIndicesAttr().Get(time) or (), dtype=np.intp) for child in subsets]
-    count = len(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr().Get(time) or ())
+    faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp, time=time) for child in subsets]
+    count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64, time=time))
     for child, faces in zip(subsets, faces_of, strict=True):
         yield FaceSet(child, faces)
     rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
@@ -207,10 +208,11 @@ def _at_corners(
     fans: NDArray[np.int64],
     face_of: NDArray[np.int32] | None,
 ) -> NDArray[np.float32] | None:
-    """Values of a primvar at each corner of each triangle; None where their number does not fit."""
-    if values is None:
+    """Values of a primvar at each corner of each triangle; None where their kind or number does not fit."""
+    try:
+        found = np.asarray(values, dtype=np.float32).reshape(-1, width)
+    except (TypeError, ValueError):  # for no values too
         return None
-    found = np.asarray(values, dtype=np.float32).reshape(-1, width)
     tokens = UsdGeom.Tokens
     taken: NDArray[np.float32]
     if interpolation == tokens.faceVarying and len(found) == len(corners):
@@ -264,8 +266,10 @@ def _welded(
 def display_colour(prim: Usd.Prim, time: Usd.TimeCode) -> tuple[float, float, float] | None:
     """Mean of the colours that a prim without a material says of itself; None where it says none."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
-    values = primvar.Get(time) if primvar and primvar.HasValue() else None
-    if not values or primvar.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
+    if not primvar or primvar.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
         return None
-    red, green, blue = np.clip(np.nan_to_num(np.asarray(values, dtype=np.float64)), 0, 1).mean(axis=0).tolist()
+    values = numbers_of(primvar.GetAttr(), np.float64, width=3, time=time)
+    if not len(values):
+        return None
+    red, green, blue = np.clip(np.nan_to_num(values), 0, 1).mean(axis=0).tolist()
     return red, green, blue

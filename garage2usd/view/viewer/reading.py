@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.documents import read_json
+from garage2usd.documents import is_file, read_json
 from garage2usd.errors import StageError
 from garage2usd.stage.reading import metres_y_up
 from garage2usd.view.viewer.guides import lane_curves
@@ -64,7 +64,7 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
 def _ids(path: Path) -> dict[str, int]:
     """Instance id of each object by its path; empty without a table."""
     table = path.with_name(f"{path.stem}_labels.json")
-    if not table.exists():
+    if not is_file(table):
         return {}
     document = read_json(table, field="labels", max_bytes=_MOST_LABEL_BYTES)
     try:

@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
+from garage2usd.stage.reading import number_of
+
 __all__ = ["solid_faces"]
 
 _SIDES = 24
@@ -35,28 +37,30 @@ def solid_faces(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners | None:
 
 
 def _cube_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
-    return _cube(float(UsdGeom.Cube(prim).GetSizeAttr().Get(time)) / 2)
+    return _cube(number_of(UsdGeom.Cube(prim).GetSizeAttr(), time) / 2)
 
 
 def _plane_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
     plane = UsdGeom.Plane(prim)
-    return _plane(plane.GetWidthAttr().Get(time) / 2, plane.GetLengthAttr().Get(time) / 2, _axis(plane, time))
+    return _plane(
+        number_of(plane.GetWidthAttr(), time) / 2, number_of(plane.GetLengthAttr(), time) / 2, _axis(plane, time)
+    )
 
 
 def _sphere_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
-    return _revolved(_arc(float(UsdGeom.Sphere(prim).GetRadiusAttr().Get(time)), math.pi), 2)
+    return _revolved(_arc(number_of(UsdGeom.Sphere(prim).GetRadiusAttr(), time), math.pi), 2)
 
 
 def _cylinder_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
     cylinder = UsdGeom.Cylinder(prim)
-    radius, half = cylinder.GetRadiusAttr().Get(time), cylinder.GetHeightAttr().Get(time) / 2
+    radius, half = number_of(cylinder.GetRadiusAttr(), time), number_of(cylinder.GetHeightAttr(), time) / 2
     top = [(0.0, half, 0.0, 1.0), (radius, half, 0.0, 1.0), (radius, half, 1.0, 0.0)]
     return _revolved(top + _upside_down(top), _axis(cylinder, time))
 
 
 def _cone_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
     cone = UsdGeom.Cone(prim)
-    radius, height = cone.GetRadiusAttr().Get(time), cone.GetHeightAttr().Get(time)
+    radius, height = number_of(cone.GetRadiusAttr(), time), number_of(cone.GetHeightAttr(), time)
     slope = math.hypot(radius, height) or 1.0
     side, up = height / slope, radius / slope
     bottom = [(radius, -height / 2, 0.0, -1.0), (0.0, -height / 2, 0.0, -1.0)]
@@ -65,11 +69,12 @@ def _cone_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
 
 def _capsule_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
     capsule = UsdGeom.Capsule(prim)
-    radius, half = float(capsule.GetRadiusAttr().Get(time)), capsule.GetHeightAttr().Get(time) / 2
+    radius, half = number_of(capsule.GetRadiusAttr(), time), number_of(capsule.GetHeightAttr(), time) / 2
     top = [(r, y + half, nr, ny) for r, y, nr, ny in _arc(radius, math.pi / 2)]
     return _revolved(top + _upside_down(top), _axis(capsule, time))
 
 
+_AXES = {"X": 0, "Y": 1, "Z": 2}
 _MAKERS: dict[str, Callable[[Usd.Prim, Usd.TimeCode], _Corners]] = {
     "Cube": _cube_of,
     "Plane": _plane_of,
@@ -85,7 +90,7 @@ def _upside_down(profile: list[_Ring]) -> list[_Ring]:
 
 
 def _axis(shape: UsdGeom.Gprim, time: Usd.TimeCode) -> int:
-    return "XYZ".index(shape.GetAxisAttr().Get(time))
+    return _AXES.get(str(shape.GetAxisAttr().Get(time)), 2)
 
 
 def _cube(half: float) -> _Corners:

@@ -1,10 +1,11 @@
 """Materials of a stage as the few values that the viewer's surface takes."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from pxr import Sdf, Usd, UsdShade
+
+from garage2usd.stage.reading import number_of, numbers_of
 
 __all__ = ["PLAIN", "Surface", "surface_of"]
 
@@ -88,33 +89,34 @@ def surface_of(material: UsdShade.Material, time: Usd.TimeCode) -> Surface:
 def _colour(
     shader: UsdShade.Shader, name: str, default: Rgb, time: Usd.TimeCode
 ) -> tuple[Rgb, UsdShade.Shader | None, int]:
-    value, reader, channel = _input(shader, name, time)
+    given, reader, channel = _input(shader, name)
     if reader is not None:
         return (1.0, 1.0, 1.0), reader, channel
-    if value is None:
+    if given is None or not given.HasValue():
         return default, None, 0
-    red, green, blue = np.clip(np.nan_to_num(np.asarray(value, dtype=np.float64)), 0, 1e4).tolist()
+    ((red, green, blue),) = np.clip(np.nan_to_num(numbers_of(given, np.float64, width=3, time=time)), 0, 1e4).tolist()
     return (red, green, blue), None, 0
 
 
 def _number(
     shader: UsdShade.Shader, name: str, default: float, time: Usd.TimeCode
 ) -> tuple[float, UsdShade.Shader | None, int]:
-    value, reader, channel = _input(shader, name, time)
+    given, reader, channel = _input(shader, name)
     if reader is not None:
         return 1.0, reader, channel
-    number = default if value is None else float(np.clip(np.nan_to_num(float(value)), 0, 1))
-    return number, None, 0
+    if given is None or not given.HasValue():
+        return default, None, 0
+    return float(np.clip(np.nan_to_num(number_of(given, time)), 0, 1)), None, 0
 
 
-def _input(shader: UsdShade.Shader, name: str, time: Usd.TimeCode) -> tuple[Any, UsdShade.Shader | None, int]:
-    """Value of an input, or the texture reader that it comes from and which channel of it."""
+def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
+    """What holds an input's value, or the texture reader that it comes from and which channel of it."""
     given = shader.GetInput(name)
     if not given:
         return None, None, 0
     for attribute in given.GetValueProducingAttributes():
         if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
-            return attribute.Get(time), None, 0
+            return attribute, None, 0
         reader = UsdShade.Shader(attribute.GetPrim())
         if reader and reader.GetIdAttr().Get() == "UsdUVTexture":
             channel = {"r": 0, "g": 1, "b": 2, "a": 3}.get(UsdShade.Output(attribute).GetBaseName(), 0)
@@ -125,7 +127,8 @@ def _input(shader: UsdShade.Shader, name: str, time: Usd.TimeCode) -> tuple[Any,
 def _file(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
     if reader is None:
         return ""
-    value, _, _ = _input(reader, "file", time)
+    given, _, _ = _input(reader, "file")
+    value = None if given is None else given.Get(time)
     return value.resolvedPath if isinstance(value, Sdf.AssetPath) else ""
 
 
@@ -134,6 +137,6 @@ def _coordinate_name(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
     for attribute in given.GetValueProducingAttributes() if given else ():
         source = UsdShade.Shader(attribute.GetPrim())
         if source and source.GetIdAttr().Get() == "UsdPrimvarReader_float2":
-            value, _, _ = _input(source, "varname", time)
-            return str(value or "st")
+            named, _, _ = _input(source, "varname")
+            return str((named.Get(time) if named else None) or "st")
     return "st"

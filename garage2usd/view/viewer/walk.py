@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Usd, UsdGeom, UsdShade
 
+from garage2usd.stage.reading import numbers_of
 from garage2usd.stage.taxonomy import SQUARE_TAXONOMY, label_of
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
@@ -160,7 +161,7 @@ class StageWalk:
         """The points of an instancer, each an object."""
         instancer = UsdGeom.PointInstancer(prim)
         targets = instancer.GetPrototypesRel().GetForwardedTargets()
-        indices = np.asarray(instancer.GetProtoIndicesAttr().Get(self.time) or (), dtype=np.int64)
+        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64, time=self.time)
         transforms = instancer.ComputeInstanceTransformsAtTime(
             self.time, self.time, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
         )

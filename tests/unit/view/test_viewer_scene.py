@@ -336,3 +336,48 @@ def test_what_is_no_stage_is_refused_by_name(tmp_path, name, text, said):
     with pytest.raises(StageError, match=said) as refused:
         read_scene(open_stage(path), path)
     assert str(path) in str(refused.value)
+
+
+WORDS = Vt.TokenArray(["a", "b", "c"])
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        "/Things/Cube.size",
+        "/Things/Mesh.points",
+        "/Things/Mesh.faceVertexCounts",
+        "/Things/Mesh/Half.indices",
+        "/Things/Light.inputs:width",
+        "/Things/Light.inputs:color",
+        "/Paint/Shader.inputs:roughness",
+        "/Paint/Shader.inputs:diffuseColor",
+    ],
+)
+def test_values_of_another_kind_than_they_should_be_are_named(tmp_path, damaged):
+    stage = Usd.Stage.CreateNew(str(tmp_path / "values.usda"))
+    UsdGeom.Cube.Define(stage, "/Things/Cube").CreateSizeAttr(1.0)
+    mesh = UsdGeom.Mesh.Define(stage, "/Things/Mesh")
+    mesh.CreatePointsAttr([(0, 0, 0), (1, 0, 0), (0, 0, 1), (0, 1, 0)])
+    mesh.CreateFaceVertexCountsAttr([3, 3])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 0, 2, 3])
+    half = UsdGeom.Subset.Define(stage, "/Things/Mesh/Half")
+    half.CreateIndicesAttr([0])
+    light = UsdLux.RectLight.Define(stage, "/Things/Light")
+    light.CreateWidthAttr(1.0)
+    light.CreateColorAttr((1, 1, 1))
+    material = UsdShade.Material.Define(stage, "/Paint")
+    shader = UsdShade.Shader.Define(stage, "/Paint/Shader")
+    shader.CreateIdAttr("UsdPreviewSurface")
+    shader.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(0.5)
+    shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set((1, 0, 0))
+    material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+    UsdShade.MaterialBindingAPI.Apply(half.GetPrim()).Bind(material)
+    layer = stage.GetRootLayer()
+    read_scene(stage, tmp_path / "values.usda")
+    path = Sdf.Path(damaged)
+    prim = layer.GetPrimAtPath(path.GetPrimPath())
+    prim.RemoveProperty(layer.GetAttributeAtPath(path))
+    Sdf.AttributeSpec(prim, path.name, Sdf.ValueTypeNames.TokenArray).default = WORDS
+    with pytest.raises(StageError, match=f"{damaged} holds no numbers"):
+        read_scene(stage, tmp_path / "values.usda")
