@@ -29,11 +29,12 @@ texture_quality = "low"
 """
 PLAN = "#E###\n.=...\n.===.\n...=.\n###X#\n"
 ABSURD = (
-    0, -1, 1, 3, 10**6, -(10**18), 2**63, 10**400, 1e308, float("nan"), float("inf"), -0.0, "", "\0",
+    0, -1, 1, 3, 10**6 + 1, -(10**18), 2**63, 10**400, 1e308, float("nan"), float("inf"), -0.0, "", "\0",
     "../../../etc/passwd", "/etc/passwd",
     "/dev/zero", "x" * 100_000, [], {}, [[]], None, True, [10**6, 10**6], {"a": {"b": 1}}, "NaN", "🚗",
 )  # fmt: skip
-"""Values in the place of others. None is merely large: 1000 x 1000 squares are allowed, and take their time."""
+"""Values in the place of others. None is merely large: 1000 x 1000 squares and 10**6 episodes are allowed, and take
+their time."""
 ABSURD_WORDS = ("nan", "inf", "-inf", "1e999", "9" * 5000, "0x7f", "true", '"' + "x" * 100_000 + '"', "[" * 3000, "{}")
 ARGUMENTS = (
     ("--seed", "-1"), ("--seed", "9" * 30), ("--tape", "\x1b[31m"), ("--tape", "U" * 50_000), ("--output", "out"),
