@@ -7,6 +7,7 @@ import numpy as np
 from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, StallOutline, Subject
 from garage2usd.config import BayConfig, GarageConfig
+from garage2usd.driving.layout_garage import numbered_squares
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
@@ -26,7 +27,7 @@ def layout_subject(
     layout: Layout, graph: LaneGraph, config: GarageConfig, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
 ) -> Subject:
     """Everything that a layout tells; what only lies on the floor is left out."""
-    number = _numbers(graph)
+    number = numbered_squares(graph)
     lux = layout.illuminance
     return Subject(
         source=source,
@@ -46,7 +47,7 @@ def unlaid_subject(
     structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
 ) -> Subject:
     """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
-    number = _numbers(graph)
+    number = numbered_squares(graph)
     return Subject(
         source=source,
         kind=kind,
@@ -56,11 +57,6 @@ def unlaid_subject(
         structure=structure,
         faults=faults,
     )
-
-
-def _numbers(graph: LaneGraph) -> dict[Square, int]:
-    """Number of each lane and portal, in order."""
-    return {square: number for number, square in enumerate(sorted(graph.graph.nodes))}
 
 
 def _outline(stall: Stall, number: dict[Square, int]) -> StallOutline:

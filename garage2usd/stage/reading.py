@@ -14,7 +14,7 @@ from pxr import Sdf, Tf, Usd, UsdGeom
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
 
-__all__ = ["STAGE_SUFFIXES", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason", "usd_text"]
+__all__ = ["STAGE_SUFFIXES", "lacks", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason", "usd_text"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _DEFAULT_TIME = Usd.TimeCode.Default()
@@ -74,7 +74,7 @@ def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = _DEFAULT_TIME) -> f
     try:
         return float(0.0 if value is None else value)
     except (TypeError, ValueError, OverflowError):
-        raise _no_numbers(attribute) from None
+        raise lacks(attribute, "numbers") from None
 
 
 def numbers_of(
@@ -92,12 +92,13 @@ def numbers_of(
         numbers = np.asarray(() if value is None else value, dtype=dtype)
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
     except (TypeError, ValueError, OverflowError):
-        raise _no_numbers(attribute) from None
+        raise lacks(attribute, "numbers") from None
 
 
-def _no_numbers(attribute: Usd.Attribute) -> StageError:
+def lacks(attribute: Usd.Attribute, what: str) -> StageError:
+    """The error of an attribute that holds something else than it should."""
     file = attribute.GetStage().GetRootLayer().realPath
-    return StageError(file, f"{attribute.GetPath()} holds no numbers")
+    return StageError(file, f"{attribute.GetPath()} holds no {what}")
 
 
 def _open_layers(path: Path) -> list[Sdf.Layer]:

@@ -2,7 +2,7 @@
 
 from pxr import Usd, Vt
 
-from garage2usd.errors import StageError
+from garage2usd.stage.reading import lacks
 
 __all__ = ["LABELS", "LABELS_SCHEMA", "OBJECT_TAXONOMY", "SQUARE_TAXONOMY", "label_of", "labels_name", "labels_of"]
 
@@ -40,6 +40,5 @@ def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
     if labels is None:
         return ()
     if not isinstance(labels, Vt.TokenArray | Vt.StringArray):
-        file = attribute.GetStage().GetRootLayer().realPath
-        raise StageError(file, f"{attribute.GetPath()} holds no labels")
+        raise lacks(attribute, "labels")
     return tuple(map(str, labels))
