@@ -7,7 +7,7 @@ from pydantic import Field
 
 from garage2usd.settings import Settings
 
-__all__ = ["Agent", "Choice", "DeadEnds", "PlanConfig", "SarsaParameters", "UnreachableStalls"]
+__all__ = ["Agent", "Choice", "CirculationMode", "DeadEnds", "PlanConfig", "SarsaParameters", "UnreachableStalls"]
 
 
 class DeadEnds(StrEnum):
@@ -19,6 +19,17 @@ class DeadEnds(StrEnum):
     """There is none."""
     STANDARD = "standard"
     """One over 26 m keeps a turning stall free."""
+
+
+class CirculationMode(StrEnum):
+    """What is asked of the way traffic circulates."""
+
+    LOOPS = "loops"
+    """Short dead ends, at least one loop, lanes one square wide, and cross-aisles on large sites."""
+    ALLOW = "allow"
+    """Nothing: the score alone decides, and it rewards trees."""
+    PAPER = "paper"
+    """Nothing, and `DeadEnds.STANDARD` costs nothing either: the agent's own."""
 
 
 class Agent(StrEnum):
@@ -137,13 +148,27 @@ class PlanConfig(Settings):
     """Episodes of learning, of each start."""
     archive_size: int = Field(200, ge=1, le=10_000)
     """How many of the best plans are kept."""
-    climb: bool = True
-    """Polish the best plans by flips of single squares after learning."""
+    climb: bool | None = None
+    """Polish the best plans by flips of squares after learning; left out, except with the preset 'paper'."""
     climb_top: int = Field(40, ge=1, le=10_000)
     """How many of the best plans are polished."""
     dead_ends: DeadEnds = DeadEnds.STANDARD
     """'allow', 'forbid', or 'standard': a dead-end aisle over 26 m keeps a turning stall free, which the planner
     counts as one stall lost."""
+
+    circulation: CirculationMode | None = None
+    """'loops': every dead end is gone after `dead_end_cells` rounds of pruning (R1), there is a loop (R2), no block of
+    two by two lanes (R3), and no stretch without a junction longer than `longest_stretch_cells` (R4). 'allow': the
+    score alone decides. 'paper': the agent's own plans, without the cost of `dead_ends` = 'standard'. Left out, 'paper'
+    with the preset 'paper', else 'loops'."""
+    dead_end_cells: int = Field(2, ge=0, le=1000)
+    """R1: how many squares deep a dead end may be."""
+    longest_stretch_cells: int | None = Field(None, ge=0, le=1_000_000)
+    """R4: most squares of a stretch between two junctions or portals, 0 for any; left out, 12 on sites of 400 free
+    squares or more, else any."""
+    strict: bool = False
+    """Whether a site on which no plan keeps the rules of circulation is an error; else the report says which rules
+    gave way."""
 
     unreachable_stalls: UnreachableStalls = UnreachableStalls.KEEP
     """'keep', 'mark' or 'drop': stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and
@@ -201,6 +226,17 @@ class PlanConfig(Settings):
     """Actions in an episode, for each free square of the site."""
     starts: int | None = Field(None, ge=1, le=1000)
     """How often learning starts with nothing, each time for all episodes; the best plans of all starts are kept."""
+
+    @property
+    def polishes(self) -> bool:
+        """Whether plans are polished after learning."""
+        return self.preset != "paper" if self.climb is None else self.climb
+
+    @property
+    def circulation_mode(self) -> CirculationMode:
+        """What is asked of circulation: the user's choice, or the preset's."""
+        preset = CirculationMode.PAPER if self.preset == "paper" else CirculationMode.LOOPS
+        return self.circulation or preset
 
     def resolved(self, *, aisles: bool = False) -> SarsaParameters:
         """Every parameter with the user's value or the preset's, or that of the agent over aisles."""

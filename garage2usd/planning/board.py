@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.ground import Ground
+from garage2usd.planning.survey import survey
 
 __all__ = [
     "FAR",
@@ -15,6 +16,7 @@ __all__ = [
     "Board",
     "clear",
     "dead_ends",
+    "faults_cost",
     "flip",
     "lay",
     "mark_network",
@@ -45,6 +47,8 @@ class Board(NamedTuple):
     near
         int32: least `hops` of the lanes beside a free square, 0 at a portal that touches a lane; `mark_network` takes
         it for marks.
+    state
+        int32: what `survey` last told of each lane.
     queue
         int64: room for breadth-first searches.
     tally
@@ -56,6 +60,7 @@ class Board(NamedTuple):
     edges: NDArray[np.int8]
     hops: NDArray[np.int32]
     near: NDArray[np.int32]
+    state: NDArray[np.int32]
     queue: NDArray[np.int64]
     tally: NDArray[np.int64]
 
@@ -67,6 +72,7 @@ def new_board(ground: Ground) -> Board:
     return Board(
         ground.cells.copy(),
         np.zeros(size, np.int8),
+        np.zeros(size, np.int32),
         np.zeros(size, np.int32),
         np.zeros(size, np.int32),
         np.zeros(size, np.int64),
@@ -92,7 +98,7 @@ def clear(ground: Ground, board: Board) -> None:
 @compiled
 def lay(ground: Ground, board: Board, square: int) -> None:
     """Make a free square a lane, beside an entrance or a lane; keeps the tally."""
-    cells, edges, hops, near, queue, tally = board
+    cells, edges, hops, near, _, queue, tally = board
     stride = ground.stride
     stalls = ground.capacity[square, edges[square]]
     if stalls > 0:
@@ -207,7 +213,7 @@ def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
 
 @compiled
 def measure(ground: Ground, board: Board) -> float:
-    """Score y' less the cost of dead ends of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
+    """Score y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
     Unlike `lay` it keeps neither `edges` nor `near`.
 
@@ -260,10 +266,29 @@ def measure(ground: Ground, board: Board) -> float:
         unused += count == 0
     tally[_STALLS], tally[_TIME], tally[_UNUSED] = stalls, time, unused
     tally[_UNTOUCHED], tally[_LAID] = 0, lanes
-    value = value_now(ground, board)
+    return value_now(ground, board) - faults_cost(ground, board)
+
+
+@compiled
+def faults_cost(ground: Ground, board: Board) -> float:
+    """What the faults of the circulation on the lanes in `board.cells` cost beside the score; uses `state`, `queue`."""
+    cost, rules = 0.0, ground.rules
     if ground.dead_end_cost > 0:
-        value -= ground.dead_end_cost * dead_ends(ground, cells)
-    return value
+        cost += ground.dead_end_cost * dead_ends(ground, board.cells)
+    if rules.is_asked:
+        found = survey(
+            ground.squares,
+            ground.stride,
+            board.cells,
+            board.state,
+            board.queue,
+            rules.dead_end_squares,
+            rules.stretch_squares,
+        )
+        cost += rules.deep_cost * found.deep + rules.block_cost * found.blocks + rules.stretch_cost * found.excess
+        if found.loops < 1:
+            cost += rules.loopless_cost
+    return cost
 
 
 @compiled

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.config.plan import DeadEnds
+from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.grid import Cell, CellArray, Structure
+from garage2usd.planning.circulation import CirculationRules, rules_of
 from garage2usd.stalls import capacity_table
 
 __all__ = ["PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
@@ -44,6 +45,8 @@ class Ground(NamedTuple):
         What a dead-end aisle over `dead_end_limit_mm` costs beside the score.
     dead_end_limit_mm
         Length up to which a dead-end aisle is free.
+    rules
+        What is asked of circulation.
     """
 
     stride: int
@@ -56,9 +59,7 @@ class Ground(NamedTuple):
     weights: NDArray[np.float64]
     dead_end_cost: float
     dead_end_limit_mm: int
-
-
-_DEAD_END_COST = {DeadEnds.ALLOW: 0.0, DeadEnds.FORBID: 1000.0, DeadEnds.STANDARD: 1.0}
+    rules: CirculationRules
 
 
 def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
@@ -68,19 +69,22 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
     flat = cells.ravel()
     depths = np.broadcast_to(site.row_depths_mm[:, None], site.shape)
     widths = np.broadcast_to(site.column_widths_mm, site.shape)
+    squares = np.flatnonzero(flat == Cell.FREE)
+    # a turning stall lost, where rules leave no dead end that is so long
+    keeps_turning_stalls = plan.dead_ends is DeadEnds.STANDARD and plan.circulation_mode is CirculationMode.ALLOW
     entrances, exits = np.flatnonzero(flat == Cell.ENTRANCE), np.flatnonzero(flat == Cell.EXIT)
     return Ground(
         stride=cells.shape[1],
         cells=flat,
         capacity=_capacity_by_edges(site, bay),
         sides_mm=np.stack([np.pad(side, PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
-        squares=np.flatnonzero(flat == Cell.FREE),
+        squares=squares,
         entrances=entrances,
         portals=np.concatenate((entrances, exits)),
         weights=np.array([plan.stall_weight, plan.parking_time_weight, plan.unused_weight]),
-        dead_end_cost=_DEAD_END_COST[plan.dead_ends]
-        * (plan.stall_weight if plan.dead_ends is DeadEnds.STANDARD else 1),
-        dead_end_limit_mm=0 if plan.dead_ends is DeadEnds.FORBID else DEAD_END_LIMIT_MM,
+        dead_end_cost=plan.stall_weight if keeps_turning_stalls else 0.0,
+        dead_end_limit_mm=DEAD_END_LIMIT_MM,
+        rules=rules_of(plan, squares=len(squares)),
     )
 
 

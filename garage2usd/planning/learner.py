@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.config.plan import Agent, DeadEnds, SarsaParameters
+from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
 from garage2usd.grid import Cell, Structure
 from garage2usd.planning.ground import Ground, Lanes, ground_of
 from garage2usd.progress import Progress, silent
@@ -169,7 +169,9 @@ def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
     cells[-1, _NURSERY_SIDE // 3], cells[0, 2 * _NURSERY_SIDE // 3] = Cell.ENTRANCE, Cell.EXIT
     sides = np.median(ground.sides_mm[ground.squares], axis=0) / 1000
     small = ground_of(
-        Structure.from_arrays(cells, sides[1], sides[0]), bay=BayConfig(), plan=PlanConfig(dead_ends=DeadEnds.ALLOW)
+        Structure.from_arrays(cells, sides[1], sides[0]),
+        bay=BayConfig(),
+        plan=PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW),
     )
     # the usual stalls of this site, whatever its bays are
     return small._replace(

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.config.plan import DeadEnds
+from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.grid import Cell, Structure
 from garage2usd.planning.ground import Ground, cells_of, ground_of
@@ -71,7 +71,7 @@ def find_optimum(site: Structure, *, bay: BayConfig, known: Structure | None = N
     """
     if min(site.shape) > _MAX_COLS:
         raise ConfigError("site", f"{site.shape[0]} x {site.shape[1]} squares", f"a side of at most {_MAX_COLS}")
-    plan = PlanConfig(dead_ends=DeadEnds.ALLOW)
+    plan = PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW)
     best = known or plan_lanes(site, plan=plan, bay=bay, seed=0).structure
     turned = site.shape[1] > site.shape[0]
     upright = _turned(best) if turned else best

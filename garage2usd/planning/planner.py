@@ -85,7 +85,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     learnt_value = _score(ground, board, ranked[0][1]).value
-    if plan.climb:
+    if plan.polishes:
         ranked = (_drifted if by_aisles else _polished)(ground, board, ranked, plan, random)
     if plan.dead_ends is DeadEnds.FORBID:
         ranked = _without_dead_ends(ground, board, ranked)
@@ -121,7 +121,7 @@ def anneal_alone(
     ranked = _ranked(entry for lanes in given for entry in _repaired(ground, board, lanes))
     if not ranked:
         raise GenerationError("plan", "no way joins all portals", seed=seed, attempts=len(given))
-    if plan.climb:
+    if plan.polishes:
         ranked = (_drifted if uses_aisles(ground, plan) else _polished)(ground, board, ranked, plan, random)
     archive = _archived(site, ground, board, ranked, plan)
     return Plan(archive[0].structure, archive[0].score, archive)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.compiled import compiled
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, keep, next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, clear, dead_ends, lay, value_now
+from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
 from garage2usd.planning.ground import Ground
 
 __all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory"]
@@ -249,16 +249,14 @@ def learn(
             if p.archives_prefixes and kind == 0 and board.tally[_UNTOUCHED] == 0:
                 value = value_now(ground, board)
                 if value > best_value:
-                    if ground.dead_end_cost > 0:
-                        value -= ground.dead_end_cost * dead_ends(ground, cells)
+                    value -= faults_cost(ground, board)
                     if value > best_value:
                         best_value, best_lanes, best_step = value, lanes, step
         if row >= 0:
             memory.q[row, action] += p.alpha * (reward - memory.q[row, action])
         if not p.archives_prefixes and board.tally[_UNTOUCHED] == 0:
-            best_value, best_lanes, best_step = value_now(ground, board), lanes, step
-            if ground.dead_end_cost > 0:
-                best_value -= ground.dead_end_cost * dead_ends(ground, cells)
+            best_value = value_now(ground, board) - faults_cost(ground, board)
+            best_lanes, best_step = lanes, step
         if best_value > NO_VALUE:
             keep(ground, archive, laid[:best_lanes], best_value, tape[:best_step], start)
         curve[episode] = earned
