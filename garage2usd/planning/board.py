@@ -30,7 +30,7 @@ FAR = 1 << 28
 NO_VALUE = -1.0e9
 
 _ENTRANCE = 2
-_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID = 0, 1, 2, 3, 4
+_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID, _FAULTS = 0, 1, 2, 3, 4, 5
 
 
 class Board(NamedTuple):
@@ -52,8 +52,8 @@ class Board(NamedTuple):
     queue
         int64: room for breadth-first searches.
     tally
-        int64, shape (5,): stalls N_S, sum over stalls of (1 + hops), free squares without stalls U_S, portals that
-        touch no lane, lanes.
+        int64, shape (6,): stalls N_S, sum over stalls of (1 + hops), free squares without stalls U_S, portals that
+        touch no lane, lanes, and how often `faults_cost` last found a rule of circulation broken.
     """
 
     cells: NDArray[np.int8]
@@ -76,7 +76,7 @@ def new_board(ground: Ground) -> Board:
         np.zeros(size, np.int32),
         np.zeros(size, np.int32),
         np.zeros(size, np.int64),
-        np.zeros(5, np.int64),
+        np.zeros(6, np.int64),
     )
 
 
@@ -286,8 +286,10 @@ def faults_cost(ground: Ground, board: Board) -> float:
             rules.stretch_squares,
         )
         cost += rules.deep_cost * found.deep + rules.block_cost * found.blocks + rules.stretch_cost * found.excess
-        if found.loops < 1:
+        board.tally[_FAULTS] = found.deep + found.blocks + found.excess
+        if rules.asks_loop and found.loops < 1:
             cost += rules.loopless_cost
+            board.tally[_FAULTS] += 1
     return cost
 
 
