@@ -128,6 +128,11 @@ class BayConfig(Settings):
         return given
 
     @property
+    def chosen_sides(self) -> tuple[bool, bool]:
+        """Whether C, the depths of the rows, is chosen with the plan, and whether R, the widths of the columns, is."""
+        return self.dimensioned and self.row_depths_m is None, self.dimensioned and self.column_widths_m is None
+
+    @property
     def carriageway_setback_m(self) -> float:
         """How far the carriageway stays from squares that are no lane: half a column and a margin."""
         return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M

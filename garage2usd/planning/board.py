@@ -21,6 +21,7 @@ __all__ = [
     "lay",
     "mark_network",
     "measure",
+    "measure_above",
     "new_board",
     "stalls_at",
     "value_now",
@@ -215,6 +216,15 @@ def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
 def measure(ground: Ground, board: Board) -> float:
     """Score y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
+    See `measure_above`.
+    """
+    return measure_above(ground, board, -np.inf)
+
+
+@compiled
+def measure_above(ground: Ground, board: Board, least: float) -> float:
+    """What `measure` does, but a score below `least` is returned as it is, without a look at the faults.
+
     Unlike `lay` it keeps neither `edges` nor `near`.
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
@@ -266,7 +276,10 @@ def measure(ground: Ground, board: Board) -> float:
         unused += count == 0
     tally[_STALLS], tally[_TIME], tally[_UNUSED] = stalls, time, unused
     tally[_UNTOUCHED], tally[_LAID] = 0, lanes
-    return value_now(ground, board) - faults_cost(ground, board)
+    value = value_now(ground, board)
+    if value < least:
+        return value
+    return value - faults_cost(ground, board)
 
 
 @compiled

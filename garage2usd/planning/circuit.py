@@ -10,14 +10,15 @@ from garage2usd.compiled import compiled
 from garage2usd.planning.archive import below, next_random, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, measure, stalls_at
 from garage2usd.planning.ground import Ground
+from garage2usd.planning.sizes import Sizes, driven_ways, floor_cost, foresee, resize, settle, side_now, sync, weigh
 from garage2usd.planning.survey import survey
 
 __all__ = ["Draft", "anneal_labels", "new_draft", "trim"]
 
-_MOVED = 64
+_MOVED = 400
 _SEARCHED = 800
 _CONNECTOR, _PATH, _RUN = 6, 20, 40
-_STRETCH_SHARE = 0.3
+_RESIZED = 0.02
 _N, _TIME, _UNUSED, _BAD, _BLOCKS, _EXCESS = 0, 1, 2, 3, 4, 5
 
 
@@ -38,8 +39,10 @@ class Draft(NamedTuple):
         int8: labels after and before the move.
     old_hops
         int32: hops of the moved squares before it.
+    lines
+        int64, shape (K, 2): axis and number of the lines that get another side by a move.
     size
-        int64, shape (2,): how many squares are moved, and how many are around.
+        int64, shape (3,): how many squares are moved, how many are around, and how many lines get another side.
     tally
         int64, shape (6,): stalls, time, unused squares, faults of labels, blocks, squares too long.
     change
@@ -55,6 +58,7 @@ class Draft(NamedTuple):
     fresh: NDArray[np.int8]
     old: NDArray[np.int8]
     old_hops: NDArray[np.int32]
+    lines: NDArray[np.int64]
     size: NDArray[np.int64]
     tally: NDArray[np.int64]
     change: NDArray[np.int64]
@@ -73,7 +77,8 @@ def new_draft(ground: Ground) -> Draft:
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int32),
-        np.zeros(2, np.int64),
+        np.zeros((10 * _MOVED, 2), np.int64),
+        np.zeros(3, np.int64),
         np.zeros(6, np.int64),
         np.zeros(6, np.int64),
     )
@@ -256,6 +261,49 @@ def _revert(board: Board, draft: Draft) -> None:
 
 
 @compiled
+def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> None:
+    """Count where cars drive around a move into the lines, or take it off."""
+    for index in range(draft.size[1]):
+        q = draft.around[index]
+        if board.cells[q] >= 1:
+            ways = driven_ways(board.cells, stride, q)
+            sizes.driven[0, q // stride] += sign * (ways & 1)
+            sizes.driven[1, q % stride] += sign * (ways >> 1)
+
+
+@compiled
+def _weigh_lines(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
+    """Find the lines around a move that get another side by it, and what that changes; returns the floor added in m2.
+
+    Each line is weighed alone; where two of them cross, the next measurement of the whole sets it right.
+    """
+    draft.size[2] = 0
+    area = 0.0
+    for index in range(draft.size[1]):
+        q = draft.around[index]
+        for axis in range(2):
+            line = q // ground.stride if axis == 0 else q % ground.stride
+            if not sizes.is_chosen[axis] or side_now(sizes, axis, line) == sizes.actual_mm[axis, line]:
+                continue
+            is_new = True
+            for place in range(draft.size[2]):
+                is_new &= draft.lines[place, 0] != axis or draft.lines[place, 1] != line
+            if is_new:
+                draft.lines[draft.size[2], 0], draft.lines[draft.size[2], 1] = axis, line
+                draft.size[2] += 1
+                area += weigh(ground, board, sizes, axis, line, side_now(sizes, axis, line), draft.change)
+    return area
+
+
+@compiled
+def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
+    """Give the lines that a move has weighed their new sides."""
+    for place in range(draft.size[2]):
+        axis, line = draft.lines[place]
+        resize(ground, sizes, axis, line, side_now(sizes, axis, line))
+
+
+@compiled
 def _joined(ground: Ground, board: Board, draft: Draft) -> int:
     """Whether the lanes still form one piece after the move: 1 yes, 0 no, -1 if the search would take too long."""
     cells, stride, queue = board.cells, ground.stride, draft.queue
@@ -404,7 +452,7 @@ def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
         if label[p] > 1:
             _add(draft, p, 1)
         return 4
-    if draw < 0.95:  # a path between two junctions goes, but for dead ends
+    if draw < 0.94:  # a path between two junctions goes, but for dead ends
         if label[q] != 1 or _through(cells, label, stride, q) != 2:
             return -1
         ends = np.zeros(2, np.int64)
@@ -447,6 +495,8 @@ def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
                     if label[p] > 1 and not _drop(ground, draft, p):
                         return -1
         return 5
+    if draw < 0.97:
+        return _shift_line(ground, board, draft, random, q, step)
     # a straight run shifts to the side
     if label[q] != 1:
         return -1
@@ -474,6 +524,39 @@ def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
         _add(draft, p + step, 1)
         p += side
     return 6
+
+
+@compiled
+def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> int:
+    """Shift all lanes of a line along which cars drive to the side, with the ends of what they join."""
+    cells, label, stride = board.cells, draft.label, ground.stride
+    along = 1 if step in (-stride, stride) else stride
+    if label[start] != 1 or not (label[start - along] == 1 or label[start + along] == 1):
+        return -1
+    keeps_ends = ground.rules.dead_end_squares > 0 and uniform(random) < 0.3
+    first, last = start, start
+    while cells[first - along] >= 0 and cells[first - along] < 2:
+        first -= along
+    while cells[last + along] >= 0 and cells[last + along] < 2:
+        last += along
+    p = first
+    while p != last + along:
+        if label[p] == 1 and (label[p - along] == 1 or label[p + along] == 1):
+            fresh = p + step
+            if cells[fresh] == 0 and not _add(draft, fresh, 1):
+                return -1
+            if cells[fresh] < 0 or cells[fresh] > 1:
+                p += along
+                continue
+            behind = p - step
+            if label[behind] == 0 and cells[behind] <= 0:
+                if cells[fresh] == 1 and keeps_ends:
+                    if not _add(draft, p, 2):
+                        return -1
+                elif not _add(draft, p, 0):
+                    return -1
+        p += along
+    return 7 if draft.size[0] > 0 else -1
 
 
 @compiled
@@ -511,7 +594,13 @@ def trim(ground: Ground, board: Board) -> None:
     cells, rules = board.cells, ground.rules
     while True:
         found = survey(
-            ground.squares, ground.stride, cells, board.state, board.queue, rules.dead_end_squares, rules.stretch_squares
+            ground.squares,
+            ground.stride,
+            cells,
+            board.state,
+            board.queue,
+            rules.dead_end_squares,
+            rules.stretch_squares,
         )
         if found.deep == 0:
             return
@@ -534,14 +623,44 @@ def trim(ground: Ground, board: Board) -> None:
 
 
 @compiled
-def _tally(ground: Ground, board: Board, draft: Draft) -> float:
-    """Measure the whole board into the draft's tally; its value without faults, NO_VALUE if infeasible."""
+def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
+    """Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible."""
+    sync(ground, board, sizes)
     exact = measure(ground, board)
     if exact == NO_VALUE:
         return NO_VALUE
     tally = draft.tally
     tally[_N], tally[_TIME], tally[_UNUSED] = board.tally[0], board.tally[1], board.tally[2]
-    return exact
+    if sizes.is_chosen[0] or sizes.is_chosen[1]:
+        foresee(ground, board, sizes)
+    return exact - floor_cost(sizes)
+
+
+@compiled
+def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> float:
+    """What a move adds to the value, less the price of the faults that it adds; very little if no stall is left."""
+    change, tally, weights = draft.change, draft.tally, ground.weights
+    stalls = tally[_N] + change[_N]
+    if stalls <= 0:
+        return NO_VALUE
+    gain = weights[0] * change[_N] + weights[2] * change[_UNUSED]
+    gain += weights[1] * ((tally[_TIME] + change[_TIME]) / stalls - tally[_TIME] / max(1, tally[_N]))
+    return gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS]
+
+
+@compiled
+def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
+    """More than the lines around a move are likely to gain by other sides, to leave most of them unweighed."""
+    hope = 0.0
+    for index in range(draft.size[1]):
+        q = draft.around[index]
+        for axis in range(2):
+            line = q // ground.stride if axis == 0 else q % ground.stride
+            if sizes.is_chosen[axis] and side_now(sizes, axis, line) != sizes.actual_mm[axis, line]:
+                hint = sizes.hint[axis, line]
+                # squares around a move lie on a line more than once: what is feared counts but for one of them
+                hope += hint + 0.2 * abs(hint) + 2.0 if hint > 0 else (0.8 * hint + 2.0) / draft.size[1]
+    return hope
 
 
 @compiled
@@ -549,18 +668,19 @@ def anneal_labels(
     ground: Ground,
     board: Board,
     draft: Draft,
+    sizes: Sizes,
     random: NDArray[np.uint64],
     trials: int,
     heats: tuple[float, float],
-    prices: tuple[float, float],
+    prices: tuple[float, float, float, float],
     refresh: int,
 ) -> float:
     """Anneal the feasible lanes in `board.cells` under the rules; leaves the best that keeps them and returns its value.
 
     Parameters
     ----------
-    ground, board, draft
-        The site, its lanes, and room for labels.
+    ground, board, draft, sizes
+        The site, its lanes, room for labels, and the sides of the squares.
     random
         State of the random numbers.
     trials
@@ -568,7 +688,7 @@ def anneal_labels(
     heats
         Temperature at first and at last, in stalls.
     prices
-        What a fault costs at first and at last, in stalls.
+        What a fault costs at first and at last, and a square that a stretch is too long, in stalls.
     refresh
         Trials between two measurements of the whole.
 
@@ -578,33 +698,41 @@ def anneal_labels(
     label asks for around it, pruning ends within the rounds of R1. So R1 and R3 are judged around a move, R4 along
     the stretches that it touches. T_S is followed by the distances of the last measurement.
     """
-    cells, weights, tally, change, rules = board.cells, ground.weights, draft.tally, draft.change, ground.rules
+    cells, tally, change, rules = board.cells, draft.tally, draft.change, ground.rules
     best_faults = np.int64(1 << 30)
     best, best_cells, copy = NO_VALUE, cells.copy(), cells.copy()
     cooling = (heats[1] / heats[0]) ** (1.0 / max(1, trials))
     pricing = (prices[1] / prices[0]) ** (1.0 / max(1, trials))
-    heat, price = heats[0], prices[0]
+    heat, price, stretch_price = heats[0], prices[0], prices[2]
+    stretch_pricing = (prices[3] / prices[2]) ** (1.0 / max(1, trials))
+    is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
     _label_lanes(ground, board, draft)
-    _tally(ground, board, draft)
+    if is_sized:
+        measure(ground, board)
+        settle(ground, board, sizes, 2)
+    _tally(ground, board, draft, sizes)
     changed = 1
     for trial in range(trials + 1):
         if trial == trials or (trial % refresh == refresh - 1 and changed > 0):
             changed = 0
             copy[:] = cells
-            measured = _tally(ground, board, draft)
             if rules.is_asked:
                 trim(ground, board)
-                measured = measure(ground, board)
+            measured = _tally(ground, board, draft, sizes)
             faults = board.tally[5]
             if faults < best_faults or (faults == best_faults and measured > best):
                 best, best_faults = measured, faults
                 best_cells[:] = cells
             cells[:] = copy
-            _tally(ground, board, draft)
+            _tally(ground, board, draft, sizes)
             if trial == trials:
                 break
         heat *= cooling
         price *= pricing
+        stretch_price *= stretch_pricing
+        if is_sized and uniform(random) < _RESIZED:
+            _try_side(ground, board, draft, sizes, random, heat)
+            continue
         kind = _propose(ground, board, draft, random)
         if kind < 0:
             continue
@@ -614,26 +742,56 @@ def anneal_labels(
         looks_far = rules.stretch_squares > 0 and kind != 2
         if looks_far:
             change[_EXCESS] -= _excess_around(ground, board, draft)
+        floor = 0.0
+        if is_sized:
+            _drive(board, draft, sizes, ground.stride, -1)
         _apply(ground, board, draft)
         _count(ground, board, draft, 1)
+        if is_sized:
+            _drive(board, draft, sizes, ground.stride, 1)
         if looks_far:
             change[_EXCESS] += _excess_around(ground, board, draft)
         accepted = False
-        stalls = tally[_N] + change[_N]
-        if stalls > 0:
-            gain = weights[0] * change[_N] + weights[2] * change[_UNUSED]
-            gain += weights[1] * ((tally[_TIME] + change[_TIME]) / stalls - tally[_TIME] / max(1, tally[_N]))
-            gain -= price * (change[_BAD] + change[_BLOCKS]) + rules.stretch_cost * _STRETCH_SHARE * price * change[_EXCESS]
-            if gain >= heat * np.log(max(uniform(random), 1e-300)):
-                accepted = _joined(ground, board, draft) == 1
+        threshold = heat * np.log(max(uniform(random), 1e-300))
+        draft.size[2] = 0
+        if is_sized and _gain(ground, draft, price, stretch_price) + _hope(ground, draft, sizes) >= threshold:
+            floor = _weigh_lines(ground, board, draft, sizes)
+        if _gain(ground, draft, price, stretch_price) - sizes.price[0] * floor >= threshold:
+            accepted = _joined(ground, board, draft) == 1
         if accepted:
             changed += 1
+            if is_sized:
+                _resize_lines(ground, draft, sizes)
             tally[:3] += change[:3]
             if kind >= 5:  # distances change far around
                 changed = 0
-                if _tally(ground, board, draft) == NO_VALUE:
+                if _tally(ground, board, draft, sizes) == NO_VALUE:
                     return NO_VALUE
         else:
+            if is_sized:
+                _drive(board, draft, sizes, ground.stride, -1)
             _revert(board, draft)
+            if is_sized:
+                _drive(board, draft, sizes, ground.stride, 1)
     cells[:] = best_cells
-    return measure(ground, board)
+    return _tally(ground, board, draft, sizes)
+
+
+@compiled
+def _try_side(
+    ground: Ground, board: Board, draft: Draft, sizes: Sizes, random: NDArray[np.uint64], heat: float
+) -> None:
+    """Give a line along which no car drives another side, if that pays."""
+    axis = below(random, 2)
+    line = below(random, len(board.cells) // ground.stride if axis == 0 else ground.stride)
+    side = sizes.free_mm[below(random, len(sizes.free_mm))]
+    if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0 or side == sizes.kept_mm[axis, line]:
+        return
+    change, tally = draft.change, draft.tally
+    change[:] = 0
+    fitted = max(side, sizes.least_mm[axis, line])
+    area = weigh(ground, board, sizes, axis, line, fitted, change)
+    if _gain(ground, draft, 0.0, 0.0) - sizes.price[0] * area >= heat * np.log(max(uniform(random), 1e-300)):
+        sizes.kept_mm[axis, line] = side
+        resize(ground, sizes, axis, line, fitted)
+        tally[:3] += change[:3]

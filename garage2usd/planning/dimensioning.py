@@ -1,6 +1,5 @@
 """Sizes of the squares of a plan: widths of columns and depths of rows that park most cars on least floor."""
 
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,7 +7,7 @@ from garage2usd.config import BayConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure, outside_squares
 from garage2usd.stalls import capacity_table, square_capacity
 
-__all__ = ["area_per_stall_m2", "dimension"]
+__all__ = ["aisle_side_mm", "area_per_stall_m2", "dimension", "dimensioned", "free_sides_mm"]
 
 _MM_PER_M = 1000
 _MM2_PER_M2 = _MM_PER_M**2
@@ -49,12 +48,8 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     one line after the other takes the size that lowers the area per stall, until none does. A line's trial changes
     only its own squares, so that only these are counted again.
     """
-    aisle = round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
+    aisle, free_sizes = aisle_side_mm(bay), free_sides_mm(bay)
     door = round(bay.portal_side_m * _MM_PER_M)
-    length, width, column = (
-        round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.column_size_m)
-    )
-    free_sizes = sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
     is_aisle = [driven.any(axis=axis) for driven, axis in zip(_driven(structure.cells), (1, 0), strict=True)]
     has_door = _crossed_by_doors(structure.cells)
 
@@ -79,6 +74,25 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
         if not any([sized.improve(*line) for line in open_lines]):
             break
     return Structure(structure.cells, sized.side_mm(1), sized.side_mm(0))
+
+
+def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
+    """The same S with R and C chosen where the settings say so, each where none is given."""
+    rows, columns = bay.chosen_sides
+    return dimension(structure, bay=bay, rows=rows, columns=columns) if rows or columns else structure
+
+
+def aisle_side_mm(bay: BayConfig) -> int:
+    """Side across an aisle of a line of squares."""
+    return round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
+
+
+def free_sides_mm(bay: BayConfig) -> list[int]:
+    """Sides of lines of squares along which no car drives, ascending: a stall's length, two and three stalls' widths."""
+    length, width, column = (
+        round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.column_size_m)
+    )
+    return sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
 
 
 class _Sized:

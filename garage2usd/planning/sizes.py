@@ -9,15 +9,28 @@ from numpy.typing import NDArray
 from garage2usd.compiled import compiled
 from garage2usd.config import BayConfig
 from garage2usd.grid import Cell
-from garage2usd.planning.board import Board, stalls_at
+from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
 from garage2usd.planning.ground import Ground
 
-__all__ = ["ALONG_X", "ALONG_Z", "Sizes", "driven_ways", "resize", "settle", "sizes_of", "sync"]
+__all__ = [
+    "ALONG_X",
+    "ALONG_Z",
+    "Sizes",
+    "driven_ways",
+    "floor_cost",
+    "foresee",
+    "resize",
+    "settle",
+    "side_now",
+    "sizes_of",
+    "sync",
+    "weigh",
+]
 
 ALONG_X, ALONG_Z = 1, 2
 _STALLS, _TIME, _UNUSED = 0, 1, 2
-_MM2_PER_M2 = 1.0e6
+_MM_PER_M, _MM2_PER_M2 = 1000, 1.0e6
 
 
 class Sizes(NamedTuple):
@@ -39,12 +52,16 @@ class Sizes(NamedTuple):
         int64, shape (2, lines): its side now.
     driven
         int64, shape (2, lines): on how many of its squares cars drive along it.
+    least_mm
+        int64, shape (2, lines): the least side of lines with a vehicle door across their end.
     is_floor
         bool, shape (padded,): squares inside the contour that are no obstacle.
     area_m2
         float64, shape (1,): floor of all those squares.
+    hint
+        float64, shape (2, lines): what a line is likely to gain, in stalls, if cars begin or cease to drive along it.
     price
-        What a square metre of floor costs, in stalls; 0 where no side is chosen.
+        float64, shape (1,): what a square metre of floor costs, in stalls; 0 where no side is chosen.
     """
 
     is_chosen: NDArray[np.bool_]
@@ -54,8 +71,10 @@ class Sizes(NamedTuple):
     kept_mm: NDArray[np.int64]
     actual_mm: NDArray[np.int64]
     driven: NDArray[np.int64]
+    least_mm: NDArray[np.int64]
     is_floor: NDArray[np.bool_]
     area_m2: NDArray[np.float64]
+    hint: NDArray[np.float64]
     price: NDArray[np.float64]
 
 
@@ -66,7 +85,7 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
     lines = max(rows, ground.stride)
     actual = np.zeros((2, lines), np.int64)
     actual[0, :rows], actual[1, : ground.stride] = sides[:, :, 0].max(axis=1), sides[:, :, 1].max(axis=0)
-    is_chosen = np.array([bay.row_depths_m is None, bay.column_widths_m is None]) & bay.is_dimensioned
+    is_chosen = np.array(bay.chosen_sides)
     kept = actual.copy()
     kept[is_chosen] = free_sides_mm(bay)[-1]
     stall = np.array([round(side * 1000) for side in (bay.stall_width_m, bay.stall_length_m, bay.column_size_m)])
@@ -78,10 +97,25 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
         kept,
         actual,
         np.zeros((2, lines), np.int64),
+        _door_sides(ground, bay, lines),
         ground.cells != Cell.OBSTACLE,
         np.zeros(1),
+        np.zeros((2, lines)),
         np.zeros(1),
     )
+
+
+def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> NDArray[np.int64]:
+    """Least sides of the lines that end in a portal on the border of the site's squares."""
+    least = np.zeros((2, lines), np.int64)
+    door = round(bay.portal_side_m * _MM_PER_M)
+    for portal in ground.portals.tolist():
+        row, col = divmod(portal, ground.stride)
+        if Cell.OBSTACLE in {ground.cells[portal - ground.stride], ground.cells[portal + ground.stride]}:
+            least[1, col] = door
+        else:
+            least[0, row] = door
+    return least
 
 
 @compiled
@@ -99,19 +133,26 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
 
 
 @compiled
+def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
+    """Stalls on a square by its sides and the edges that are open to lanes, as `garage2usd.stalls` counts them."""
+    stall_width, stall_length, column = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
+    x, z = edges & 3, edges >> 2
+    along_x, along_z = 0, 0
+    if x != 0 and depth >= stall_length:
+        rows = 2 if x == 3 and depth >= 2 * stall_length else 1
+        along_x = rows * (max(width - column, 0) // stall_width)
+    if z != 0 and width >= stall_length:
+        rows = 2 if z == 3 and width >= 2 * stall_length else 1
+        along_z = rows * (max(depth - column, 0) // stall_width)
+    return max(along_x, along_z)
+
+
+@compiled
 def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
     """Write what a square holds by its open edges into `ground.capacity`."""
     depth, width = sizes.actual_mm[0, q // ground.stride], sizes.actual_mm[1, q % ground.stride]
-    stall_width, stall_length, column = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
-    single_x = max(width - column, 0) // stall_width if depth >= stall_length else 0
-    single_z = max(depth - column, 0) // stall_width if width >= stall_length else 0
-    double_x = 2 * single_x if depth >= 2 * stall_length else single_x
-    double_z = 2 * single_z if width >= 2 * stall_length else single_z
     for edges in range(16):
-        x, z = edges & 3, edges >> 2
-        along_x = 0 if x == 0 else (double_x if x == 3 else single_x)
-        along_z = 0 if z == 0 else (double_z if z == 3 else single_z)
-        ground.capacity[q, edges] = max(along_x, along_z)
+        ground.capacity[q, edges] = _fits(sizes, depth, width, edges)
 
 
 @compiled
@@ -123,29 +164,51 @@ def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
 
 
 @compiled
-def resize(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int, change: NDArray[np.int64]) -> float:  # noqa: E501
-    """Give a line another side; adds what stalls, time and unused squares change by, returns the floor added in m2."""
+def weigh(
+    ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int, change: NDArray[np.int64]
+) -> float:
+    """What another side of a line would change: added to stalls, time and unused squares; returns the floor in m2."""
+    cells, stride = board.cells, ground.stride
+    first, step, last = _line(ground, axis, line)
+    across = 0
+    for index in range((last - first + step - 1) // step):
+        q = first + index * step
+        if not sizes.is_floor[q]:
+            continue
+        # the place on a line is the number of the line across
+        other = sizes.actual_mm[1 - axis, index]
+        across += other
+        if cells[q] != 0:
+            continue
+        edges, near = 0, FAR
+        for way in range(4):
+            p = q + (-stride, stride, -1, 1)[way]
+            if cells[p] == 1:
+                edges |= 1 << way
+                near = min(near, board.hops[p])
+        if edges == 0:
+            continue
+        before = ground.capacity[q, edges]
+        after = _fits(sizes, side_mm if axis == 0 else other, other if axis == 0 else side_mm, edges)
+        change[_STALLS] += after - before
+        change[_TIME] += (after - before) * (1 + near)
+        change[_UNUSED] += (after == 0) - (before == 0)
+    return (side_mm - sizes.actual_mm[axis, line]) * across / _MM2_PER_M2
+
+
+@compiled
+def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> None:
+    """Give a line another side."""
     first, step, last = _line(ground, axis, line)
     longer = side_mm - sizes.actual_mm[axis, line]
-    area = 0.0
-    for sign in (-1, 1):
-        if sign == 1:
-            sizes.actual_mm[axis, line] = side_mm
-        for q in range(first, last, step):
-            if not sizes.is_floor[q]:
-                continue
-            if sign == 1:
-                _set_capacity(ground, sizes, q)
-                across = sizes.actual_mm[1, q % ground.stride] if axis == 0 else sizes.actual_mm[0, q // ground.stride]
-                area += longer * across / _MM2_PER_M2
-            if board.cells[q] == 0:
-                count, near = stalls_at(ground, board, q)
-                change[_STALLS] += sign * count
-                change[_UNUSED] += sign * (count == 0)
-                if count > 0:
-                    change[_TIME] += sign * count * (1 + near)
-    sizes.area_m2[0] += area
-    return area
+    sizes.actual_mm[axis, line] = side_mm
+    across = 0
+    for index in range((last - first + step - 1) // step):
+        q = first + index * step
+        if sizes.is_floor[q]:
+            _set_capacity(ground, sizes, q)
+            across += sizes.actual_mm[1 - axis, index]
+    sizes.area_m2[0] += longer * across / _MM2_PER_M2
 
 
 @compiled
@@ -162,24 +225,50 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
             ways = driven_ways(board.cells, stride, q)
             sizes.driven[0, q // stride] += ways & ALONG_X
             sizes.driven[1, q % stride] += ways >> 1
-    changed = sizes.area_m2[0] == 0
+    is_new = sizes.area_m2[0] == 0
     for axis in range(2):
         if not sizes.is_chosen[axis]:
             continue
-        count = len(board.cells) // stride if axis == 0 else stride
-        for line in range(count):
-            side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
-            if side != sizes.actual_mm[axis, line]:
+        for line in range(len(board.cells) // stride if axis == 0 else stride):
+            side = side_now(sizes, axis, line)
+            if side == sizes.actual_mm[axis, line]:
+                continue
+            if is_new:
                 sizes.actual_mm[axis, line] = side
-                changed = True
-    if not changed:
-        return
-    area = 0.0
-    for q in range(stride, len(board.cells) - stride):
-        if sizes.is_floor[q]:
-            _set_capacity(ground, sizes, q)
-            area += sizes.actual_mm[0, q // stride] * sizes.actual_mm[1, q % stride] / _MM2_PER_M2
-    sizes.area_m2[0] = area
+            else:
+                resize(ground, sizes, axis, line, side)
+    if is_new:
+        for q in range(stride, len(board.cells) - stride):
+            if sizes.is_floor[q]:
+                _set_capacity(ground, sizes, q)
+                sizes.area_m2[0] += sizes.actual_mm[0, q // stride] * sizes.actual_mm[1, q % stride] / _MM2_PER_M2
+
+
+@compiled
+def side_now(sizes: Sizes, axis: int, line: int) -> int:
+    """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
+    side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
+    return max(side, sizes.least_mm[axis, line])
+
+
+@compiled
+def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
+    """Set `hint`, from the hops of the board's lanes."""
+    change = np.zeros(3, np.int64)
+    for axis in range(2):
+        if not sizes.is_chosen[axis]:
+            continue
+        for line in range(len(board.cells) // ground.stride if axis == 0 else ground.stride):
+            other = sizes.aisle_mm if sizes.driven[axis, line] == 0 else sizes.kept_mm[axis, line]
+            change[:] = 0
+            area = weigh(ground, board, sizes, axis, line, max(other, sizes.least_mm[axis, line]), change)
+            sizes.hint[axis, line] = ground.weights[0] * change[_STALLS] - sizes.price[0] * area
+
+
+@compiled
+def floor_cost(sizes: Sizes) -> float:
+    """What the floor costs, in stalls."""
+    return sizes.price[0] * sizes.area_m2[0]
 
 
 @compiled
@@ -198,13 +287,13 @@ def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
             for line in range(count):
                 if sizes.driven[axis, line] > 0:
                     continue
-                best, kept = 0.0, sizes.actual_mm[axis, line]
-                change[:] = 0
-                area = 0.0
+                best, kept = 0.0, sizes.kept_mm[axis, line]
                 for side in sizes.free_mm:
-                    area += resize(ground, board, sizes, axis, line, side, change)
+                    change[:] = 0
+                    area = weigh(ground, board, sizes, axis, line, max(side, sizes.least_mm[axis, line]), change)
                     gain = change[_STALLS] - sizes.price[0] * area
                     if gain > best + 1e-9:
                         best, kept = gain, side
-                resize(ground, board, sizes, axis, line, kept, change)
                 sizes.kept_mm[axis, line] = kept
+                if side_now(sizes, axis, line) != sizes.actual_mm[axis, line]:
+                    resize(ground, sizes, axis, line, side_now(sizes, axis, line))
