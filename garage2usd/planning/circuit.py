@@ -708,6 +708,7 @@ def anneal_labels(
     is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
     _label_lanes(ground, board, draft)
     if is_sized:
+        sync(ground, board, sizes)
         measure(ground, board)
         settle(ground, board, sizes, 2)
     _tally(ground, board, draft, sizes)

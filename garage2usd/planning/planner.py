@@ -28,7 +28,8 @@ __all__ = ["anneal_alone", "plan_lanes"]
 
 _CLIMB_PASSES = 40
 _ANNEALED = 6
-_ANNEAL_SQUARES, _FULL_EPISODES = 36_000_000, 5000
+_ANNEAL_SQUARES, _FULL_EPISODES = 6_000_000, 5000
+_SMALL_SQUARES, _ANNEALED_MIDDLE, _ANNEAL_SQUARES_MIDDLE = 120, 4, 48_000_000
 _HOTTEST, _COLDEST = 3.0, 0.5
 _CLIMB_SQUARES = 40_000_000
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
@@ -36,6 +37,8 @@ _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 _LARGE_SQUARES = 1000
 _LABELLED, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 3, 800_000, 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), (4.0, 40.0, 5.0, 20.0)
+_WHOLE_SQUARES = 250
+"""Up to so many squares annealing that judges each flip by the whole plan still gains on what labels reach."""
 _FINALISTS, _MOSTLY_COMMON = 12, 0.9
 _STALL_M2 = 25.0
 """About the floor that a stall takes in a good plan: the price of floor while plans are polished in metres."""
@@ -220,27 +223,69 @@ def _polished(
     random: NDArray[np.uint64],
 ) -> list[tuple[float, Lanes]]:
     """The best climbed by flips, the best of those annealed, and the rest as they were; best first."""
-    from garage2usd.planning.polish import anneal, climb, worth  # noqa: PLC0415
+    from garage2usd.planning.polish import climb  # noqa: PLC0415
+
+    ranked = _valued(ground, board, sizes, ranked)
+    affordable = max(1, _CLIMB_SQUARES // (20 * len(ground.squares) ** 2))
+    count = min(plan.climb_top, affordable)
+    ranked = _improved(
+        ground, board, ranked, ranked[:count], lambda: climb(ground, board, sizes, random, _CLIMB_PASSES)
+    )
+    return _annealed(ground, board, sizes, ranked, plan, random)
+
+
+def _annealed(
+    ground: Ground,
+    board: "Board",
+    sizes: "Sizes",
+    ranked: list[tuple[float, Lanes]],
+    plan: PlanConfig,
+    random: NDArray[np.uint64],
+) -> list[tuple[float, Lanes]]:
+    """The best annealed, each flip judged by the whole plan, and the rest as they were; best first."""
+    from garage2usd.planning.polish import anneal  # noqa: PLC0415
 
     squares = len(ground.squares)
-    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
+    is_small = squares <= _SMALL_SQUARES
+    count = _ANNEALED if is_small else _ANNEALED_MIDDLE
     if sizes.is_chosen.any():
-        for _, lanes in ranked:
-            _put(ground, board, lanes)
-            best[lanes.tobytes()] = (worth(ground, board, sizes, -np.inf), lanes)
+        count //= 2
+    work = _ANNEAL_SQUARES if is_small else _ANNEAL_SQUARES_MIDDLE
+    flips = int(work * min(1.0, plan.episodes / _FULL_EPISODES)) // squares
+    starts = ranked[:count] if is_small else _apart(ranked, count)
+    return _improved(
+        ground, board, ranked, starts, lambda: anneal(ground, board, sizes, random, flips, _HOTTEST, _COLDEST)
+    )
 
-    def improve(count: int, polish: "Callable[[], float]") -> None:
-        for _, lanes in _ranked(best.values())[:count]:
-            _put(ground, board, lanes)
-            value = polish()
-            improved = _taken(ground, board)
-            best.setdefault(improved.tobytes(), (value, improved))
 
-    affordable = max(1, _CLIMB_SQUARES // (20 * squares**2))
-    improve(min(plan.climb_top, affordable), lambda: climb(ground, board, sizes, random, _CLIMB_PASSES))
-    flips = int(_ANNEAL_SQUARES * min(1.0, plan.episodes / _FULL_EPISODES)) // (_ANNEALED * squares)
-    improve(_ANNEALED, lambda: anneal(ground, board, sizes, random, flips, _HOTTEST, _COLDEST))
+def _improved(
+    ground: Ground,
+    board: "Board",
+    ranked: list[tuple[float, Lanes]],
+    starts: list[tuple[float, Lanes]],
+    polish: "Callable[[], float]",
+) -> list[tuple[float, Lanes]]:
+    """What polish makes of some plans, and all plans as they were; best first."""
+    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
+    for _, lanes in starts:
+        _put(ground, board, lanes)
+        value = polish()
+        improved = _taken(ground, board)
+        best.setdefault(improved.tobytes(), (value, improved))
     return _ranked(best.values())
+
+
+def _valued(
+    ground: Ground, board: "Board", sizes: "Sizes", ranked: list[tuple[float, Lanes]]
+) -> list[tuple[float, Lanes]]:
+    """The same with their values in the sides that suit each; best first."""
+    from garage2usd.planning.polish import settled_worth  # noqa: PLC0415
+
+    valued = []
+    for _, lanes in ranked:
+        _put(ground, board, lanes)
+        valued.append((settled_worth(ground, board, sizes), lanes))
+    return _ranked(valued)
 
 
 def _labelled(
@@ -253,21 +298,21 @@ def _labelled(
 ) -> list[tuple[float, Lanes]]:
     """The best annealed under the rules of circulation, and the rest as they were; best first."""
     from garage2usd.planning.circuit import anneal_labels, new_draft  # noqa: PLC0415
-    from garage2usd.planning.polish import worth  # noqa: PLC0415
 
     draft = new_draft(ground)
-    best: dict[bytes, tuple[float, Lanes]] = {}
-    for _, lanes in ranked:
-        _put(ground, board, lanes)
-        best[lanes.tobytes()] = (worth(ground, board, sizes, -np.inf), lanes)
+    ranked = _valued(ground, board, sizes, ranked)
     trials = int(_LABEL_TRIALS * min(1.0, plan.episodes / _FULL_EPISODES))
-    for _, lanes in _apart(_ranked(best.values()), _LABELLED):
-        _put(ground, board, lanes)
-        refresh = _LABEL_REFRESH_ROUNDS * len(ground.squares)
-        value = anneal_labels(ground, board, draft, sizes, random, trials, _LABEL_HEATS, _LABEL_PRICES, refresh)
-        improved = _taken(ground, board)
-        best.setdefault(improved.tobytes(), (value, improved))
-    return _ranked(best.values())
+    refresh = _LABEL_REFRESH_ROUNDS * len(ground.squares)
+    polished = _improved(
+        ground,
+        board,
+        ranked,
+        _apart(ranked, _LABELLED),
+        lambda: anneal_labels(ground, board, draft, sizes, random, trials, _LABEL_HEATS, _LABEL_PRICES, refresh),
+    )
+    if len(ground.squares) > _WHOLE_SQUARES:
+        return polished
+    return _ranked([*polished, *_annealed(ground, board, sizes, ranked, plan, random)])
 
 
 def _apart(ranked: list[tuple[float, Lanes]], count: int) -> list[tuple[float, Lanes]]:
@@ -301,8 +346,11 @@ def _drifted(
 
 
 def _ranked(plans: "Iterable[tuple[float, Lanes]]") -> list[tuple[float, Lanes]]:
-    """Best first; equal values by their lanes, so that no order of meeting matters."""
-    return sorted(plans, key=lambda entry: (-entry[0], entry[1].tobytes()))
+    """Each once, best first; equal values by their lanes, so that no order of meeting matters."""
+    return sorted(
+        {lanes.tobytes(): (value, lanes) for value, lanes in plans}.values(),
+        key=lambda entry: (-entry[0], entry[1].tobytes()),
+    )
 
 
 def _taken(ground: Ground, board: "Board") -> Lanes:

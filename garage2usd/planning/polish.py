@@ -8,12 +8,13 @@ from garage2usd.compiled import compiled
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.sizes import Sizes, floor_cost, side_now, sync
+from garage2usd.planning.sizes import Sizes, floor_cost, settle, side_now, sync
 
-__all__ = ["anneal", "climb", "connect", "worth"]
+__all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
 
 _FAULTS = 5
 _RESIZED_EVERY = 40
+_SETTLING_PASSES = 2
 
 
 @compiled
@@ -129,10 +130,21 @@ def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
 
 
 @compiled
+def settled_worth(ground: Ground, board: Board, sizes: Sizes) -> float:
+    """The same after every line along which no car drives has got the side that pays best; NO_VALUE if infeasible."""
+    if sizes.is_chosen[0] or sizes.is_chosen[1]:
+        sync(ground, board, sizes)
+        if measure_above(ground, board, np.inf) == NO_VALUE:
+            return NO_VALUE
+        settle(ground, board, sizes, _SETTLING_PASSES)
+    return worth(ground, board, sizes, -np.inf)
+
+
+@compiled
 def climb(ground: Ground, board: Board, sizes: Sizes, random: NDArray[np.uint64], passes: int) -> float:
     """Raise the value of the lanes in `board.cells` by flips of one square or of two side by side; returns it."""
     cells = board.cells
-    value = worth(ground, board, sizes, -np.inf)
+    value = settled_worth(ground, board, sizes)
     order = ground.squares.copy()
     for _ in range(passes):
         for index in range(len(order) - 1, 0, -1):
@@ -174,7 +186,7 @@ def anneal(
     """
     cells = board.cells
     is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
-    value = worth(ground, board, sizes, -np.inf)
+    value = settled_worth(ground, board, sizes)
     best, best_faults, best_cells, best_kept = value, board.tally[_FAULTS], cells.copy(), sizes.kept_mm.copy()
     cooling = (coldest / hottest) ** (1.0 / max(1, flips))
     heat = hottest
