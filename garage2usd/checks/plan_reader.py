@@ -94,9 +94,7 @@ def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
     )
     structure = Structure(cells, widths, depths)
     if bay.dimensioned:
-        structure = dimension(
-            structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None
-        )
+        structure = dimension(structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
     return _subject(structure, config, path, kind=kind)
 
 

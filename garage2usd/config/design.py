@@ -144,7 +144,9 @@ def _given(
 
 def _is_given(settings: Mapping[str, Any], section: str, key: str) -> bool:
     given = settings.get(section)
-    return key in (given.model_fields_set if isinstance(given, Settings) else given if isinstance(given, Mapping) else ())
+    if isinstance(given, Settings):
+        return key in given.model_fields_set
+    return isinstance(given, Mapping) and key in given
 
 
 def _or_default(clause: Length | None, model: type[Settings], key: str) -> float:

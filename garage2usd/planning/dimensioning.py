@@ -1,12 +1,12 @@
 """Sizes of the squares of a plan: widths of columns and depths of rows that park most cars on least floor."""
 
-
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure, outside_squares
-from garage2usd.stalls import capacity_table, square_capacity
+from garage2usd.doors import door_edges
+from garage2usd.grid import Cell, CellArray, Mask, Structure
+from garage2usd.stalls import Edge, capacity_table, square_capacity
 
 __all__ = ["area_per_stall_m2", "dimension"]
 
@@ -75,8 +75,7 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     sized = _Sized(structure.cells, sides, [size for _, _, sizes in lines for size in sizes], bay)
     open_lines = [(axis, line, sizes) for axis, line, sizes in lines if len(sizes) > 1]
     for _ in range(_PASSES):
-        # a list, as every line is asked in each pass
-        if not any([sized.improve(*line) for line in open_lines]):
+        if not sum(sized.improve(*line) for line in open_lines):
             break
     return Structure(structure.cells, sized.side_mm(1), sized.side_mm(0))
 
@@ -137,15 +136,13 @@ def _stalls_held(sizes_mm: NDArray[np.int64], bay: BayConfig) -> NDArray[np.int6
 
 
 def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
-    """Which rows and which columns have a vehicle door across their end; the door is opposite a portal's lane."""
+    """Which rows and which columns have a vehicle door across their end."""
     rows, columns = (np.zeros(count, dtype=np.bool_) for count in cells.shape)
-    outside = np.pad(outside_squares(cells), 1, constant_values=True)
-    lane = np.pad(cells == Cell.LANE, 1)
-    for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
-        outer = [(dr, dc) for dr, dc in NEIGHBOUR_STEPS if outside[row + 1 + dr, col + 1 + dc]]
-        opposite = [(dr, dc) for dr, dc in outer if lane[row + 1 - dr, col + 1 - dc]]
-        for dr, dc in opposite or outer:
-            (columns if dr else rows)[col if dr else row] = True
+    for (row, col), edge in door_edges(cells).items():
+        if edge in {Edge.UP, Edge.DOWN}:
+            columns[col] = True
+        else:
+            rows[row] = True
     return rows, columns
 
 
