@@ -14,6 +14,7 @@ from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad, to_
 from garage2usd.layout.specs import NoParkingSignSpec, Point, PortalSpec
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.randomness import Step, generator
+from garage2usd.stalls import Edge
 
 __all__ = ["no_parking_signs"]
 
@@ -54,7 +55,7 @@ def _before_core(core: Core) -> Placement:
 
 
 def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]:
-    """Inside each vehicle door, on the side without a gate."""
+    """Inside each vehicle door, on the side without a gate, unless cars turn to that side."""
     doors = {f"Portal_r{row:02d}_c{col:02d}_": (row, col) for row, col in door_edges(grid.structure.cells)}
     signs = []
     for wall in walls:
@@ -63,8 +64,18 @@ def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]
             across = side * (wall.spec.door_width_m / 2 - DOOR_FRAME_M + _FROM_JAMB_M)
             place = to_world((across, _FROM_WALL_M), (wall.position_m[0], wall.position_m[2]), wall.yaw_rad)
             square = next(square for start, square in doors.items() if wall.name.startswith(start))
-            signs.append(_sign(place, wall.yaw_rad, square))
+            tile = grid.tiles[square]
+            if not tile.drivable[_beside(wall, place)]:
+                signs.append(_sign(place, wall.yaw_rad, square))
     return signs
+
+
+def _beside(wall: Placement, place: Point) -> Edge:
+    """The edge of a door's square that a place lies towards from the door's middle."""
+    across_x, across_z = to_world((1.0, 0.0), (0.0, 0.0), wall.yaw_rad)
+    off = (place[0] - wall.position_m[0]) * abs(across_x) + (place[1] - wall.position_m[2]) * abs(across_z)
+    low, high = (Edge.LEFT, Edge.RIGHT) if abs(across_x) > abs(across_z) else (Edge.UP, Edge.DOWN)
+    return low if off < 0 else high
 
 
 def _sign(place: Point, yaw_rad: float, square: Square) -> Placement:

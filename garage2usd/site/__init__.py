@@ -17,9 +17,7 @@ __all__ = ["make_site"]
 _CONTOUR_ATTEMPTS = 64
 
 
-def make_site(
-    site: SiteConfig, *, bay: BayConfig, seed: int, fittings: FittingsConfig | None = None
-) -> Structure:
+def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: FittingsConfig | None = None) -> Structure:
     """Make the structure matrix with its static objects and the size of its squares.
 
     Parameters
