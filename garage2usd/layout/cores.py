@@ -169,13 +169,12 @@ def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config:
     taken = min(_MOST_STALLS, row.count)
     start = -row.count * bay.stall_width_m / 2
     gap = _gap_to_stalls_m(bay.stall_width_m, config.standard)
+    spans: tuple[tuple[float, float, tuple[str, ...]], ...] = ((low, high, names),)
     if taken < row.count:
         spans = (
             (low, start + taken * bay.stall_width_m - gap, names[:taken]),
             (-start - taken * bay.stall_width_m + gap, high, names[-taken:]),
         )
-    else:
-        spans = ((low, high, names),)
     for left, right, stalls in spans:
         width = min(right - left, _MOST_WIDTH_M)
         if width < _LEAST_WIDTH_M:

@@ -138,7 +138,9 @@ def _snapped(places: _Places, centres: Points) -> list[int]:
 
 
 def _distances(points: Points, others: Points) -> Points:
-    return np.hypot(*(points[:, None] - others[None]).transpose(2, 0, 1))
+    off = points[:, None] - others[None]
+    distances: Points = np.hypot(off[..., 0], off[..., 1])
+    return distances
 
 
 def _reach_m(clause: Length | None) -> float:

@@ -97,7 +97,8 @@ class _Sized:
 
     def side_mm(self, axis: int) -> NDArray[np.int64]:
         """Depths of the rows (0) or widths of the columns (1)."""
-        return self._sizes_mm[self._at[axis]]
+        sides: NDArray[np.int64] = self._sizes_mm[self._at[axis]]
+        return sides
 
     def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
         """Give a line the size with the least area per stall, if that is less than now."""
