@@ -51,10 +51,8 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     """
     aisle = round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
     door = round(bay.portal_side_m * _MM_PER_M)
-    length, width, column = (
-        round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.column_size_m)
-    )
-    free_sizes = sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
+    length, width, ends = (round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.row_ends_m))
+    free_sizes = sorted({length, *(max(count * width + ends, length) for count in _STALLS_BETWEEN_COLUMNS)})
     is_aisle = [driven.any(axis=axis) for driven, axis in zip(_driven(structure.cells), (1, 0), strict=True)]
     has_door = _crossed_by_doors(structure.cells)
 
