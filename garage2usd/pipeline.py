@@ -194,7 +194,7 @@ def _generate(
     if seed is not None:
         config = config.with_seed(seed)
     clock = [time.perf_counter()]
-    site = make_site(config.site, bay=config.bay, seed=config.seed)
+    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
     clock.append(time.perf_counter())
     if (site.cells == Cell.LANE).any():
         if tape is not None:

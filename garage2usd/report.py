@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
@@ -15,6 +16,7 @@ from garage2usd.errors import ConfigError, ReportError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
+from garage2usd.layout.compartments import compartment_name
 from garage2usd.planning import Plan, area_per_stall_m2, dimensioned, evaluate, principles, rank_of, tape_of
 from garage2usd.version import VERSION
 
@@ -68,6 +70,10 @@ def write_report(
         "lane_kinds": graph.kind_counts(),
         "object_counts": layout.counts(),
         "unreachable_stalls": sorted(layout.unreachable),
+        "stair_cores": [
+            {"square": core.square, "door_m": core.door_m, "in_place_of": list(core.stalls)} for core in layout.cores
+        ],
+        "fire_compartments": _compartments(layout),
         "stalls": [
             {
                 "name": stall.name,
@@ -112,6 +118,23 @@ def _learning(plan: Plan, config: GarageConfig) -> dict[str, Any] | None:
         "episodes": len(plan.learning_curve),
         "steps": plan.steps,
     }
+
+
+def _compartments(layout: Layout) -> list[dict[str, Any]]:
+    """Name, area, stalls and doors of stair cores of each fire compartment."""
+    structure, numbers = layout.structure, layout.compartments
+    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / 1e6
+    on = numbers[tuple(layout.stalls.square.T)]
+    doors = Counter(int(numbers[core.lane]) for core in layout.cores)
+    return [
+        {
+            "name": compartment_name(number),
+            "area_m2": round(float(areas[numbers == number].sum()), 2),
+            "stalls": int((on == number).sum()),
+            "stair_cores": doors[number],
+        }
+        for number in range(1, int(numbers.max(initial=0)) + 1)
+    ]
 
 
 class _Report(BaseModel):

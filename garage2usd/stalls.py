@@ -60,18 +60,18 @@ def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:
 
     Notes
     -----
-    ``floor((edge - column_size) / stall_width)`` stalls if the depth takes the stall length; two rows if opposite
-    edges are both open and the depth takes two. 8.1 m squares hold three 2.4 x 5.3 m stalls. Computed in whole
-    millimetres.
+    ``floor((edge - ends) / stall_width)`` stalls if the depth takes the stall length; two rows if opposite edges are
+    both open and the depth takes two. The ends leave half a column each free, or the gap to a wall. 8.1 m squares hold
+    three 2.4 x 5.3 m stalls. Computed in whole millimetres.
     """
-    stall_width, stall_length, column = (
-        round(side * _MM_PER_M) for side in (bay.stall_width_m, bay.stall_length_m, bay.column_size_m)
+    stall_width, stall_length, ends = (
+        round(side * _MM_PER_M) for side in (bay.stall_width_m, bay.stall_length_m, bay.row_ends_m)
     )
     widths = np.broadcast_to(structure.column_widths_mm, structure.shape)
     depths = np.broadcast_to(structure.row_depths_mm[:, None], structure.shape)
 
     def single_and_double(edge: NDArray[np.int64], depth: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
-        fits = np.maximum(edge - column, 0) // stall_width
+        fits = np.maximum(edge - ends, 0) // stall_width
         single = np.where(depth >= stall_length, fits, 0)
         return single, np.where(depth >= 2 * stall_length, 2 * fits, single)
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, frame_faces, make_part
@@ -18,6 +19,8 @@ _LAMELLA_M = 0.12
 _GROOVE_M = 0.012
 _FRAME_M = 0.08
 _LEAST_SIGN_M = 0.06
+_SIGN_OVER_DOOR_M = (2.3, 2.6)
+"""Lower and upper edge of the sign over a core's door."""
 
 
 def wall_panel(length_m: float, height_m: float, thickness_m: float) -> Asset:
@@ -122,24 +125,60 @@ def _upright(outline: list[tuple[float, float]], middle_m: float) -> Face:
     return face if normal[2] > 0 else face[::-1]
 
 
-def obstacle_block(width_m: float, depth_m: float, height_m: float) -> Asset:
-    """A concrete core with a hazard band around its foot and a steel door; origin in the middle of its foot."""
+def obstacle_block(width_m: float, depth_m: float, height_m: float, *, has_door: bool = True) -> Asset:
+    """A concrete core with a hazard band around its foot; origin in the middle of its foot.
+
+    A core with a door has it in the middle of its side to +Z, with a lit exit sign over it where there is room.
+    """
     x, z = width_m / 2, depth_m / 2
     band = box_faces((-x, 0, -z), (x, _STRIPE_M * 3, z), without="tb")
     body = box_faces((-x, _STRIPE_M * 3, -z), (x, height_m, z), without="b")
+    block = (
+        make_part("Band", band, "hazard", collider=Collider.BOX),
+        make_part("Core", body, "wall_concrete", collider=Collider.BOX),
+    )
+    if not has_door:
+        return Asset("obstacle", block)
     door = box_faces((-0.5, 0.0, z), (0.5, 2.1, z + 0.03), without="n")
     frame = frame_faces(0.5, 2.1, 0.08, z + 0.001, z + 0.045)
     handle = box_faces((0.34, 1.0, z + 0.03), (0.44, 1.03, z + 0.08))
     return Asset(
         "obstacle",
         (
-            make_part("Band", band, "hazard", collider=Collider.BOX),
-            make_part("Core", body, "wall_concrete", collider=Collider.BOX),
+            *block,
             make_part("Door", door, "door_steel", collider=Collider.BOX),
             make_part("Frame", frame, "steel_dark", collider=Collider.MESH),
             make_part("Handle", handle, "steel_galvanised", collider=Collider.BOX),
+            *_exit_sign(z, height_m),
         ),
     )
+
+
+def _exit_sign(face_m: float, height_m: float) -> list[Part]:
+    """A green plate over a core's door with who runs through a doorway; none where the ceiling leaves no room."""
+    low, high = _SIGN_OVER_DOOR_M
+    if high > height_m - _STRIPE_M:
+        return []
+    half, front, side = (high - low), face_m + 0.03, high - low
+    plate = box_faces((-half, low, face_m), (half, high, front), without="n")
+    strokes = [
+        shapely.Point(-0.18, 0.80).buffer(0.09, quad_segs=3),  # head, body, arms and legs, then the doorway
+        shapely.LineString([(-0.22, 0.66), (-0.30, 0.40)]).buffer(0.07, cap_style="flat"),
+        shapely.LineString([(-0.50, 0.46), (-0.42, 0.62), (-0.22, 0.62), (-0.06, 0.50)]).buffer(
+            0.035, cap_style="flat"
+        ),
+        shapely.LineString([(-0.30, 0.42), (-0.12, 0.34), (-0.14, 0.12)]).buffer(0.045, cap_style="flat"),
+        shapely.LineString([(-0.30, 0.42), (-0.36, 0.22), (-0.58, 0.20)]).buffer(0.045, cap_style="flat"),
+        shapely.box(0.22, 0.10, 0.62, 0.90),
+    ]
+    drawn = shapely.get_parts(shapely.union_all(strokes, grid_size=1e-3))
+    faces = [
+        np.array([(x * side, low + y * side, front + 0.004) for x, y in list(triangle.exterior.coords)[-2::-1]])
+        for shape in drawn
+        for triangle in shapely.get_parts(shapely.constrained_delaunay_triangles(shape))
+    ]
+    faces = [face if np.cross(face[1] - face[0], face[2] - face[0])[2] > 0 else face[::-1] for face in faces]
+    return [make_part("Sign", plate, "sign_green"), make_part("Pictogram", faces, "sign_white")]
 
 
 def column(size_m: float, height_m: float) -> Asset:

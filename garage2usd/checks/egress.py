@@ -1,14 +1,16 @@
 """Rules of fire safety as far as a garage tells them: its floor, the doors of its stair cores, and the way to them."""
 
 import math
+from collections import defaultdict
 from collections.abc import Iterator
 
 import numpy as np
 
+from garage2usd.checks.core_reader import core_doors
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.subject import Point, Subject
-from garage2usd.grid import Cell, Structure
-from garage2usd.layout.building import core_doors
+from garage2usd.grid import Cell
+from garage2usd.layout.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
 
 __all__ = ["BOOK"]
@@ -17,7 +19,11 @@ BOOK = RuleBook()
 _MM2_PER_M2 = 1_000_000
 
 
-@BOOK.rule("fire-compartment", "fire_compartment_area", asks="the floor fits one fire compartment")
+@BOOK.rule(
+    "fire-compartment",
+    "fire_compartment_area",
+    asks="each fire compartment, or the floor where none are declared, is small enough",
+)
 def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if subject.things and not _has_sprinklers(subject):
         yield from _too_large(subject, profile.fire_compartment_area)
@@ -26,21 +32,22 @@ def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
 @BOOK.rule(
     "fire-compartment-sprinklered",
     "fire_compartment_area_sprinklered",
-    asks="the floor fits one fire compartment with sprinklers",
+    asks="each fire compartment, or the floor where none are declared, is small enough with sprinklers",
 )
 def _sprinklered_compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if _has_sprinklers(subject):
         yield from _too_large(subject, profile.fire_compartment_area_sprinklered)
 
 
-@BOOK.rule("personnel-exits", "personnel_exits", asks="people have enough exits")
+@BOOK.rule("personnel-exits", "personnel_exits", asks="people have enough exits in each fire compartment")
 def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.personnel_exits is None or subject.structure is None:
+    if profile.personnel_exits is None or not subject.things:
         return
-    doors = _exits_on_foot(subject.structure)
-    if len(doors) < profile.personnel_exits.amount:
-        message = "too few doors of stair cores onto lanes"
-        yield Miss("", None, message, len(doors), profile.personnel_exits.amount)
+    doors = core_doors(subject)
+    for number, name in _compartments(subject):
+        count = sum(_compartment_at(subject.nodes[door.node].position, subject) == number for door in doors)
+        if count < profile.personnel_exits.amount:
+            yield Miss(name, None, "too few doors of stair cores onto lanes", count, profile.personnel_exits.amount)
 
 
 @BOOK.rule("exit-distance", "exit_distance", asks="no stall is too far from an exit for people")
@@ -63,35 +70,58 @@ def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
     if clause is None or subject.structure is None:
         return
     structure = subject.structure
-    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm)[structure.cells != Cell.OBSTACLE]
-    measured = float(areas.sum()) / _MM2_PER_M2
-    if measured > clause.amount:
-        parts = math.ceil(measured / clause.amount)
-        yield Miss("", None, f"the floor needs {parts} fire compartments", measured, clause.amount)
+    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2
+    inside = structure.cells != Cell.OBSTACLE
+    for number, name in _compartments(subject):
+        own = inside if subject.compartments is None else inside & (subject.compartments == number)
+        measured = float(areas[own].sum())
+        if measured > clause.amount:
+            parts = math.ceil(measured / clause.amount)
+            what = f"the fire compartment {name}" if name else "the floor"
+            yield Miss(name, None, f"{what} needs {parts} fire compartments", measured, clause.amount)
 
 
 def _too_far(subject: Subject, clause: Length | None) -> Iterator[Miss]:
-    """The stall that is farthest from any exit, as the crow flies, if it is too far."""
-    if clause is None or subject.structure is None or not subject.stalls:
+    """The stall of each compartment that is farthest from its exits, as the crow flies, if it is too far."""
+    if clause is None or not subject.stalls:
         return
-    exits = _exits_on_foot(subject.structure)
-    if not exits:
-        return  # that itself is found by the rule of their number
-    farthest = max(subject.stalls, key=lambda stall: _nearest(stall.centre, exits))
-    measured = _nearest(farthest.centre, exits)
-    if measured > clause.amount + ROUNDING_M:
-        message = "the farthest stall is too far from the doors of stair cores"
-        yield Miss(farthest.name, farthest.centre, message, measured, clause.amount)
+    exits = defaultdict(list)
+    for door in core_doors(subject):
+        exits[_compartment_at(subject.nodes[door.node].position, subject)].append(door.position)
+    stalls = defaultdict(list)
+    for stall in subject.stalls:
+        stalls[_compartment_at(stall.centre, subject)].append(stall)
+    for number, own in stalls.items():
+        doors = exits[number]
+        if not doors:
+            continue  # that itself is found by the rule of their number
+        farthest = max(own, key=lambda stall: _nearest(stall.centre, doors))
+        measured = _nearest(farthest.centre, doors)
+        if measured > clause.amount + ROUNDING_M:
+            message = "the farthest stall is too far from the doors of stair cores"
+            yield Miss(farthest.name, farthest.centre, message, measured, clause.amount)
 
 
 def _nearest(place: Point, exits: list[Point]) -> float:
     return min(math.dist(place, door) for door in exits)
 
 
-def _exits_on_foot(structure: Structure) -> list[Point]:
-    """(x, z) of the doors of stair cores."""
-    x, z = structure.column_edges_m, structure.row_edges_m
-    return [(float(x[col] + x[col + 1]) / 2, float(z[row])) for row, col in core_doors(structure)]
+def _compartments(subject: Subject) -> list[tuple[int, str]]:
+    """Number and name of each fire compartment; floor that belongs to none is one without a name."""
+    if subject.compartments is None or subject.structure is None:
+        return [(0, "")]
+    numbers = np.unique(subject.compartments[subject.structure.cells != Cell.OBSTACLE]).tolist()
+    return [(number, compartment_name(number) if number > 0 else "") for number in numbers]
+
+
+def _compartment_at(place: Point, subject: Subject) -> int:
+    """Number of the fire compartment that a place lies in; 0 where none are declared."""
+    if subject.compartments is None or subject.structure is None:
+        return 0
+    structure = subject.structure
+    edges = (structure.row_edges_m, place[1]), (structure.column_edges_m, place[0])
+    row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
+    return int(subject.compartments[row, col])
 
 
 def _has_sprinklers(subject: Subject) -> bool:

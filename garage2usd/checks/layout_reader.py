@@ -37,6 +37,7 @@ def layout_subject(
         edges=_edges(layout.structure, graph, number, config.bay),
         things=_things(layout),
         structure=layout.structure,
+        compartments=layout.compartments,
         lane_lux=lux.lanes.mean if lux.lanes else None,
         stall_lux=lux.stalls.mean if lux.stalls else None,
         faults=faults,

@@ -51,12 +51,15 @@ class Door(NamedTuple):
         Middle of its opening, (x, z) in metres.
     clear_width_m, clear_height_m
         Of its opening; None where the mesh shows none.
+    is_shut
+        Whether a sheet fills most of its opening.
     """
 
     name: str
     position: tuple[float, float]
     clear_width_m: float | None
     clear_height_m: float | None
+    is_shut: bool = False
 
 
 class Ramp(NamedTuple):
@@ -106,7 +109,10 @@ def _door(thing: Thing) -> Door:
         return Door(thing.name, _point(middle), None, None)
     centre = middle + axis * (sum(gap) / 2 - middle @ axis)
     heads = [height for body in sides for height in _heights_over(body, axis, sum(gap) / 2)]
-    return Door(thing.name, _point(centre), gap[1] - gap[0], min(heads, default=None))
+    sheets = [span for body in thing.bodies if body not in sides for span in _spans(body, axis)]
+    covered = max((min(end, gap[1]) - max(start, gap[0]) for start, end in sheets), default=0.0)
+    is_shut = covered > (gap[1] - gap[0]) / 2
+    return Door(thing.name, _point(centre), gap[1] - gap[0], min(heads, default=None), is_shut)
 
 
 def _spans(body: Body, axis: Array) -> Iterator[tuple[float, float]]:

@@ -50,6 +50,16 @@ def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(door.name, door.position, "the door is too narrow", door.clear_width_m, required)
 
 
+@BOOK.rule("portal-shut", asks="no vehicle door is shut where others are open or ramps lead up")
+def _shut(subject: Subject, _: Profile) -> Iterator[Miss]:
+    # a garage that ends at its doors, without any ramp, has all of them shut
+    if all(door.is_shut for door in subject.doors) and not subject.ramps:
+        return
+    for door in subject.doors:
+        if door.is_shut:
+            yield Miss(door.name, door.position, "the vehicle door is shut, no ramp leads to it")
+
+
 @BOOK.rule("portal-inside", asks="every portal lies on the contour's edge, where its door opens")
 def _inside(subject: Subject, _: Profile) -> Iterator[Miss]:
     structure = subject.structure

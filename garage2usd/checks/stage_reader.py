@@ -51,6 +51,7 @@ def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
         edges=tuple(ground.edges),
         things=scene.things,
         structure=structure,
+        compartments=_compartments(stage, structure),
         lane_lux=lane_lux,
         stall_lux=stall_lux,
         faults=tuple(ground.faults),
@@ -77,6 +78,19 @@ def _structure(stage: Usd.Stage) -> Structure | None:
         return Structure.from_arrays(cells, np.asarray(widths, float), np.asarray(depths, float))
     except (ConfigError, TypeError, ValueError):
         return None
+
+
+def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.int32] | None:
+    """The number of each square's fire compartment, if the default prim's customData has one for each square of S."""
+    prim = stage.GetDefaultPrim()
+    declared = prim.GetCustomDataByKey("fireCompartments") if prim else None
+    if structure is None or declared is None:
+        return None
+    try:
+        numbers = np.asarray(declared, dtype=np.int32)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return numbers.reshape(structure.shape) if numbers.size == structure.cells.size else None
 
 
 def _illuminances(

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import numpy as np
 import shapely
+from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
@@ -161,6 +163,8 @@ class Subject:
         All objects; none where a plan could not be laid out.
     structure
         S, R and C, where they are known.
+    compartments
+        Number of the fire compartment of each square of S, from 1; None where none are declared.
     lane_lux, stall_lux
         Mean illuminance of the floor; None where it is not known.
     faults
@@ -176,6 +180,7 @@ class Subject:
     edges: tuple[LaneEdge, ...]
     things: tuple[Thing, ...] = ()
     structure: Structure | None = None
+    compartments: NDArray[np.int32] | None = None
     lane_lux: float | None = None
     stall_lux: float | None = None
     faults: tuple[Fault, ...] = ()

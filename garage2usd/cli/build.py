@@ -11,6 +11,7 @@ from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, profile_option, seed_option
 
 if TYPE_CHECKING:
+    from garage2usd.layout import Layout
     from garage2usd.pipeline import Build
 
 __all__ = ["build"]
@@ -87,10 +88,13 @@ def _describe(made: "Build") -> None:
     rows, cols = layout.structure.shape
     counts = layout.counts()
     uses = ", ".join(f"{count} {use}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
+    count = int(layout.compartments.max())
+    parts = f"{count} fire compartment{'s' if count > 1 else ''}"
     figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
+        ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
         ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", "every stall, from an entrance and to an exit"),
@@ -105,6 +109,11 @@ def _describe(made: "Build") -> None:
     ]
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def _displaced(layout: "Layout") -> int:
+    """How many stalls of the plan stair cores took."""
+    return sum(len(core.stalls) for core in layout.cores)
 
 
 def _dropped(made: "Build") -> str:

@@ -69,6 +69,7 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
         ("bay", "stall_width_m"): width_m,
         ("bay", "stall_length_m"): length_m,
         ("bay", "aisle_width_m"): aisle_m,
+        ("bay", "wall_gap_m"): _wall_gap_m(profile, _given(settings, "bay", "stall_width_m", BayConfig, width_m)),
         ("bay", "square_side_m"): side_m,
         ("bay", "portal_width_m"): min(_at_least(profile.portal_width, BayConfig, "portal_width_m"), _WIDEST_DOOR_M),
         ("fittings", "clear_height_m"): clear_m,
@@ -99,6 +100,16 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
     for (section, key), value in chosen.items():
         if value != _default(models[section], key):
             yield section, key, value
+
+
+def _wall_gap_m(profile: Profile, stall_width_m: float) -> float:
+    """What a stall's line keeps from a wall, so that the design car in the middle keeps its distance."""
+    default = float(_default(BayConfig, "wall_gap_m"))
+    if profile.wall_clearance is None or profile.design_car_width is None:
+        return default
+    return max(
+        default, _rounded_up(profile.wall_clearance.amount - (stall_width_m - profile.design_car_width.amount) / 2)
+    )
 
 
 def _exits(profile: Profile, settings: Mapping[str, Any], side_m: float, column_m: float, width_m: float) -> int:
@@ -144,9 +155,9 @@ def _given(
 
 def _is_given(settings: Mapping[str, Any], section: str, key: str) -> bool:
     given = settings.get(section)
-    return key in (
-        given.model_fields_set if isinstance(given, Settings) else given if isinstance(given, Mapping) else ()
-    )
+    if isinstance(given, Settings):
+        return key in given.model_fields_set
+    return isinstance(given, Mapping) and key in given
 
 
 def _or_default(clause: Length | None, model: type[Settings], key: str) -> float:

@@ -9,6 +9,7 @@ __all__ = ["FittingsConfig", "ParkingConfig"]
 CEILING_ROOM_M = 0.15
 """What lights and the heads of doors need between the clear height and the ceiling."""
 _ROUNDING_M = 1e-9
+_SLAB_M, _RAMP_FOOT_M, _RAMP_LANDING_M = 0.3, 0.5, 2.5
 
 
 class FittingsConfig(Settings):
@@ -21,7 +22,7 @@ class FittingsConfig(Settings):
     wall_thickness_m: float = Field(0.3, ge=0.1, le=1)
     """Thickness of the outer walls, outside the contour."""
     ramps: bool = True
-    """A ramp to the ground outside behind each portal that has room for one; the others keep a closed roller door."""
+    """A ramp to the ground outside behind each portal; without, portals have closed roller doors."""
     ramp_slope_percent: float = Field(15.0, ge=5, le=20)
     """Slope of the ramps between their gentler pieces."""
     ramp_transition_m: float = Field(3.6, ge=1, le=10)
@@ -59,7 +60,33 @@ class FittingsConfig(Settings):
     floor_stain_rate: float = Field(0.5, ge=0, le=1)
     """How much oil, damp, cracks, patches and tyre marks there are; 0 for a new floor."""
     no_parking_sign_rate: float = Field(0.5, ge=0, le=1)
-    """Share of the free squares without stalls that carry no-parking signs."""
+    """Share of the free squares without stalls that carry no-parking signs. Signs stand before stair cores and beside
+    vehicle doors too, unless it is 0."""
+    stair_cores: bool = True
+    """As many stair cores as the profile's exits for people ask for, each in the place of two stalls beside a column or
+    a wall; obstacles beside a lane are cores anyway. In a garage with few stalls there are fewer."""
+
+    @property
+    def ramp_profile(self) -> tuple[tuple[float, float], ...]:
+        """(run, height) along a ramp's floor from the inner face of the door's wall to its far end.
+
+        From the back of that wall on: a level foot, half slope, full slope, half slope, and a landing on the ground.
+        """
+        rise = self.ceiling_height_m + _SLAB_M
+        slope, gentle_m = self.ramp_slope_percent / 100, self.ramp_transition_m
+        transition = min(gentle_m * slope / 2, rise / 2)
+        run, height = self.wall_thickness_m, 0.0
+        profile = [(run, height)]
+        for length, climb in (
+            (_RAMP_FOOT_M, 0.0),
+            (gentle_m, transition),
+            ((rise - 2 * transition) / slope, rise - 2 * transition),
+            (gentle_m, transition),
+            (_RAMP_LANDING_M, 0.0),
+        ):
+            run, height = run + length, height + climb
+            profile.append((run, height))
+        return tuple((round(run, 6), round(height, 6)) for run, height in profile)
 
     @field_validator("ceiling_height_m")
     @classmethod

@@ -112,6 +112,8 @@ class BayConfig(Settings):
     """Length of one stall from its mouth on the lane to its rear line."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
+    wall_gap_m: float = Field(0.3, ge=0, le=3)
+    """Least room between a wall and the line of the stall beside it; half a column leaves as much or more."""
     dimensioned: bool = True
     """Whether R and C are chosen for the finished plan, each where it is not given: aisles of `aisle_width_m`, stalls
     that just fit, least floor a stall."""
@@ -136,6 +138,11 @@ class BayConfig(Settings):
     def carriageway_setback_m(self) -> float:
         """How far the carriageway stays from squares that are no lane: half a column and a margin."""
         return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M
+
+    @property
+    def row_ends_m(self) -> float:
+        """What both ends of a row of stalls leave of a square's edge: half a column each, or the gap to a wall."""
+        return max(self.column_size_m, 2 * self.wall_gap_m)
 
     @property
     def portal_side_m(self) -> float:

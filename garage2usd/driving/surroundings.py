@@ -79,7 +79,7 @@ def _named_shapes(placements: tuple[Placement, ...] | list[Placement]) -> Obstac
     )
 
 
-def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901 - a case for each kind of object
+def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901, PLR0912 - a case for each kind of object
     """Convex outlines on the floor, in the coordinates of a spec, that hold all of it that a car could touch."""
     match spec:
         case s.WallSpec():
@@ -97,6 +97,8 @@ def _outlines(spec: s.Spec) -> Iterator[s.Polygon]:  # noqa: C901 - a case for e
             yield _square(spec.side_m)
         case s.ObstacleSpec():
             yield s.rectangle(-spec.width_m / 2, -spec.depth_m / 2, spec.width_m / 2, spec.depth_m / 2)
+            if not spec.has_door:
+                return
             half, face = min(_CORE_DOOR_M[0] / 2, spec.width_m / 2), spec.depth_m / 2
             yield s.rectangle(-half, face, half, face + _CORE_DOOR_M[1])
         case s.ColumnSpec():

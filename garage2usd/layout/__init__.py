@@ -1,24 +1,28 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.dead_ends import dead_ends
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph
+from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
-from garage2usd.layout.building import columns, core_doors, ground_inside, obstacles, outer_walls
+from garage2usd.layout.building import columns, ground_inside, outer_walls
 from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.clearance import check_carriageways
+from garage2usd.layout.cores import Core, core_placements
 from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.fittings import TUBE, cones, no_parking_signs, speed_bumps, tube_lights
+from garage2usd.layout.egress import plan_egress
+from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
+from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
@@ -59,6 +63,10 @@ class Layout:
         Height of the ceiling's underside.
     illuminance
         How bright its floor is.
+    cores
+        The stair cores.
+    compartments
+        Number of each square's fire compartment, from 1; 0 outside and on obstacles. int32, shape (rows, cols).
     unreachable
         Names of the stalls that are marked or left out.
     """
@@ -68,6 +76,8 @@ class Layout:
     stalls: StallTable
     ceiling_height_m: float
     illuminance: Illuminance
+    cores: tuple[Core, ...]
+    compartments: NDArray[np.int32]
     unreachable: frozenset[str] = frozenset()
 
     def counts(self) -> dict[str, int]:
@@ -110,7 +120,10 @@ def lay_out(
     """
     bay, fittings, seed = config.bay, config.fittings, config.seed
     is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
-    grid = TileGrid(structure, graph, bay, left_out=unreachable if is_dropped else ())
+    levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+    compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
+    displaced = {name for core in cores for name in core.stalls}
+    grid = TileGrid(structure, graph, bay, left_out=displaced.union(unreachable if is_dropped else ()))
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
@@ -118,19 +131,26 @@ def lay_out(
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
-    stalls = _used_stalls(grid, graph, config, unreachable)
+    stalls = _used_stalls(grid, graph, cores, config, unreachable)
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(stalls, zones)
-    levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
-    tubes, illuminance = light_up(tube_lights(grid, fittings, levels), grid, stalls, fittings)
+    core_on = {core.square: core for core in cores if core.recess_m}
+    tubes, illuminance = light_up(tube_lights(grid, fittings, levels, core_on), grid, stalls, fittings)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
-        bumps = speed_bumps(grid, graph, fittings, seed=seed)
+        crossings = _crossings(grid, cores)
+        bumps = speed_bumps(grid, graph, fittings, seed=seed, crossings=crossings)
         with_bump = {bump.square for bump in bumps}
-        crossings = set(core_doors(structure)) - with_bump
         floors = [
-            floor_panel(tile, grid, bay, has_bump=tile.square in with_bump, has_crossing=tile.square in crossings)
+            floor_panel(
+                tile,
+                grid,
+                bay,
+                has_bump=tile.square in with_bump,
+                crossing_m=crossings.get(tile.square),
+                kept_free=core_on[tile.square].landing(tile) if tile.square in core_on else None,
+            )
             for tile in grid
         ]
         yield floors
@@ -139,11 +159,11 @@ def lay_out(
         yield wheel_stops(stalls, fittings)
         cars = parked_cars(stalls, config.parking, draws)
         yield cars
-        yield cones(grid, stalls, cars, fittings, draws)
+        yield cones(grid, stalls, cars, fittings, draws, built_on=core_on)
         yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
         yield bumps
-        yield no_parking_signs(grid, fittings, seed=seed)
+        yield no_parking_signs(grid, shell, cores, fittings, seed=seed)
 
         pillars = columns(structure, bay, fittings)
         yield (ceiling_panel(tile, fittings) for tile in grid)
@@ -159,7 +179,7 @@ def lay_out(
         yield walls
         yield barriers(walls, fittings)
         yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)
-        yield obstacles(structure, fittings)
+        yield core_placements(structure, cores, ceiling)
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
 
@@ -169,12 +189,14 @@ def lay_out(
         StallTable(stalls),
         fittings.ceiling_height_m,
         illuminance,
+        tuple(cores),
+        compartments,
         frozenset(unreachable),
     )
 
 
 def _used_stalls(
-    grid: TileGrid, graph: LaneGraph, config: GarageConfig, unreachable: Collection[str]
+    grid: TileGrid, graph: LaneGraph, cores: Sequence[Core], config: GarageConfig, unreachable: Collection[str]
 ) -> tuple[Stall, ...]:
     """All stalls, each with its use."""
     stalls = tuple(
@@ -184,10 +206,19 @@ def _used_stalls(
     if config.plan.dead_ends is DeadEnds.STANDARD:
         long_ends = [end for end in dead_ends(grid.structure) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
-    return with_designated_stalls(stalls, _foot_exits(grid), config.parking, config.standard)
+    return with_designated_stalls(stalls, _foot_exits(grid, cores), config.parking, config.standard)
 
 
-def _foot_exits(grid: TileGrid) -> list[Point]:
+def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
+    """Where the crossings to the doors of cores lie on their lanes, in metres along these from the middle."""
+    crossings: dict[Square, float] = {}
+    for core in cores:
+        is_beside = grid.tiles[core.lane].axis_is_x is core.along_x
+        crossings.setdefault(core.lane, core.along_m if is_beside else 0.0)
+    return crossings
+
+
+def _foot_exits(grid: TileGrid, cores: Iterable[Core]) -> list[Point]:
     """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
-    squares = core_doors(grid.structure) or grid.structure.where(Cell.EXIT)[:1]
-    return [(grid.tiles[square].x_m, grid.tiles[square].z_m) for square in squares]
+    exits = (grid.tiles[square] for square in grid.structure.where(Cell.EXIT)[:1])
+    return [core.door_m for core in cores] or [(tile.x_m, tile.z_m) for tile in exits]

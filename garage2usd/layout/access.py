@@ -14,9 +14,6 @@ from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, 
 
 __all__ = ["barriers", "ramp_lights", "with_ramps"]
 
-_SLAB_M = 0.3
-_FOOT_M = 0.5
-_LANDING_M = 2.5
 _PARAPET_M = 1.3
 _SKY_M = 3.0
 _KERB_ROOM_M = 0.1
@@ -68,14 +65,9 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
 
 
 def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
-    """The ramp behind a door: level foot, half slope, full slope, half slope, landing."""
-    rise = portal.height_m + _SLAB_M
-    slope, gentle_m = fittings.ramp_slope_percent / 100, fittings.ramp_transition_m
-    transition = min(gentle_m * slope / 2, rise / 2)
-    lengths = (_FOOT_M, gentle_m, (rise - 2 * transition) / slope, gentle_m, _LANDING_M)
-    climbs = (0.0, transition, rise - 2 * transition, transition, 0.0)
-    runs = np.cumsum([portal.thickness_m, *lengths])
-    heights = np.cumsum([0.0, *climbs])
+    """The ramp behind a door."""
+    runs, heights = zip(*fittings.ramp_profile, strict=True)
+    rise, transition = heights[-1], heights[2]
     # the slab over the foot ends where the floor comes within the clear height of it
     room = max(portal.height_m - fittings.clear_height_m, transition / 2)
     cover_end = float(np.interp(room, heights[1:-1], runs[1:-1]))
@@ -83,7 +75,7 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
         width_m=round(portal.door_width_m + 2 * _KERB_ROOM_M, 6),
         wall_m=portal.thickness_m,
         threshold_width_m=round(portal.door_width_m - 2 * DOOR_FRAME_M, 6),
-        profile=tuple((round(run, 6), round(height, 6)) for run, height in zip(runs.tolist(), heights, strict=True)),
+        profile=fittings.ramp_profile,
         cover_end_m=round(cover_end, 6),
         cover_height_m=portal.height_m,
         wall_top_m=round(rise + _PARAPET_M, 6),

@@ -8,15 +8,15 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
+from garage2usd.doors import door_edges
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
-from garage2usd.lanes import Square
 from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
-from garage2usd.layout.specs import ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.layout.specs import ColumnSpec, PortalSpec, WallPostSpec, WallSpec
+from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.stalls import Edge
 
-__all__ = ["DOOR_FRAME_M", "columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
+__all__ = ["DOOR_FRAME_M", "columns", "ground_inside", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_HEAD_M = 0.3
@@ -43,25 +43,6 @@ def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> l
     ]
 
 
-def obstacles(structure: Structure, fittings: FittingsConfig) -> list[Placement]:
-    """A concrete core on every obstacle inside the contour."""
-    x, z = structure.column_edges_m, structure.row_edges_m
-    placements = []
-    for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist():
-        width, depth = float(x[col + 1] - x[col]), float(z[row + 1] - z[row])
-        spec = ObstacleSpec(round(width, 6), round(depth, 6), fittings.ceiling_height_m)
-        position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
-        placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
-    return placements
-
-
-def core_doors(structure: Structure) -> list[Square]:
-    """The lane squares that the doors of stair cores, on their +Z sides, open onto."""
-    cores = np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist()
-    last = structure.shape[0] - 1
-    return [(row + 1, col) for row, col in cores if row < last and structure.cells[row + 1, col] == Cell.LANE]
-
-
 def ground_inside(structure: Structure) -> shapely.Geometry:
     """The (x, z) ground of every square inside the contour, obstacles too."""
     x, z = structure.column_edges_m, structure.row_edges_m
@@ -81,10 +62,11 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     """
     thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
     outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
+    doors = door_edges(structure.cells)
     walls: list[Placement] = []
     for tile in grid:
         walls += [
-            _wall(tile, edge, outside, fittings)
+            _wall(tile, edge, outside, fittings, has_door=doors.get(tile.square) is edge)
             for edge in Edge
             if outside[tile.square[0] + 1 + NEIGHBOUR_STEPS[edge][0], tile.square[1] + 1 + NEIGHBOUR_STEPS[edge][1]]
         ]
@@ -101,7 +83,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     return walls
 
 
-def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: FittingsConfig) -> Placement:
+def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: FittingsConfig, *, has_door: bool) -> Placement:
     row, col = tile.square
     dr, dc = NEIGHBOUR_STEPS[edge]
     x, z = tile.x_m + dc * tile.half_x_m, tile.z_m + dr * tile.half_z_m
@@ -112,7 +94,7 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
         x += fittings.wall_thickness_m / 2 * (reflex[0] - reflex[1])
     spec: WallSpec | PortalSpec = WallSpec(round(length, 6), fittings.ceiling_height_m, fittings.wall_thickness_m)
     kind = ObjectKind.WALL
-    if _holds_door(tile, edge, outside):
+    if has_door:
         kind = ObjectKind.PORTAL
         door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * DOOR_JAMB_M)
         check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)
@@ -128,14 +110,3 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
     yaw = edge_yaw_rad({Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}[edge])
     name = f"{kind.name.capitalize()}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
     return Placement(name, kind, spec, (round(x, 6), 0.0, round(z, 6)), yaw)
-
-
-def _holds_door(tile: Tile, edge: Edge, outside: NDArray[np.bool_]) -> bool:
-    """Whether an outer edge is the one with the portal's door: opposite its lane if it can be."""
-    if tile.cell not in {Cell.ENTRANCE, Cell.EXIT}:
-        return False
-    row, col = tile.square
-    outer = [e for e in Edge if outside[row + 1 + NEIGHBOUR_STEPS[e][0], col + 1 + NEIGHBOUR_STEPS[e][1]]]
-    inwards = NEIGHBOUR_STEPS[lane_edges(tile)[0]]
-    opposite = [e for e in outer if NEIGHBOUR_STEPS[e] == (-inwards[0], -inwards[1])]
-    return edge == (opposite or outer)[0]

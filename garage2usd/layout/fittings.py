@@ -1,6 +1,6 @@
-"""What hangs over single squares or stands on them: tube lights, speed bumps, signs, cones."""
+"""What hangs over single squares or stands on them: tube lights, speed bumps, cones."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Container, Iterable, Mapping
 
 import numpy as np
 
@@ -8,14 +8,15 @@ from garage2usd.config import FittingsConfig
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.lanes import LaneGraph, LaneKind, Square
 from garage2usd.layout.ceiling import CeilingLevels
+from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
 from garage2usd.layout.services import LINES_REACH_M
-from garage2usd.layout.specs import ConeSpec, NoParkingSignSpec, Point, SpeedBumpSpec, TubeLightSpec
+from garage2usd.layout.specs import ConeSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
 
-__all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "no_parking_signs", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
 TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
@@ -29,14 +30,20 @@ _TUBE_GAP_M = 0.1
 _JUNCTION_TUBE_OFFSET_M = 1.2
 
 
-def tube_lights(grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+def tube_lights(
+    grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels, cores: Mapping[Square, Core] | None = None
+) -> list[Placement]:
     """Tube lights under the ceiling: in line along lanes, one over each square with stalls or a portal.
 
     There are no more of them in a line than find room between the beams, and over junctions and bends between the
-    pipes and ducts that hang as high.
+    pipes and ducts that hang as high. Beside a core, the tube hangs over the stalls that are left.
     """
     lights: list[Placement] = []
     for tile in grid:
+        core = cores.get(tile.square) if cores else None
+        if core is not None and tile.square not in grid.stall_places:
+            continue
+        beside_m = core.beside_m(tile.half_x_m if core.along_x else tile.half_z_m) if core else 0.0
         count = fittings.tubes_per_cell if tile.cell is Cell.LANE else min(1, fittings.tubes_per_cell)
         along_x = _tube_along_x(tile, grid)
         length = tile.width_m if along_x else tile.depth_m
@@ -48,7 +55,7 @@ def tube_lights(grid: TileGrid, fittings: FittingsConfig, levels: CeilingLevels)
         if tile.axis_is_x is None:
             pitch = min(pitch, 2 * _JUNCTION_TUBE_OFFSET_M)
         for index in range(count):
-            offset = (index - (count - 1) / 2) * max(pitch, least_pitch)
+            offset = beside_m + (index - (count - 1) / 2) * max(pitch, least_pitch)
             x = tile.x_m + (offset if along_x else 0.0)
             z = tile.z_m + (0.0 if along_x else offset)
             position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
@@ -64,8 +71,10 @@ def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
     return tile.axis_is_x is not False
 
 
-def speed_bumps(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, seed: int) -> list[Placement]:
-    """Speed bumps across straight lanes, never on two squares in a row."""
+def speed_bumps(
+    grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, seed: int, crossings: Collection[Square] = ()
+) -> list[Placement]:
+    """Speed bumps across straight lanes, never on two squares in a row and never on a crossing."""
     rng = generator(seed, Step.SPEED_BUMPS)
     bumps: dict[Square, Placement] = {}
     for tile in grid:
@@ -74,7 +83,7 @@ def speed_bumps(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, s
             continue
         row, col = tile.square
         wanted = rng.random() < fittings.speed_bump_rate
-        if not wanted or (row - 1, col) in bumps or (row, col - 1) in bumps:
+        if not wanted or tile.square in crossings or (row - 1, col) in bumps or (row, col - 1) in bumps:
             continue
         spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3))
         yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
@@ -84,24 +93,14 @@ def speed_bumps(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, s
     return list(bumps.values())
 
 
-def no_parking_signs(grid: TileGrid, fittings: FittingsConfig, *, seed: int) -> list[Placement]:
-    """A no-parking sign in the middle of some of the free squares that hold no stall."""
-    rng = generator(seed, Step.SIGNS)
-    signs = []
-    for tile in grid:
-        if tile.cell is not Cell.FREE or tile.square in grid.stall_places:
-            continue
-        if rng.random() < fittings.no_parking_sign_rate:
-            yaw = float(rng.integers(4)) * _QUARTER_TURN
-            position = (tile.x_m, 0.0, tile.z_m)
-            signs.append(
-                Placement("NoParkingSign", ObjectKind.NO_PARKING_SIGN, NoParkingSignSpec(), position, yaw, tile.square)
-            )
-    return signs
-
-
 def cones(
-    grid: TileGrid, stalls: tuple[Stall, ...], cars: Iterable[Placement], fittings: FittingsConfig, draws: SquareDraws
+    grid: TileGrid,
+    stalls: tuple[Stall, ...],
+    cars: Iterable[Placement],
+    fittings: FittingsConfig,
+    draws: SquareDraws,
+    *,
+    built_on: Container[Square] = (),
 ) -> list[Placement]:
     """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
     taken = {(car.square, car.name) for car in cars}
@@ -123,7 +122,7 @@ def cones(
             place(stall.named("Cone"), points, stall.centre_m, stall.yaw_rad, stall.square)
     for tile in grid:
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
-        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places
+        is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places and tile.square not in built_on
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
             place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), (tile.x_m, tile.z_m), 0.0, tile.square)
     return placed

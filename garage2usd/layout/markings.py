@@ -15,6 +15,7 @@ __all__ = [
     "edge_line",
     "hatching",
     "stall_lines",
+    "stripes",
     "two_way_arrows",
     "zebra",
 ]
@@ -29,6 +30,7 @@ _HATCH_PERIOD_M = 1.2
 _HATCH_MARGIN_M = 0.6
 _HATCH_GAP_M = 0.1
 _MIN_HATCHED_M = 1.0
+_STRIPE_WIDTH_M, _STRIPE_PERIOD_M = 0.15, 0.5
 
 
 def stall_lines(width_m: float, length_m: float) -> tuple[Marking, ...]:
@@ -115,18 +117,35 @@ def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: boo
 
 
 @lru_cache(maxsize=256)
-def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, ...]:
-    """The bars of a crossing in the middle of a straight lane square, long along the lane."""
+def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool, offset_m: float = 0.0) -> tuple[Marking, ...]:
+    """The bars of a crossing over a straight lane square, long along the lane, `offset_m` along it from the middle."""
+    most = max((half_x if along_x else half_z) - _ZEBRA_DEPTH_M / 2, 0.0)
+    offset_m = round(min(max(offset_m, -most), most), 6)
     room = 2 * ((half_z if along_x else half_x) - setback - LINE_WIDTH_M - _ZEBRA_BAR_M / 2)
     count = int((room + _ZEBRA_BAR_M) / (2 * _ZEBRA_BAR_M))
     half_bar, half_length = _ZEBRA_BAR_M / 2, _ZEBRA_DEPTH_M / 2
     bars: list[Polygon] = []
     for index in range(count):
         middle = round((index - (count - 1) / 2) * 2 * _ZEBRA_BAR_M, 6)
-        across, along = (middle - half_bar, middle + half_bar), (-half_length, half_length)
+        across, along = (middle - half_bar, middle + half_bar), (offset_m - half_length, offset_m + half_length)
         (x0, x1), (z0, z1) = (along, across) if along_x else (across, along)
         bars.append(rectangle(x0, z0, x1, z1))
     return tuple(Marking(bar, Surface.PAINT_WHITE) for bar in bars)
+
+
+@lru_cache(maxsize=256)
+def stripes(left: float, top: float, right: float, bottom: float) -> tuple[Marking, ...]:
+    """Yellow diagonal stripes over a narrow piece of floor that is kept free."""
+    area = shapely.box(left, top, right, bottom)
+    reach = (right - left) + (bottom - top)
+    bars = []
+    for index in range(int(reach / _STRIPE_PERIOD_M) + 1):
+        start = left - (bottom - top) + index * _STRIPE_PERIOD_M
+        corners = [(start, top), (start + _STRIPE_WIDTH_M, top)]
+        corners += [(x + bottom - top, bottom) for x, _ in reversed(corners)]
+        bars.append(shapely.Polygon(corners).intersection(area))
+    shapes = [bar.exterior.coords[:-1] for bar in bars if bar.geom_type == "Polygon" and bar.area > 1e-6]  # noqa: PLR2004
+    return tuple(Marking(tuple((round(x, 6), round(z, 6)) for x, z in shape), Surface.PAINT_YELLOW) for shape in shapes)
 
 
 @lru_cache(maxsize=256)

@@ -64,8 +64,13 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterabl
     """The same with a stall of each dead-end aisle kept free for turning.
 
     It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
-    aisle, the nearest of all.
+    aisle, the nearest of all. A stall that cars drive straight on into helps nobody to turn, and is only taken where
+    the aisle has no other.
     """
+
+    def is_straight_on(stall: Stall) -> bool:
+        return grid.tiles[stall.access_square].drivable[stall.edge]
+
     turned = list(stalls)
     opening_on: dict[Square, list[int]] = {}
     for index, stall in enumerate(stalls):
@@ -79,7 +84,11 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterabl
         # a stable sort: the nearest first among those that open onto the same lane
         for index in sorted(
             dict.fromkeys((*np.atleast_1d(nearest).tolist(), *own)),
-            key=lambda index: back.get(stalls[index].access_square, len(back)),
+            key=lambda index: (
+                stalls[index].access_square not in back,
+                is_straight_on(stalls[index]),
+                back.get(stalls[index].access_square, 0),
+            ),
         ):
             if turned[index].use is StallUse.STANDARD:
                 turned[index] = replace(turned[index], use=StallUse.TURNING)

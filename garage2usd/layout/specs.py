@@ -194,11 +194,12 @@ class BarrierSpec:
 
 @dataclass(frozen=True)
 class ObstacleSpec:
-    """A concrete core that fills its square; origin in the middle of its foot."""
+    """A concrete core; origin in the middle of its foot, its door in the middle of the side that looks to +Z."""
 
     width_m: float
     depth_m: float
     height_m: float
+    has_door: bool = True
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,12 @@ from garage2usd.layout.markings import (
     dashes,
     edge_line,
     hatching,
+    stripes,
     two_way_arrows,
     zebra,
 )
 from garage2usd.layout.placement import ObjectKind, Placement, stall_name
-from garage2usd.layout.specs import CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
+from garage2usd.layout.specs import Box, CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
 from garage2usd.stalls import Edge, StallRow
 
 __all__ = [
@@ -186,16 +187,31 @@ def lane_edges(tile: Tile) -> list[Edge]:
     return [edge for edge in Edge if tile.drivable[edge]]
 
 
-def floor_panel(tile: Tile, grid: TileGrid, bay: BayConfig, *, has_bump: bool, has_crossing: bool = False) -> Placement:
-    """The floor of one square with its markings, open where stalls lie."""
+def floor_panel(
+    tile: Tile,
+    grid: TileGrid,
+    bay: BayConfig,
+    *,
+    has_bump: bool,
+    crossing_m: float | None = None,
+    kept_free: Box | None = None,
+) -> Placement:
+    """The floor of one square with its markings, open where stalls lie.
+
+    ``crossing_m`` is where on a lane a crossing to a core's door lies, along it from the middle; ``kept_free`` is the
+    floor before the door on the core's own square.
+    """
     openings: list[Polygon] = []
     markings: tuple[Marking, ...]
     if tile.cell is Cell.LANE:
-        markings = _lane_markings(tile, grid, has_bump=has_bump, has_crossing=has_crossing)
+        markings = _lane_markings(tile, grid, has_bump=has_bump, crossing_m=crossing_m)
     elif tile.cell is Cell.FREE:
         places = grid.stall_places.get(tile.square, [])
         openings = [stall_rectangle(tile, place.row, place.slot, bay) for place in places]
-        markings = _row_end_lines(tile, places, bay) if places else hatching(tile.half_x_m, tile.half_z_m)
+        if kept_free is not None:
+            markings = (*_row_end_lines(tile, places, bay), *stripes(*kept_free))
+        else:
+            markings = _row_end_lines(tile, places, bay) if places else hatching(tile.half_x_m, tile.half_z_m)
     else:
         markings = _portal_markings(tile)
     spec = PanelSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
@@ -244,7 +260,7 @@ def _row_start_m(row: StallRow, bay: BayConfig) -> float:
     return -row.count * bay.stall_width_m / 2
 
 
-def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, has_crossing: bool) -> tuple[Marking, ...]:
+def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, crossing_m: float | None) -> tuple[Marking, ...]:
     half_x, half_z, setback = tile.half_x_m, tile.half_z_m, grid.setback_m
     markings: list[Marking] = []
     for edge in Edge:
@@ -258,8 +274,8 @@ def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, has_crossing: 
             if tile.drivable[vertical] and tile.drivable[horizontal] and closed:
                 markings.extend(corner_lines(vertical, horizontal, half_x, half_z, setback))
     along_x = tile.axis_is_x
-    if along_x is not None and has_crossing:
-        markings.extend(zebra(half_x, half_z, setback, along_x=along_x))
+    if along_x is not None and crossing_m is not None:
+        markings.extend(zebra(half_x, half_z, setback, along_x=along_x, offset_m=crossing_m))
     elif along_x is not None and not has_bump:
         markings.extend(dashes(half_x, half_z, along_x=along_x))
         if sum(tile.square) % 2 == 0:

@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure, outside_squares
-from garage2usd.stalls import capacity_table, square_capacity
+from garage2usd.doors import door_edges
+from garage2usd.grid import Cell, CellArray, Mask, Structure
+from garage2usd.stalls import Edge, capacity_table, square_capacity
 
 __all__ = ["aisle_side_mm", "area_per_stall_m2", "dimension", "dimensioned", "free_sides_mm"]
 
@@ -70,8 +71,7 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     sized = _Sized(structure.cells, sides, [size for _, _, sizes in lines for size in sizes], bay)
     open_lines = [(axis, line, sizes) for axis, line, sizes in lines if len(sizes) > 1]
     for _ in range(_PASSES):
-        # a list, as every line is asked in each pass
-        if not any([sized.improve(*line) for line in open_lines]):
+        if not sum(sized.improve(*line) for line in open_lines):
             break
     return Structure(structure.cells, sized.side_mm(1), sized.side_mm(0))
 
@@ -89,10 +89,8 @@ def aisle_side_mm(bay: BayConfig) -> int:
 
 def free_sides_mm(bay: BayConfig) -> list[int]:
     """Sides of lines of squares along which no car drives, ascending: a stall's length, two and three stalls' widths."""
-    length, width, column = (
-        round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.column_size_m)
-    )
-    return sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
+    length, width, ends = (round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.row_ends_m))
+    return sorted({length, *(max(count * width + ends, length) for count in _STALLS_BETWEEN_COLUMNS)})
 
 
 class _Sized:
@@ -112,7 +110,8 @@ class _Sized:
 
     def side_mm(self, axis: int) -> NDArray[np.int64]:
         """Depths of the rows (0) or widths of the columns (1)."""
-        return self._sizes_mm[self._at[axis]]
+        sides: NDArray[np.int64] = self._sizes_mm[self._at[axis]]
+        return sides
 
     def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
         """Give a line the size with the least area per stall, if that is less than now."""
@@ -151,15 +150,13 @@ def _stalls_held(sizes_mm: NDArray[np.int64], bay: BayConfig) -> NDArray[np.int6
 
 
 def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
-    """Which rows and which columns have a vehicle door across their end; the door is opposite a portal's lane."""
+    """Which rows and which columns have a vehicle door across their end."""
     rows, columns = (np.zeros(count, dtype=np.bool_) for count in cells.shape)
-    outside = np.pad(outside_squares(cells), 1, constant_values=True)
-    lane = np.pad(cells == Cell.LANE, 1)
-    for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
-        outer = [(dr, dc) for dr, dc in NEIGHBOUR_STEPS if outside[row + 1 + dr, col + 1 + dc]]
-        opposite = [(dr, dc) for dr, dc in outer if lane[row + 1 - dr, col + 1 - dc]]
-        for dr, dc in opposite or outer:
-            (columns if dr else rows)[col if dr else row] = True
+    for (row, col), edge in door_edges(cells).items():
+        if edge in {Edge.UP, Edge.DOWN}:
+            columns[col] = True
+        else:
+            rows[row] = True
     return rows, columns
 
 

@@ -45,7 +45,7 @@ class Sizes(NamedTuple):
     aisle_mm
         What it is where one does.
     stall_mm
-        int64, shape (3,): stall width, stall length, column.
+        int64, shape (3,): stall width, stall length, and what the ends of a row leave free.
     kept_mm
         int64, shape (2, lines): side of each line while no car drives along it.
     actual_mm
@@ -88,7 +88,7 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
     is_chosen = np.array(bay.chosen_sides)
     kept = actual.copy()
     kept[is_chosen] = free_sides_mm(bay)[-1]
-    stall = np.array([round(side * 1000) for side in (bay.stall_width_m, bay.stall_length_m, bay.column_size_m)])
+    stall = np.array([round(side * 1000) for side in (bay.stall_width_m, bay.stall_length_m, bay.row_ends_m)])
     return Sizes(
         is_chosen,
         np.array(free_sides_mm(bay), np.int64),
@@ -135,15 +135,15 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
 @compiled
 def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
     """Stalls on a square by its sides and the edges that are open to lanes, as `garage2usd.stalls` counts them."""
-    stall_width, stall_length, column = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
+    stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
     x, z = edges & 3, edges >> 2
     along_x, along_z = 0, 0
     if x != 0 and depth >= stall_length:
         rows = 2 if x == 3 and depth >= 2 * stall_length else 1
-        along_x = rows * (max(width - column, 0) // stall_width)
+        along_x = rows * (max(width - ends, 0) // stall_width)
     if z != 0 and width >= stall_length:
         rows = 2 if z == 3 and width >= 2 * stall_length else 1
-        along_z = rows * (max(depth - column, 0) // stall_width)
+        along_z = rows * (max(depth - ends, 0) // stall_width)
     return max(along_x, along_z)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from garage2usd.config import BayConfig, SiteConfig
+from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
 from garage2usd.config.site import SidesM
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
@@ -10,13 +10,14 @@ from garage2usd.site.contour import draw_contour
 from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
 from garage2usd.site.obstacles import draw_obstacles
 from garage2usd.site.portals import draw_portals
+from garage2usd.site.ramps import check_ramps, ramp_squares
 
 __all__ = ["make_site"]
 
 _CONTOUR_ATTEMPTS = 64
 
 
-def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
+def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: FittingsConfig | None = None) -> Structure:
     """Make the structure matrix with its static objects and the size of its squares.
 
     Parameters
@@ -25,6 +26,8 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
         The settings; whatever they give is taken, the rest is drawn.
     seed
         Seed of the steps contour, portals and obstacles.
+    fittings
+        Whether there are ramps, and how long; left out, portals need no room outside.
 
     Returns
     -------
@@ -38,14 +41,16 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int) -> Structure:
     GenerationError
         If a step found no valid result within its attempts.
     """
+    ramps = ramp_squares(bay, fittings) if fittings else 0
     if site.structure is not None:
         cells = cells_from_text(site.structure, field="site.structure")
         check_structure(cells)
     elif site.structure_file is not None:
         raise ConfigError("site.structure_file", str(site.structure_file), "a file read by load_config")
     else:
-        cells = _static_cells(site, seed=seed)
+        cells = _static_cells(site, seed=seed, ramps=ramps)
     _check_size(site, cells)
+    check_ramps(cells, site, ramps)
     return Structure(
         cells,
         sides_mm(_given(bay.column_widths_m, bay), field="bay.column_widths_m", shape=cells.shape, axis=1),
@@ -57,8 +62,11 @@ def _given(sides_m: SidesM | None, bay: BayConfig) -> SidesM:
     return bay.square_side_m if sides_m is None else sides_m
 
 
-def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
-    """Draw what is not given; a random contour on which portals or obstacles find no place is drawn again."""
+def _static_cells(site: SiteConfig, *, seed: int, ramps: int) -> CellArray:
+    """Draw what is not given, with so many squares free for each ramp.
+
+    A random contour on which portals or obstacles find no place is drawn again.
+    """
     random_contour = site.contour is None and site.rectangles > 0
     attempts = _CONTOUR_ATTEMPTS if random_contour else 1
     failure: GenerationError | None = None
@@ -68,7 +76,7 @@ def _static_cells(site: SiteConfig, *, seed: int) -> CellArray:
         try:
             if site.entrance_cells is not None or site.exit_cells is not None:
                 cells = place_portals(cells, site)
-            cells = draw_portals(cells, site, seed=seed, attempt=attempt)
+            cells = draw_portals(cells, site, seed=seed, attempt=attempt, ramp_squares=ramps)
             if site.obstacle_cells is not None:
                 return place_obstacles(cells, site)
             return draw_obstacles(cells, site, seed=seed, attempt=attempt)

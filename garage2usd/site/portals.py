@@ -8,6 +8,7 @@ from garage2usd.config import SiteConfig
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
 from garage2usd.randomness import Step, generator
+from garage2usd.site.ramps import are_apart, with_room_for_ramps
 
 __all__ = ["draw_portals", "free_squares_connected", "outer_squares", "straight_frontier"]
 
@@ -73,7 +74,9 @@ def free_squares_connected(cells: CellArray) -> bool:
     return bool((~portal | ndimage.binary_dilation(free)).all())
 
 
-def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int = 0) -> CellArray:
+def draw_portals(
+    cells: CellArray, site: SiteConfig, *, seed: int, attempt: int = 0, ramp_squares: int = 0
+) -> CellArray:
     """Draw the entrances and exits that are not on the matrix yet.
 
     Parameters
@@ -84,6 +87,8 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
         Its ``entrances``, ``exits``, ``min_portal_distance_cells`` (sigma_1); a kind that was given is not drawn.
     seed, attempt
         Seed and number of the restart.
+    ramp_squares
+        How many squares before each door are kept free for its ramp.
 
     Returns
     -------
@@ -99,7 +104,8 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
     Notes
     -----
     ``M(e_i, e_j) >= sigma_1`` for all pairs of portals, drawn and given. Deviation: portals open onto the outside
-    and not onto a court, and a draw after which the free squares are no longer one piece is drawn again.
+    and not onto a court, where a ramp finds room, and a draw after which the free squares are no longer one piece, or
+    ramps would cross, is drawn again.
     """
     kinds: list[Cell] = []
     if site.entrance_cells is None:
@@ -111,6 +117,7 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
     rng = generator(seed, Step.PORTALS, attempt)
     given = np.argwhere((cells == Cell.ENTRANCE) | (cells == Cell.EXIT))
     frontier = straight_frontier(cells != Cell.OBSTACLE) & outer_squares(cells)
+    frontier &= with_room_for_ramps(cells, ramp_squares)
     eligible = np.argwhere(frontier & (cells == Cell.FREE))
     best = 0
     for _ in range(_RESTARTS):
@@ -120,7 +127,7 @@ def draw_portals(cells: CellArray, site: SiteConfig, *, seed: int, attempt: int 
             result = cells.copy()
             for (row, col), kind in zip(chosen, kinds, strict=True):
                 result[row, col] = kind
-            if free_squares_connected(result):
+            if free_squares_connected(result) and are_apart(result, ramp_squares):
                 return result
     reason = (
         f"{len(kinds)} portals at least {site.min_portal_distance_cells} squares apart found no place: "

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
-from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.layout.specs import Spec
@@ -75,7 +74,7 @@ def write_garage_layer(
         layer.defaultPrim = ROOT_NAME
         set_units(layer)
         set_frames(layer, last_frame)
-        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout.structure)})
+        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
         author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
     del text
@@ -180,10 +179,12 @@ def _part_text(asset_folder: str, file: str) -> str:
     return f'def "{Path(file).stem}" (\n{reference_text(f"./{asset_folder}/{file}")})\n{{\n}}\n'
 
 
-def _matrices(structure: Structure) -> dict[str, object]:
-    """S as rows of symbols, R and C in metres for each column and row."""
+def _matrices(layout: Layout) -> dict[str, object]:
+    """S as rows of symbols, R and C in metres for each column and row, and the fire compartment of each square."""
+    structure = layout.structure
     return {
         "S": str(structure),
         "R": Vt.DoubleArray(structure.R[0].tolist()),
         "C": Vt.DoubleArray(structure.C[:, 0].tolist()),
+        "fireCompartments": Vt.IntArray(layout.compartments.ravel().tolist()),
     }

@@ -158,7 +158,7 @@ def _(spec: s.BarrierSpec) -> Asset:
 
 @_make.register
 def _(spec: s.ObstacleSpec) -> Asset:
-    return assets.obstacle_block(spec.width_m, spec.depth_m, spec.height_m)
+    return assets.obstacle_block(spec.width_m, spec.depth_m, spec.height_m, has_door=spec.has_door)
 
 
 @_make.register

@@ -42,14 +42,17 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     result = run("build", config(QUICK), "--seed", 4, "--output", out)
     assert result.exit_code == 0, result.output
     report = json.loads((tmp_path / "out" / "g_report.json").read_text())
-    stalls = report["score"]["stalls"]
+    stalls = report["score"]["stalls"] - sum(len(core["in_place_of"]) for core in report["stair_cores"])
     assert report["seed"] == 4
+    assert [part["name"] for part in report["fire_compartments"]] == ["F1"]
+    assert report["fire_compartments"][0]["stalls"] == stalls
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
     assert sum(report["stall_uses"].values()) == stalls
     assert report["stall_uses"]["standard"] > stalls / 2
     assert f"stalls  {stalls} ({report['stall_uses']['standard']} standard, " in result.output
     assert "every stall, from an entrance and to an exit" in result.output
-    assert f"{report['score']['value']:.2f} (N_S {stalls}, " in result.output
+    assert f"{report['score']['value']:.2f} (N_S {report['score']['stalls']}, " in result.output
+    assert f"{len(report['stair_cores'])} in the place of {report['score']['stalls'] - stalls} stalls" in result.output
     for name in (out, out.with_name("g_plan.png"), out.with_name("g_report.json")):
         assert name.is_file()
         assert str(name) in result.output

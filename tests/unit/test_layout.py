@@ -156,7 +156,7 @@ def test_ducts_hang_under_the_ceiling_above_the_clear_height_and_never_meet(layo
 
 
 def test_speed_bumps_keep_apart():
-    config = GarageConfig(fittings={"speed_bump_rate": 1.0})
+    config = GarageConfig(fittings={"speed_bump_rate": 1.0, "stair_cores": False})
     layout = laid_out("." * 12 + "\nE" + "=" * 10 + "X\n" + "." * 12, config)
     columns = sorted(place.square[1] for place in layout.of_kind(ObjectKind.SPEED_BUMP))
     assert columns == [1, 3, 5, 7, 9]

@@ -38,7 +38,7 @@ def test_stage_and_report_of_a_build_say_the_same(made):
 
 
 def test_json_holds_every_finding_with_its_figures(tmp_path):
-    settings = f'[site]\nstructure = """{RING}"""\n[bay]\nstall_width_m = 2.3\n'
+    settings = f'[site]\nstructure = """{RING}"""\n[bay]\nstall_width_m = 2.3\ndimensioned = false\n'
     (tmp_path / "plan.toml").write_text(settings)
     result = run("check", tmp_path / "plan.toml", "--json")
     assert result.exit_code == 1

@@ -1,0 +1,86 @@
+"""What meshes say of stair cores: their doors, and the lanes that these open onto."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from garage2usd.checks.solids import Solid
+from garage2usd.checks.subject import Point, Subject
+
+__all__ = ["CoreDoor", "core_doors"]
+
+_LABEL = "obstacle"
+_HEIGHTS_M = (1.9, 2.5)
+_WIDTHS_M = (0.7, 2.0)
+_THICKEST_M = 0.3
+_FLOOR_M = 0.05
+_STEP_OUT_M = 1.0
+"""How far before a door a lane begins at most."""
+
+
+class CoreDoor(NamedTuple):
+    """A door onto a lane.
+
+    Attributes
+    ----------
+    name
+        Prim path of the core.
+    position
+        Its middle, (x, z) in metres.
+    node
+        Number of the lane node that it opens onto.
+    """
+
+    name: str
+    position: Point
+    node: int
+
+
+def core_doors(subject: Subject) -> list[CoreDoor]:
+    """The doors of cores that open onto lanes, one for each core and lane, whoever modelled them.
+
+    A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of it
+    behind which a lane begins within a metre.
+    """
+    pieces: dict[str, list[Solid]] = defaultdict(list)
+    for solid in subject.solids.standing(_LABEL):
+        pieces[solid.name].append(solid)
+    doors: dict[tuple[str, int], CoreDoor] = {}
+    for name, parts in pieces.items():
+        block = shapely.union_all([part.footprint for part in parts]).convex_hull.centroid
+        for part in parts:
+            step = _step_out(part, (block.x, block.y))
+            if step is None:
+                continue
+            for node in _lanes_at((part.footprint.centroid.x + step[0], part.footprint.centroid.y + step[1]), subject):
+                doors.setdefault((name, node), CoreDoor(name, part.centre, node))
+    return list(doors.values())
+
+
+def _step_out(part: Solid, block: Point) -> Point | None:
+    """The way out of a door, if a piece is one."""
+    if part.bottom_m > _FLOOR_M or not _HEIGHTS_M[0] <= part.top_m <= _HEIGHTS_M[1]:
+        return None
+    box = part.footprint.minimum_rotated_rectangle
+    if not isinstance(box, shapely.Polygon):
+        return None
+    corners = np.array(box.exterior.coords)
+    sides = corners[1:3] - corners[:2]
+    lengths = np.linalg.norm(sides, axis=1)
+    along = int(np.argmax(lengths))
+    if not _WIDTHS_M[0] <= lengths[along] <= _WIDTHS_M[1] or lengths[1 - along] > _THICKEST_M:
+        return None
+    across = np.array([-sides[along][1], sides[along][0]]) / lengths[along]
+    outwards = np.array([part.footprint.centroid.x, part.footprint.centroid.y]) - block
+    x, z = (across * np.copysign(_STEP_OUT_M, across @ outwards)).tolist()
+    return x, z
+
+
+def _lanes_at(place: Point, subject: Subject) -> Iterator[int]:
+    for number, node in enumerate(subject.nodes):
+        off_x, off_z = (abs(at - middle) for at, middle in zip(place, node.position, strict=True))
+        if not node.is_portal and off_x <= node.widths_m[0] / 2 and off_z <= node.widths_m[1] / 2:
+            yield number

@@ -1,0 +1,31 @@
+"""On which edge of its square each portal has its vehicle door."""
+
+import numpy as np
+
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, outside_squares
+from garage2usd.stalls import Edge
+
+__all__ = ["door_edges"]
+
+_OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
+
+
+def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
+    """The edge with the door of each portal (row, col) that has an edge on the outside.
+
+    Of several, it is the one opposite a lane, so that cars drive straight in; else the first.
+    """
+    outside = np.pad(outside_squares(cells), 1, constant_values=True)
+    lane = np.pad(cells == Cell.LANE, 1)
+
+    def beyond(row: int, col: int, edge: Edge) -> tuple[int, int]:
+        dr, dc = NEIGHBOUR_STEPS[edge]
+        return row + 1 + dr, col + 1 + dc
+
+    doors = {}
+    for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
+        outer = [edge for edge in Edge if outside[beyond(row, col, edge)]]
+        opposite = [edge for edge in outer if lane[beyond(row, col, _OPPOSITE[edge])]]
+        if outer:
+            doors[row, col] = (opposite or outer)[0]
+    return doors

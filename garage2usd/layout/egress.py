@@ -1,0 +1,205 @@
+"""Which cores a garage gets: enough exits on foot in each fire compartment, and none too far from a stall."""
+
+from collections import defaultdict
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import GarageConfig
+from garage2usd.grid import Structure
+from garage2usd.lanes import LaneGraph, Square
+from garage2usd.layout.compartments import compartments_of
+from garage2usd.layout.cores import Core, core_candidates, obstacle_cores
+from garage2usd.profiles import Length
+from garage2usd.stalls import Edge, StallRow
+
+__all__ = ["Egress", "plan_egress"]
+
+Points = NDArray[np.float64]
+
+_EXITS = 2
+"""Exits of a compartment where the profile asks for no number."""
+_STALLS_FOR_ONE = 10
+"""Cores stand on one in so many stalls at most, so that a small garage is not all stairs."""
+_STALL_WORTH_M = 12.0
+"""How far from the best place a core stands to save a stall."""
+_OFF_STRAIGHT_M = 8.0
+"""How far to find a straight lane, where a crossing leads to the door."""
+_SLACK_M = 1.0
+_ROUNDS = 6
+
+
+class Egress(NamedTuple):
+    """How people get out.
+
+    Attributes
+    ----------
+    compartments
+        Number of each square's fire compartment; see `garage2usd.layout.compartments.compartments_of`.
+    cores
+        The stair cores: obstacles with doors first.
+    """
+
+    compartments: NDArray[np.int32]
+    cores: list[Core]
+
+
+class _Places(NamedTuple):
+    """Candidates of one compartment, with the places of their doors and their price in metres."""
+
+    cores: list[Core]
+    doors: Points
+    price_m: NDArray[np.float64]
+
+
+def plan_egress(structure: Structure, graph: LaneGraph, config: GarageConfig, *, sprinklered: bool) -> Egress:
+    """Divide the floor into fire compartments, and place as many stair cores as each needs.
+
+    Parameters
+    ----------
+    structure, graph
+        The plan.
+    config
+        Its profile, and whether there are stair cores.
+    sprinklered
+        Whether the clauses for sprinklers count.
+
+    Notes
+    -----
+    Obstacles beside lanes are cores already. For one more core after another, places are spread over the stalls of a
+    compartment by Lloyd's algorithm from farthest-first seeds, and each goes to the candidate that is nearest, where
+    every stall that it costs counts as twelve metres; the first number with which all stalls have a door in reach is
+    kept.
+    """
+    profile = config.standard
+    area = profile.fire_compartment_area_sprinklered if sprinklered else profile.fire_compartment_area
+    compartments = compartments_of(structure, area)
+    cores = obstacle_cores(structure)
+    if not config.fittings.stair_cores:
+        return Egress(compartments, cores)
+    exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS
+    reach = profile.exit_distance_sprinklered if sprinklered else profile.exit_distance
+    stalls = _stalls_by_compartment(structure, graph, config, compartments)
+    places = _places_by_compartment(structure, graph, config, compartments)
+    budget = sum(len(points) for points in stalls.values()) // _STALLS_FOR_ONE
+    for number, points in sorted(stalls.items()):
+        fixed = np.array([core.door_m for core in cores if compartments[core.lane] == number]).reshape(-1, 2)
+        for core in _chosen(points, places.get(number), fixed, int(exits), _reach_m(reach)):
+            if len(core.stalls) <= budget:
+                budget -= len(core.stalls)
+                cores.append(core)
+    return Egress(compartments, cores)
+
+
+def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, reach_m: float) -> list[Core]:
+    """The fewest cores of a compartment with which it has its exits and each stall one in reach."""
+    chosen: list[int] = []
+    if places is None:
+        return []
+    for count in range(max(exits - len(fixed), 0), len(places.cores) + 1):
+        chosen = _snapped(places, _spread(points, fixed, count))
+        doors = np.concatenate([fixed, places.doors[chosen]])
+        if len(doors) and float(_distances(points, doors).min(axis=1).max()) <= reach_m:
+            break
+    return [places.cores[index] for index in chosen]
+
+
+def _spread(points: Points, fixed: Points, count: int) -> Points:
+    """So many places that lie spread over points, beside some that are fixed."""
+    centres = fixed
+    for _ in range(count):
+        if len(centres):
+            nearest = _distances(points, centres).min(axis=1)
+            centres = np.concatenate([centres, points[[int(np.argmax(nearest.round(6)))]]])
+        else:
+            centres = points[[int(np.argmin(points.sum(axis=1).round(6)))]]
+    moving = centres[len(fixed) :].copy()
+    for _ in range(_ROUNDS):
+        owner = _distances(points, np.concatenate([fixed, moving])).round(6).argmin(axis=1) - len(fixed)
+        for index in range(count):
+            own = points[owner == index]
+            if len(own):
+                moving[index] = (own.min(axis=0) + own.max(axis=0)) / 2
+    return moving
+
+
+def _snapped(places: _Places, centres: Points) -> list[int]:
+    """The candidate for each place, no two on one square."""
+    chosen: list[int] = []
+    for centre in centres:
+        taken = {square for index in chosen for square in (places.cores[index].square, places.cores[index].lane)}
+        far = np.array([core.square in taken or core.lane in taken for core in places.cores])
+        if far.all():
+            break
+        price = _distances(places.doors, centre[None])[:, 0] + places.price_m
+        chosen.append(int(np.argmin(np.where(far, np.inf, price.round(6)))))
+    return chosen
+
+
+def _distances(points: Points, others: Points) -> Points:
+    off = points[:, None] - others[None]
+    distances: Points = np.hypot(off[..., 0], off[..., 1])
+    return distances
+
+
+def _reach_m(clause: Length | None) -> float:
+    return np.inf if clause is None else clause.amount - _SLACK_M
+
+
+def _stalls_by_compartment(
+    structure: Structure, graph: LaneGraph, config: GarageConfig, compartments: NDArray[np.int32]
+) -> dict[int, Points]:
+    """Middles of the stalls in each compartment."""
+    points: dict[int, list[tuple[float, float]]] = defaultdict(list)
+    for row in graph.stall_rows:
+        points[int(compartments[row.row, row.col])] += _middles(structure, row, config)
+    return {number: np.array(middles) for number, middles in points.items()}
+
+
+def _middles(structure: Structure, row: StallRow, config: GarageConfig) -> list[tuple[float, float]]:
+    x, z = structure.column_edges_m, structure.row_edges_m
+    left, top, right, bottom = (float(v) for v in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
+    deep = config.bay.stall_length_m / 2
+    offsets = [(slot - (row.count - 1) / 2) * config.bay.stall_width_m for slot in range(row.count)]
+    middle_x, middle_z = (left + right) / 2, (top + bottom) / 2
+    match row.edge:
+        case Edge.UP:
+            return [(middle_x + offset, top + deep) for offset in offsets]
+        case Edge.DOWN:
+            return [(middle_x + offset, bottom - deep) for offset in offsets]
+        case Edge.LEFT:
+            return [(left + deep, middle_z + offset) for offset in offsets]
+        case Edge.RIGHT:
+            return [(right - deep, middle_z + offset) for offset in offsets]
+
+
+def _places_by_compartment(
+    structure: Structure, graph: LaneGraph, config: GarageConfig, compartments: NDArray[np.int32]
+) -> dict[int, _Places]:
+    """The candidates whose doors open onto each compartment."""
+    found: dict[int, list[Core]] = defaultdict(list)
+    for core in core_candidates(structure, graph, config):
+        if compartments[core.square] == compartments[core.lane]:
+            found[int(compartments[core.lane])].append(core)
+    return {
+        number: _Places(
+            cores,
+            np.array([core.door_m for core in cores]),
+            np.array(
+                [
+                    _STALL_WORTH_M * len(core.stalls)
+                    + _OFF_STRAIGHT_M * (not _is_straight(graph, core.lane, core.edge))
+                    for core in cores
+                ]
+            ),
+        )
+        for number, cores in found.items()
+    }
+
+
+def _is_straight(graph: LaneGraph, lane: Square, edge: Edge) -> bool:
+    """Whether cars drive over a lane square along an edge of it, and not across that edge."""
+    steps = {(other[0] - lane[0], other[1] - lane[1]) for other in graph.graph[lane]}
+    along = {(0, -1), (0, 1)} if edge in {Edge.UP, Edge.DOWN} else {(-1, 0), (1, 0)}
+    return bool(steps) and steps <= along
