@@ -3,7 +3,7 @@
 A dynamic programme over the broken profile (transfer matrices, one square at a time) keeps the best value of each
 frontier and what can follow it; an enumeration by these suffixes then meets only layouts that may win.
 """
-# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - loops that numba flattens
+# ruff: noqa: C901, PLR0912, PLR0915 - loops that numba flattens
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,8 +77,8 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
         hops[q] = FAR
     tail = 0
     for entrance in ground.entrances:
-        for step in (-stride, stride, -1, 1):
-            p = entrance + step
+        for way in (-stride, stride, -1, 1):
+            p = entrance + way
             if hops[p] == FAR and (cells[p] == 1 or (cells[p] == 0 and p >= first_open)):
                 hops[p] = 1
                 queue[tail] = p
@@ -87,8 +87,8 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
     while head < tail:
         q = queue[head]
         head += 1
-        for step in (-stride, stride, -1, 1):
-            p = q + step
+        for way in (-stride, stride, -1, 1):
+            p = q + way
             if (cells[p] == 1 or (cells[p] == 0 and p >= first_open)) and hops[p] == FAR:
                 hops[p] = hops[q] + 1
                 queue[tail] = p
@@ -100,10 +100,10 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
         if cells[q] != 0:
             continue
         edges, near, free = 0, FAR, FAR
-        for way in range(4):
-            p = q + (-stride, stride, -1, 1)[way]
+        for side in range(4):
+            p = q + (-stride, stride, -1, 1)[side]
             if cells[p] == 1:
-                edges |= 1 << way
+                edges |= 1 << side
                 free = min(free, relaxed[p])
             if cells[p] == 1 or (cells[p] == 0 and p >= first_open):
                 near = min(near, hops[p])
