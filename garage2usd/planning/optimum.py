@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Cell, Structure
+from garage2usd.grid import Cell, CellArray, Structure
 from garage2usd.planning.circulation import CirculationRules, circulation
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
@@ -84,8 +84,7 @@ def find_optimum(
     profile carries labels in place of lanes. A lane that joins two of the same piece closes the loop of R2, and one
     flag tells of the square above and to the left for R3. So the programme meets just the layouts that keep the rules.
     """
-    turned = site.shape[1] > site.shape[0]
-    upright = _turned(site) if turned else site
+    upright = _upright(site)
     if plan.dead_ends is DeadEnds.STANDARD:
         plan = plan.model_copy(update={"dead_ends": DeadEnds.ALLOW})
     ground = ground_of(upright, bay=bay, plan=plan)
@@ -96,8 +95,7 @@ def find_optimum(
         value = score.value if score.stalls else -np.inf
     found = _beat(ground, sheet, value)
     if found.lanes is not None:
-        cells = cells_of(ground, found.lanes)
-        best = site.with_cells(cells.T if turned else cells)
+        best = site.with_cells(_as_on(site, cells_of(ground, found.lanes)))
     elif best is None or value == -np.inf:
         raise GenerationError("optimum", "no structure with a stall keeps the rules", seed=0, attempts=1)
     return Optimum(best, evaluate(best, bay=bay, plan=plan), found.scored, found.frontiers)
@@ -215,6 +213,32 @@ def free_hops(ground: Ground) -> NDArray[np.int64]:
     return hops
 
 
-def _turned(structure: Structure) -> Structure:
-    """The same with rows and columns exchanged."""
-    return Structure(structure.cells.T, structure.row_depths_mm, structure.column_widths_mm)
+def _is_turned(site: Structure) -> bool:
+    return site.shape[1] > site.shape[0]
+
+
+def _is_flipped(site: Structure) -> bool:
+    """Whether the entrances are on the first half of the longer side."""
+    along = int(_is_turned(site))
+    places = [entrance[along] for entrance in site.where(Cell.ENTRANCE)]
+    return 2 * sum(places) < len(places) * (site.shape[along] - 1)
+
+
+def _upright(site: Structure) -> Structure:
+    """The site with its smaller side along the rows, for a short profile, and its entrances towards the last row.
+
+    Squares are decided from the first row on. How far off an entrance they are is then seen early, by the ways among
+    them that are decided, and the enumeration ends up to a thousand times sooner than from the other side.
+    """
+    cells, depths, widths = site.cells, site.row_depths_mm, site.column_widths_mm
+    if _is_turned(site):
+        cells, depths, widths = cells.T, widths, depths
+    if _is_flipped(site):
+        cells, depths = cells[::-1], depths[::-1]
+    return Structure(np.ascontiguousarray(cells), np.ascontiguousarray(widths), np.ascontiguousarray(depths))
+
+
+def _as_on(site: Structure, cells: CellArray) -> CellArray:
+    """The matrix of an upright site as it is on the site."""
+    flipped = cells[::-1] if _is_flipped(site) else cells
+    return np.ascontiguousarray(flipped.T if _is_turned(site) else flipped)
