@@ -47,9 +47,9 @@ def rules() -> str:
         "## The price of the rules of circulation, 7 x 9 squares",
         (
             "Proven optima: y' / stalls / per cent of the y' without rules. N is how many squares deep a dead end may "
-            "be (R1); with each N there is also a loop (R2) and no block of two by two lanes (R3). A loop of its own is "
-            "never worth while: the optima without rules have the loops and the deepest dead ends, in squares, that "
-            "their column names. Seconds are those of the proof for N = 2."
+            "be (R1); with each N there is also a loop (R2) and no block of two by two lanes (R3). Without rules: y' / "
+            "stalls; how many loops the optimum has, and how many squares deep its deepest dead end is. Seconds are "
+            "those of the proof for N = 2."
         ),
         "### The gates that parameters were tuned on, bays of 8.1 m\n\n" + _table(gates),
         "### Held out: gates and bays drawn at random, on which nothing was tuned\n\n" + _table(held_out()),
