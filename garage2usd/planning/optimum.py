@@ -56,7 +56,8 @@ def find_optimum(
     ----------
     site
         Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper than
-        two squares. 9 x 12 squares take seconds without rules or without dead ends, 9 x 9 with dead ends of two a minute.
+        two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two take a
+        minute.
     bay
         Size of the stalls.
     plan
