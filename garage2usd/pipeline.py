@@ -1,7 +1,7 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.output import check_name, check_writable, publish, staging_folder
-from garage2usd.planning import Plan, dimension, evaluate, given_plan, plan_lanes, play
+from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
@@ -204,8 +204,6 @@ def _generate(
         plan = given_plan(play(site, tape), bay=config.bay, plan=config.plan)
     else:
         plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
-    if config.bay.dimensioned:
-        plan = _dimensioned(plan, config)
     clock.append(time.perf_counter())
     graph = build_lane_graph(plan.structure, config.bay)
     if not graph.stall_rows:
@@ -220,13 +218,6 @@ def _generate(
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
-
-
-def _dimensioned(plan: Plan, config: GarageConfig) -> Plan:
-    """The plan with R and C chosen, each where the user gave none; its archive keeps the sizes it was learnt with."""
-    bay = config.bay
-    structure = dimension(plan.structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
-    return replace(plan, structure=structure, score=evaluate(structure, bay=config.bay, plan=config.plan))
 
 
 def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:

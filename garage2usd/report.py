@@ -15,7 +15,7 @@ from garage2usd.errors import ConfigError, ReportError
 from garage2usd.grid import Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
-from garage2usd.planning import Plan, area_per_stall_m2, principles, rank_of, tape_of
+from garage2usd.planning import Plan, area_per_stall_m2, dimensioned, evaluate, principles, rank_of, tape_of
 from garage2usd.version import VERSION
 
 __all__ = ["read_report", "write_report"]
@@ -59,8 +59,8 @@ def write_report(
             "parking_time_squares": score.parking_time_squares,
             "unused_squares": score.unused_squares,
         },
-        "learnt_value": plan.learnt_value,
-        "polish_gain": plan.archive[0].score.value - plan.learnt_value if plan.archive else 0.0,
+        "learning": _learning(plan, config),
+        "gave_way": dict(plan.gave_way),
         "principles": asdict(principles(structure, bay=config.bay)),
         "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
         "stall_uses": {use.value: count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
@@ -87,6 +87,31 @@ def write_report(
         "seconds": {step: round(value, 4) for step, value in seconds.items()},
     }
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+def _learning(plan: Plan, config: GarageConfig) -> dict[str, Any] | None:
+    """What learning alone found, and what polish added to it; None where nothing was learnt."""
+    if plan.learnt is None:
+        return None
+    found = dimensioned(plan.learnt.structure, config.bay)
+    score = evaluate(found, bay=config.bay, plan=config.plan)
+    plan_found = {
+        "value": score.value,
+        "stalls": score.stalls,
+        "area_per_stall_m2": round(area_per_stall_m2(found, config.bay), 3),
+    }
+    return {
+        "learnt": plan_found,
+        "polish": {
+            "value": plan.score.value - score.value,
+            "stalls": plan.score.stalls - score.stalls,
+            "area_per_stall_m2": round(
+                area_per_stall_m2(plan.structure, config.bay) - plan_found["area_per_stall_m2"], 3
+            ),
+        },
+        "episodes": len(plan.learning_curve),
+        "steps": plan.steps,
+    }
 
 
 class _Report(BaseModel):

@@ -14,6 +14,7 @@ from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
 from garage2usd.lanes import build_lane_graph, unproven_lane_graph
 from garage2usd.layout import Layout, lay_out
+from garage2usd.planning import dimension
 from garage2usd.profiles import Profile
 from garage2usd.site.given import check_structure
 
@@ -91,7 +92,10 @@ def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
             (bay.row_depths_m, "bay.row_depths_m", 0),
         )
     )
-    return _subject(Structure(cells, widths, depths), config, path, kind=kind)
+    structure = Structure(cells, widths, depths)
+    if bay.dimensioned:
+        structure = dimension(structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
+    return _subject(structure, config, path, kind=kind)
 
 
 def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, GarageConfig]:

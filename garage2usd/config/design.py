@@ -13,6 +13,8 @@ __all__ = ["designed_settings"]
 
 _CARS_BETWEEN_COLUMNS = 3
 _STEP_M = 0.01
+_WIDEST_DOOR_M = 5.8
+"""A vehicle door is made 6 m wide at most, and is clear between the posts of its frame."""
 _LARGEST = 1e6
 """No setting of a size is larger; what is larger is refused where it is validated."""
 
@@ -68,6 +70,7 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
         ("bay", "stall_length_m"): length_m,
         ("bay", "aisle_width_m"): aisle_m,
         ("bay", "square_side_m"): side_m,
+        ("bay", "portal_width_m"): min(_at_least(profile.portal_width, BayConfig, "portal_width_m"), _WIDEST_DOOR_M),
         ("fittings", "clear_height_m"): clear_m,
         ("fittings", "ceiling_height_m"): max(
             _default(FittingsConfig, "ceiling_height_m"),
@@ -89,6 +92,9 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
         ),
         ("site", "exits"): _exits(profile, settings, side_m, column_m, width_m),
     }
+    if side_m != DEFAULT_SIDE_M and not _is_given(settings, "bay", "square_side_m"):
+        # a side that only the profile asks for is no wish for a uniform grid
+        yield "bay", "dimensioned", _default(BayConfig, "dimensioned")
     models: dict[str, type[Settings]] = {"bay": BayConfig, "fittings": FittingsConfig, "site": SiteConfig}
     for (section, key), value in chosen.items():
         if value != _default(models[section], key):
@@ -134,6 +140,13 @@ def _given(
     if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _LARGEST:
         return value
     return _default(model, key) if fallback is None else fallback
+
+
+def _is_given(settings: Mapping[str, Any], section: str, key: str) -> bool:
+    given = settings.get(section)
+    return key in (
+        given.model_fields_set if isinstance(given, Settings) else given if isinstance(given, Mapping) else ()
+    )
 
 
 def _or_default(clause: Length | None, model: type[Settings], key: str) -> float:

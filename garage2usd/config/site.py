@@ -17,6 +17,8 @@ DEFAULT_SIDE_M = 8.1
 """Side of squares whose size is not given."""
 _DEFAULT_SHAPE = 7, 9
 CARRIAGEWAY_MARGIN_M = 0.05
+DOOR_JAMB_M, DOOR_FRAME_M = 0.6, 0.08
+"""Wall and steel frame on each side of a vehicle door."""
 
 
 def _drawing(value: object) -> object:
@@ -96,7 +98,8 @@ class BayConfig(Settings):
     """Size of the squares and of the stalls on them."""
 
     square_side_m: float = Field(DEFAULT_SIDE_M, ge=1, le=50)
-    """Side of the squares whose size is neither given nor chosen by `dimensioned`: three stalls between columns."""
+    """Side of the squares whose size is neither given nor chosen by `dimensioned`: three stalls between columns. Who
+    gives it asks for a uniform grid: then `dimensioned` is false unless it is given too."""
     column_widths_m: SidesM | None = None
     """The paper's R: width along X of every column, of each, or of each square, constant along a column;
     `square_side_m` or what `dimensioned` chooses unless it is given."""
@@ -109,13 +112,32 @@ class BayConfig(Settings):
     """Length of one stall from its mouth on the lane to its rear line."""
     column_size_m: float = Field(0.6, ge=0.2, le=1.2)
     """Side of the square structural columns between bays."""
-    dimensioned: bool = False
+    dimensioned: bool = True
     """Whether R and C are chosen for the finished plan, each where it is not given: aisles of `aisle_width_m`, stalls
     that just fit, least floor a stall."""
     aisle_width_m: float = Field(6.0, ge=5, le=12)
     """Clear width of the aisles between columns where R and C are chosen."""
+    portal_width_m: float = Field(5.0, ge=2.5, le=6)
+    """Least clear width of vehicle doors where R and C are chosen."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _uniform_if_asked(cls, given: object) -> object:
+        if isinstance(given, dict) and "square_side_m" in given and "dimensioned" not in given:
+            return {**given, "dimensioned": False}
+        return given
+
+    @property
+    def chosen_sides(self) -> tuple[bool, bool]:
+        """Whether C, the depths of the rows, is chosen with the plan, and whether R, the widths of the columns, is."""
+        return self.dimensioned and self.row_depths_m is None, self.dimensioned and self.column_widths_m is None
 
     @property
     def carriageway_setback_m(self) -> float:
         """How far the carriageway stays from squares that are no lane: half a column and a margin."""
         return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M
+
+    @property
+    def portal_side_m(self) -> float:
+        """Least side of a square along the edge with a door of `portal_width_m`."""
+        return self.portal_width_m + 2 * (DOOR_JAMB_M + DOOR_FRAME_M)

@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.lanes import Square
 from garage2usd.layout.clearance import check_clear_width
@@ -18,9 +19,7 @@ from garage2usd.stalls import Edge
 __all__ = ["DOOR_FRAME_M", "columns", "core_doors", "ground_inside", "obstacles", "outer_walls"]
 
 _MAX_DOOR_WIDTH_M = 6.0
-_DOOR_JAMB_M = 0.6
 _DOOR_HEAD_M = 0.3
-DOOR_FRAME_M = 0.08
 
 
 def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> list[Placement]:
@@ -115,7 +114,7 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
     kind = ObjectKind.WALL
     if _holds_door(tile, edge, outside):
         kind = ObjectKind.PORTAL
-        door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * _DOOR_JAMB_M)
+        door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * DOOR_JAMB_M)
         check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)
         spec = PortalSpec(
             spec.length_m,

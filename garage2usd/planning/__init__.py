@@ -1,6 +1,6 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
-from garage2usd.planning.dimensioning import area_per_stall_m2, dimension
+from garage2usd.planning.dimensioning import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
@@ -14,6 +14,7 @@ __all__ = [
     "Score",
     "area_per_stall_m2",
     "dimension",
+    "dimensioned",
     "evaluate",
     "given_plan",
     "is_feasible",

@@ -1,6 +1,7 @@
 """Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. Compiled."""
 # ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - a decision is one loop over the squares of a run
 
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ OPTIONS = 4
 
 _PROFILES, _SHARES, _AHEAD = 9, 2, 4
 _LONGEST_PART = 8
+_ANY_STRETCH, _INSETS = 1000, 3
 _SPREAD_SPINES = 12
 _STATES = _PROFILES * _SHARES * _AHEAD
 _OPTIMISTIC = 40.0
@@ -37,8 +39,9 @@ class Runs(NamedTuple):
     turned
         int64, shape (2,): where the runs along rows end and those along columns end.
     spines
-        int64, shape (2, K): for each direction the runs across it that may join its aisles, or -1; those that lead
-        straight away from a portal and some spread over the site.
+        int64, shape (2, K, M): for each direction sets of runs across it that may join its aisles, filled up with -1.
+        Where loops are asked for a set is a ladder's rails and cross-aisles; else one run that leads straight away
+        from a portal, or one of some spread over the site.
     """
 
     first: NDArray[np.int64]
@@ -53,7 +56,6 @@ def runs_of(ground: Ground) -> Runs:
     first: list[int] = []
     length: list[int] = []
     turned: list[int] = []
-    spines = np.full((2, len(ground.portals) + _SPREAD_SPINES), -1)
     for direction, step in enumerate((1, ground.stride)):
         heads = ground.squares[ground.cells[ground.squares - step] != 0]
         if direction == 1:
@@ -67,6 +69,57 @@ def runs_of(ground: Ground) -> Runs:
                 first.append(head)
                 length.append(count)
         turned.append(len(first))
+    ahead = np.full(len(first), -1)
+    for begin, end, step, line in ((0, turned[0], 1, ground.stride), (turned[0], turned[1], ground.stride, 1)):
+        owner = np.full(len(ground.cells), -1)
+        for run in range(begin, end):
+            owner[first[run] : first[run] + length[run] * step : step] = run
+        for run in range(begin, end):
+            past = owner[first[run] + line : first[run] + line + length[run] * step : step]
+            if (past >= 0).any():
+                ahead[run] = np.bincount(past[past >= 0]).argmax()
+    runs = Runs(
+        np.array(first, np.int64),
+        np.array(length, np.int64),
+        ahead,
+        np.array(turned, np.int64),
+        np.zeros((2, 0, 0), np.int64),
+    )
+    return runs._replace(spines=_ladders(ground, runs) if ground.rules.asks_loop else _single_spines(ground, runs))
+
+
+def _ladders(ground: Ground, runs: Runs) -> NDArray[np.int64]:
+    """Sets of spines that join the aisles at both ends and so often between that no stretch is too long."""
+    sets: list[list[list[int]]] = [[], []]
+    stretch = ground.rules.stretch_squares or _ANY_STRETCH
+    for direction in range(2):
+        begin, end = (runs.turned[0], runs.turned[1]) if direction == 0 else (0, runs.turned[0])
+        heads = runs.first[begin:end]
+        lines = heads % ground.stride if direction == 0 else heads // ground.stride
+        if not len(lines):
+            continue
+        low, high = int(lines.min()), int(lines.max())
+        for near, far, more in product(range(_INSETS), range(_INSETS), range(2)):
+            span = high - far - low - near
+            if span < 2:  # noqa: PLR2004 - rails side by side would be one lane two squares wide
+                continue
+            parts = max(1, -(-span // (stretch + 1))) + more
+            rails = np.unique(np.linspace(low + near, high - far, parts + 1).round().astype(int))
+            if (np.diff(rails) > 1).all():
+                sets[direction].append((begin + np.flatnonzero(np.isin(lines, rails))).tolist())
+    count = max(len(found) for found in sets)
+    most = max((len(spines) for found in sets for spines in found), default=1)
+    ladders = np.full((2, max(count, 1), most), -1)
+    for direction, found in enumerate(sets):
+        for index, spines in enumerate(found):
+            ladders[direction, index, : len(spines)] = spines
+    return ladders
+
+
+def _single_spines(ground: Ground, runs: Runs) -> NDArray[np.int64]:
+    """Each a run that leads straight away from a portal, or one of some spread over the site."""
+    first, length, turned = runs.first.tolist(), runs.length.tolist(), runs.turned.tolist()
+    spines = np.full((2, len(ground.portals) + _SPREAD_SPINES), -1)
     for index, portal in enumerate(ground.portals.tolist()):
         for direction, (step, begin, end) in enumerate(((1, 0, turned[0]), (ground.stride, turned[0], turned[1]))):
             for run in range(begin, end):
@@ -83,16 +136,7 @@ def runs_of(ground: Ground) -> Runs:
         places = np.linspace(0, len(longish) - 1, _SPREAD_SPINES + 2)[1:-1].round().astype(int)
         for index, place in enumerate(places[: len(longish)].tolist()):
             spines[1 - direction, len(ground.portals) + index] = longish[place]
-    ahead = np.full(len(first), -1)
-    for begin, end, step, line in ((0, turned[0], 1, ground.stride), (turned[0], turned[1], ground.stride, 1)):
-        owner = np.full(len(ground.cells), -1)
-        for run in range(begin, end):
-            owner[first[run] : first[run] + length[run] * step : step] = run
-        for run in range(begin, end):
-            past = owner[first[run] + line : first[run] + line + length[run] * step : step]
-            if (past >= 0).any():
-                ahead[run] = np.bincount(past[past >= 0]).argmax()
-    return Runs(np.array(first, np.int64), np.array(length, np.int64), ahead, np.array(turned, np.int64), spines)
+    return spines[:, :, None]
 
 
 def new_values() -> NDArray[np.float64]:
@@ -195,12 +239,13 @@ def learn_aisles(
         # only what is decided anew is explored; whole episodes follow what is learnt on other sites
         explored = epsilon if entry >= 0 or parameters.revisit_rate == 0 else 0.0
         # direction and the aisle across it
-        choice = archive.starts[entry] if entry >= 0 else episode % runs.spines.size
+        choice = archive.starts[entry] if entry >= 0 else episode % (2 * runs.spines.shape[1])
         direction, place = choice % 2, choice // 2
         along, across = (1, ground.stride) if direction == 0 else (ground.stride, 1)
         earned = 0.0
-        spine = runs.spines[direction, place]
-        if spine >= 0:
+        for spine in runs.spines[direction, place]:
+            if spine < 0:
+                break
             earned += _lay_run(
                 ground, board, runs.first[spine], runs.first[spine] + (runs.length[spine] - 1) * across, across, along
             )

@@ -21,6 +21,7 @@ __all__ = [
     "lay",
     "mark_network",
     "measure",
+    "measure_above",
     "new_board",
     "stalls_at",
     "value_now",
@@ -30,7 +31,7 @@ FAR = 1 << 28
 NO_VALUE = -1.0e9
 
 _ENTRANCE = 2
-_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID = 0, 1, 2, 3, 4
+_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID, _FAULTS = 0, 1, 2, 3, 4, 5
 
 
 class Board(NamedTuple):
@@ -52,8 +53,8 @@ class Board(NamedTuple):
     queue
         int64: room for breadth-first searches.
     tally
-        int64, shape (5,): stalls N_S, sum over stalls of (1 + hops), free squares without stalls U_S, portals that
-        touch no lane, lanes.
+        int64, shape (6,): stalls N_S, sum over stalls of (1 + hops), free squares without stalls U_S, portals that
+        touch no lane, lanes, and how often `faults_cost` last found a rule of circulation broken.
     """
 
     cells: NDArray[np.int8]
@@ -76,7 +77,7 @@ def new_board(ground: Ground) -> Board:
         np.zeros(size, np.int32),
         np.zeros(size, np.int32),
         np.zeros(size, np.int64),
-        np.zeros(5, np.int64),
+        np.zeros(6, np.int64),
     )
 
 
@@ -215,6 +216,15 @@ def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
 def measure(ground: Ground, board: Board) -> float:
     """Score y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
+    See `measure_above`.
+    """
+    return measure_above(ground, board, -np.inf)
+
+
+@compiled
+def measure_above(ground: Ground, board: Board, least: float) -> float:
+    """What `measure` does, but a score below `least` is returned as it is, without a look at the faults.
+
     Unlike `lay` it keeps neither `edges` nor `near`.
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
@@ -266,7 +276,10 @@ def measure(ground: Ground, board: Board) -> float:
         unused += count == 0
     tally[_STALLS], tally[_TIME], tally[_UNUSED] = stalls, time, unused
     tally[_UNTOUCHED], tally[_LAID] = 0, lanes
-    return value_now(ground, board) - faults_cost(ground, board)
+    value = value_now(ground, board)
+    if value < least:
+        return value
+    return value - faults_cost(ground, board)
 
 
 @compiled
@@ -286,8 +299,10 @@ def faults_cost(ground: Ground, board: Board) -> float:
             rules.stretch_squares,
         )
         cost += rules.deep_cost * found.deep + rules.block_cost * found.blocks + rules.stretch_cost * found.excess
-        if found.loops < 1:
+        board.tally[_FAULTS] = found.deep + found.blocks + found.excess
+        if rules.asks_loop and found.loops < 1:
             cost += rules.loopless_cost
+            board.tally[_FAULTS] += 1
     return cost
 
 

@@ -130,17 +130,34 @@ class Circulation:
         deep: Mask = self.rounds > squares
         return deep
 
-    def broken(self, rules: CirculationRules) -> tuple[str, ...]:
-        """Names of the rules that are not kept, of ``R1`` to ``R4``; empty where none is asked for."""
+    def faults(self, rules: CirculationRules) -> dict[str, str]:
+        """The rules that are not kept, of ``R1`` to ``R4``, each with where and by how much; empty without rules."""
         if not rules.is_asked:
-            return ()
-        kept = {
-            "R1": self.dead_end_squares <= rules.dead_end_squares,
-            "R2": self.loops >= 1 or not rules.asks_loop,
-            "R3": not self.blocks,
-            "R4": self.longest_stretch_squares <= rules.stretch_squares or not rules.stretch_squares,
-        }
-        return tuple(name for name, is_kept in kept.items() if not is_kept)
+            return {}
+        found = {}
+        if self.dead_end_squares > rules.dead_end_squares:
+            deep = self.deeper_than(rules.dead_end_squares)
+            found["R1"] = (
+                f"a dead end at {_first(deep)} is {self.dead_end_squares} squares deep, "
+                f"{rules.dead_end_squares} at most are asked for"
+            )
+        if rules.asks_loop and self.loops < 1:
+            found["R2"] = "the lanes have no loop"
+        if self.blocks:
+            found["R3"] = f"the lanes are two squares wide at {list(self.blocks[0])}"
+        if 0 < rules.stretch_squares < self.longest_stretch_squares:
+            where = _first(self.stretches == self.longest_stretch_squares)
+            found["R4"] = (
+                f"the stretch at {where} has {self.longest_stretch_squares} squares without a junction, "
+                f"{rules.stretch_squares} at most are asked for"
+            )
+        return found
+
+
+def _first(mask: Mask) -> list[int]:
+    """[row, col] of the first square that is set."""
+    row, col = np.argwhere(mask)[0].tolist()
+    return [row, col]
 
 
 def circulation(structure: Structure) -> Circulation:

@@ -4,14 +4,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import Cell, Mask, Structure
-from garage2usd.stalls import square_capacity
+from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure, outside_squares
+from garage2usd.stalls import capacity_table, square_capacity
 
-__all__ = ["area_per_stall_m2", "dimension"]
+__all__ = ["aisle_side_mm", "area_per_stall_m2", "dimension", "dimensioned", "free_sides_mm"]
 
 _MM_PER_M = 1000
+_MM2_PER_M2 = _MM_PER_M**2
 _PASSES = 8
 _STALLS_BETWEEN_COLUMNS = (2, 3)
+_ROUNDING_M2 = 1e-9
 
 
 def area_per_stall_m2(structure: Structure, bay: BayConfig) -> float:
@@ -29,7 +31,7 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     structure
         With lanes; the sizes that it has are kept on an axis that is not to be chosen.
     bay
-        Stall size, column size and ``aisle_width_m``.
+        Stall size, column size, ``aisle_width_m`` and ``portal_width_m``.
     rows, columns
         Which of C and R to choose.
 
@@ -37,45 +39,128 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
     -------
     Structure
         The same S; every aisle is ``aisle_width_m`` wide between columns, every other line of squares as deep as a
-        stall is long or as wide as two or three stalls between columns, whichever gives least floor a stall.
+        stall is long or as wide as two or three stalls between columns, whichever gives least floor a stall, and every
+        line that is crossed by a vehicle door wide enough for it.
 
     Notes
     -----
     A line of squares is an aisle's if cars drive along it on one of its squares. From aisles and shortest stalls on,
-    one line after the other takes the size that lowers the area per stall, until none does.
+    one line after the other takes the size that lowers the area per stall, until none does. A line's trial changes
+    only its own squares, so that only these are counted again.
     """
-    aisle = round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
+    aisle, free_sizes = aisle_side_mm(bay), free_sides_mm(bay)
+    door = round(bay.portal_side_m * _MM_PER_M)
+    is_aisle = [driven.any(axis=axis) for driven, axis in zip(_driven(structure.cells), (1, 0), strict=True)]
+    has_door = _crossed_by_doors(structure.cells)
+
+    def allowed(axis: int, line: int) -> list[int]:
+        least = door if has_door[axis][line] else 0
+        sizes = [aisle] if is_aisle[axis][line] else free_sizes
+        return sorted({max(size, least) for size in sizes})
+
+    sides = [structure.row_depths_mm.copy(), structure.column_widths_mm.copy()]
+    lines = [
+        (axis, line, allowed(axis, line))
+        for axis, is_chosen in ((0, rows), (1, columns))
+        if is_chosen
+        for line in range(structure.shape[axis])
+    ]
+    for axis, line, sizes in lines:
+        sides[axis][line] = sizes[0]
+    sized = _Sized(structure.cells, sides, [size for _, _, sizes in lines for size in sizes], bay)
+    open_lines = [(axis, line, sizes) for axis, line, sizes in lines if len(sizes) > 1]
+    for _ in range(_PASSES):
+        # a list, as every line is asked in each pass
+        if not any([sized.improve(*line) for line in open_lines]):
+            break
+    return Structure(structure.cells, sized.side_mm(1), sized.side_mm(0))
+
+
+def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
+    """The same S with R and C chosen where the settings say so, each where none is given."""
+    rows, columns = bay.chosen_sides
+    return dimension(structure, bay=bay, rows=rows, columns=columns) if rows or columns else structure
+
+
+def aisle_side_mm(bay: BayConfig) -> int:
+    """Side across an aisle of a line of squares."""
+    return round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
+
+
+def free_sides_mm(bay: BayConfig) -> list[int]:
+    """Sides of lines of squares along which no car drives, ascending: a stall's length, two and three stalls' widths."""
     length, width, column = (
         round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.column_size_m)
     )
-    free_sizes = sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
-    along_x, along_z = _driven(structure.cells)
-    depths, widths = structure.row_depths_mm.copy(), structure.column_widths_mm.copy()
-    lines: list[tuple[NDArray[np.int64], int, list[int]]] = []
-    if rows:
-        lines += [(depths, row, [aisle] if along_x[row].any() else free_sizes) for row in range(len(depths))]
-    if columns:
-        lines += [(widths, col, [aisle] if along_z[:, col].any() else free_sizes) for col in range(len(widths))]
-    for sizes, line, allowed in lines:
-        sizes[line] = allowed[0]
+    return sorted({length, *(max(count * width + column, length) for count in _STALLS_BETWEEN_COLUMNS)})
 
-    def area() -> float:
-        return area_per_stall_m2(Structure(structure.cells, widths, depths), bay)
 
-    best = area()
-    for _ in range(_PASSES):
-        before = best
-        for sizes, line, allowed in lines:
-            kept = int(sizes[line])
-            for size in allowed:
-                sizes[line] = size
-                tried = area()
-                if tried < best - 1e-9:
-                    best, kept = tried, size
-            sizes[line] = kept
-        if best == before:
-            break
-    return Structure(structure.cells, widths, depths)
+class _Sized:
+    """Squares with their sizes, of which floor and stalls are counted line by line."""
+
+    def __init__(
+        self, cells: CellArray, sides_mm: list[NDArray[np.int64]], tried_mm: list[int], bay: BayConfig
+    ) -> None:
+        """Take the sides by axis, rows' first, and all that lines may take beside these."""
+        self._sizes_mm = np.unique(np.concatenate([*sides_mm, np.array(tried_mm, dtype=np.int64)]))
+        self._at = [np.searchsorted(self._sizes_mm, side) for side in sides_mm]
+        self._inside = cells != Cell.OBSTACLE
+        self._service = _service(cells)
+        self._held = _stalls_held(self._sizes_mm, bay)
+        self._area = float(self.side_mm(0) @ self._inside @ self.side_mm(1))
+        self._stalls = int(self._held[self._service, self._at[0][:, None], self._at[1]].sum())
+
+    def side_mm(self, axis: int) -> NDArray[np.int64]:
+        """Depths of the rows (0) or widths of the columns (1)."""
+        return self._sizes_mm[self._at[axis]]
+
+    def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
+        """Give a line the size with the least area per stall, if that is less than now."""
+        across, here = self._at[1 - axis], self._at[axis]
+        tried = np.searchsorted(self._sizes_mm, [*sizes_mm, self._sizes_mm[here[line]]])[:, None]
+        service = self._service[line] if axis == 0 else self._service[:, line]
+        pair = (tried, across) if axis == 0 else (across, tried)
+        counts = self._held[(service, *pair)].sum(axis=1)
+        inside = self._inside[line] if axis == 0 else self._inside[:, line]
+        length = float(self._sizes_mm[across][inside].sum())
+        areas = self._area + length * (self._sizes_mm[tried[:, 0]] - self._sizes_mm[here[line]])
+        stalls = self._stalls + counts - counts[-1]
+        ratios = np.divide(areas, stalls * _MM2_PER_M2, out=np.full(len(areas), np.inf), where=stalls > 0)
+        best = int(np.argmin(ratios[:-1]))
+        if not ratios[best] < ratios[-1] - _ROUNDING_M2:
+            return False
+        here[line] = tried[best, 0]
+        self._area, self._stalls = float(areas[best]), int(stalls[best])
+        return True
+
+
+def _service(cells: CellArray) -> NDArray[np.intp]:
+    """How lanes serve each square, as a number: edges open along Z times three and edges open along X; 0 for none."""
+    lane, free = np.pad(cells == Cell.LANE, 1).astype(np.intp), cells == Cell.FREE
+    return np.where(free, 3 * (lane[:-2, 1:-1] + lane[2:, 1:-1]) + lane[1:-1, :-2] + lane[1:-1, 2:], 0)
+
+
+def _stalls_held(sizes_mm: NDArray[np.int64], bay: BayConfig) -> NDArray[np.int64]:
+    """Stalls that a square holds; shape (services, depths, widths), each depth and width one of some sizes."""
+    count = len(sizes_mm)
+    table = capacity_table(Structure(np.zeros((count, count), dtype=np.int8), sizes_mm, sizes_mm), bay)
+    none = np.zeros_like(table.along_x)
+    along_x = (none, table.along_x, table.along_x_double)
+    along_z = (none, table.along_z, table.along_z_double)
+    return np.stack([np.maximum(one, other) for one in along_x for other in along_z])
+
+
+def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
+    """Which rows and which columns have a vehicle door across their end; the door is opposite a portal's lane."""
+    rows, columns = (np.zeros(count, dtype=np.bool_) for count in cells.shape)
+    outside = np.pad(outside_squares(cells), 1, constant_values=True)
+    lane = np.pad(cells == Cell.LANE, 1)
+    for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
+        outer = [(dr, dc) for dr, dc in NEIGHBOUR_STEPS if outside[row + 1 + dr, col + 1 + dc]]
+        opposite = [(dr, dc) for dr, dc in outer if lane[row + 1 - dr, col + 1 - dc]]
+        for dr, dc in opposite or outer:
+            (columns if dr else rows)[col if dr else row] = True
+    return rows, columns
 
 
 def _driven(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:

@@ -111,7 +111,7 @@ def learn_aisles(
         return Learnt((), np.zeros(plan.episodes), 0)
     archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=len(runs.first))
     greedy = parameters._replace(revisit_rate=0.0)
-    whole = runs.spines.size
+    whole = 2 * runs.spines.shape[1]
     taken, values, best = 0, aisles.new_values(), -np.inf
     for start in range(parameters.starts):
         progress("plan", start, parameters.starts)

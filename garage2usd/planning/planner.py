@@ -6,13 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.config.plan import Choice, DeadEnds
+from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
 from garage2usd.grid import Cell, Structure
+from garage2usd.planning.circulation import circulation
+from garage2usd.planning.dimensioning import area_per_stall_m2, dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.plan import ArchivedPlan, Plan
-from garage2usd.planning.score import Score
+from garage2usd.planning.score import Score, evaluate
 from garage2usd.progress import Progress, silent
 from garage2usd.randomness import Step, generator
 
@@ -20,17 +22,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from garage2usd.planning.board import Board
+    from garage2usd.planning.sizes import Sizes
 
 __all__ = ["anneal_alone", "plan_lanes"]
 
 _CLIMB_PASSES = 40
 _ANNEALED = 6
-_ANNEAL_SQUARES, _FULL_EPISODES = 36_000_000, 5000
+_ANNEAL_SQUARES, _FULL_EPISODES = 6_000_000, 5000
+_SMALL_SQUARES, _ANNEALED_MIDDLE, _ANNEAL_SQUARES_MIDDLE = 120, 4, 48_000_000
 _HOTTEST, _COLDEST = 3.0, 0.5
 _CLIMB_SQUARES = 40_000_000
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
 _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 _LARGE_SQUARES = 1000
+_LABELLED, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 3, 800_000, 4
+_LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), (4.0, 40.0, 5.0, 20.0)
+_WHOLE_SQUARES = 250
+"""Up to so many squares annealing that judges each flip by the whole plan still gains on what labels reach."""
+_FINALISTS, _MOSTLY_COMMON = 12, 0.9
+_STALL_M2 = 25.0
+"""About the floor that a stall takes in a good plan: the price of floor while plans are polished in metres."""
 
 
 def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
@@ -84,14 +95,72 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     if not ranked:
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
-    learnt_value = _score(ground, board, ranked[0][1]).value
+    best_learnt = _archived(site, ground, board, ranked[0][1])
+    met = {lanes.tobytes() for _, lanes in ranked}
     if plan.polishes:
-        ranked = (_drifted if by_aisles else _polished)(ground, board, ranked, plan, random)
-    if plan.dead_ends is DeadEnds.FORBID:
-        ranked = _without_dead_ends(ground, board, ranked)
-    archive = _archived(site, ground, board, ranked, plan)
+        ranked = _better(site, ground, board, ranked, plan, bay, random)
+    archive = tuple(
+        _archived(site, ground, board, lanes, is_polished=lanes.tobytes() not in met)
+        for _, lanes in ranked[: plan.archive_size]
+    )
     chosen = archive[_draw(ranked[: len(archive)], plan, rng)]
-    return Plan(chosen.structure, chosen.score, archive, learnt.curve, learnt_value, learnt.steps)
+    gave_way = _check_rules(chosen.structure, ground, plan, seed=seed)
+    structure = dimensioned(chosen.structure, bay)
+    score = chosen.score if structure is chosen.structure else evaluate(structure, bay=bay, plan=plan)
+    return Plan(structure, score, archive, learnt.curve, best_learnt, learnt.steps, gave_way)
+
+
+def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed: int) -> dict[str, str]:
+    """The rules of circulation that a plan breaks, with where; an error with ``strict``."""
+    gave_way = circulation(structure).faults(ground.rules)
+    if gave_way and plan.strict:
+        reason = f"no plan met keeps the rules of circulation: {'; '.join(gave_way.values())}"
+        raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
+    return gave_way
+
+
+def _better(
+    site: Structure,
+    ground: Ground,
+    board: "Board",
+    ranked: list[tuple[float, Lanes]],
+    plan: PlanConfig,
+    bay: BayConfig,
+    random: NDArray[np.uint64],
+) -> list[tuple[float, Lanes]]:
+    """The plans and what polish makes of the best of them.
+
+    Those that break fewest rules come first, then those with the least floor for a stall where R and C are chosen,
+    else those of the highest value.
+    """
+    from garage2usd.planning.sizes import sizes_of  # noqa: PLC0415
+
+    sizes = sizes_of(ground, bay)
+    is_sized = bool(sizes.is_chosen.any())
+    if is_sized:
+        # polish writes what squares hold by their sides
+        ground = ground._replace(capacity=ground.capacity.copy())
+        sizes.price[0] = ground.weights[0] / _STALL_M2
+    if not uses_aisles(ground, plan):
+        polished = _polished(ground, board, sizes, ranked, plan, random)
+    elif ground.rules.is_asked or is_sized:
+        polished = _labelled(ground, board, sizes, ranked, plan, random)
+    else:
+        polished = _drifted(ground, board, ranked, plan, random)
+    return polished if not is_sized else _by_floor(site, ground, board, polished, bay)
+
+
+def _by_floor(
+    site: Structure, ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], bay: BayConfig
+) -> list[tuple[float, Lanes]]:
+    """The first few by the rules that they break and their floor for a stall, the rest as they are."""
+
+    def key(entry: tuple[float, Lanes]) -> tuple[int, float, bytes]:
+        structure = dimensioned(site.with_cells(cells_of(ground, entry[1])), bay)
+        broken = circulation(structure).faults(ground.rules)
+        return len(broken), area_per_stall_m2(structure, bay), entry[1].tobytes()
+
+    return [*sorted(ranked[:_FINALISTS], key=key), *ranked[_FINALISTS:]]
 
 
 def anneal_alone(
@@ -122,18 +191,15 @@ def anneal_alone(
     if not ranked:
         raise GenerationError("plan", "no way joins all portals", seed=seed, attempts=len(given))
     if plan.polishes:
-        ranked = (_drifted if uses_aisles(ground, plan) else _polished)(ground, board, ranked, plan, random)
-    archive = _archived(site, ground, board, ranked, plan)
+        ranked = _better(site, ground, board, ranked, plan, bay, random)
+    archive = tuple(_archived(site, ground, board, lanes) for _, lanes in ranked[: plan.archive_size])
     return Plan(archive[0].structure, archive[0].score, archive)
 
 
 def _archived(
-    site: Structure, ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], plan: PlanConfig
-) -> tuple[ArchivedPlan, ...]:
-    return tuple(
-        ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes))
-        for _, lanes in ranked[: plan.archive_size]
-    )
+    site: Structure, ground: Ground, board: "Board", lanes: Lanes, *, is_polished: bool = False
+) -> ArchivedPlan:
+    return ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes), is_polished)
 
 
 def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[tuple[float, Lanes]]:
@@ -149,26 +215,116 @@ def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[tuple[float,
 
 
 def _polished(
-    ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], plan: PlanConfig, random: NDArray[np.uint64]
+    ground: Ground,
+    board: "Board",
+    sizes: "Sizes",
+    ranked: list[tuple[float, Lanes]],
+    plan: PlanConfig,
+    random: NDArray[np.uint64],
 ) -> list[tuple[float, Lanes]]:
     """The best climbed by flips, the best of those annealed, and the rest as they were; best first."""
-    from garage2usd.planning.polish import anneal, climb  # noqa: PLC0415
+    from garage2usd.planning.polish import climb  # noqa: PLC0415
+
+    ranked = _valued(ground, board, sizes, ranked)
+    affordable = max(1, _CLIMB_SQUARES // (20 * len(ground.squares) ** 2))
+    count = min(plan.climb_top, affordable)
+    ranked = _improved(
+        ground, board, ranked, ranked[:count], lambda: climb(ground, board, sizes, random, _CLIMB_PASSES)
+    )
+    return _annealed(ground, board, sizes, ranked, plan, random)
+
+
+def _annealed(
+    ground: Ground,
+    board: "Board",
+    sizes: "Sizes",
+    ranked: list[tuple[float, Lanes]],
+    plan: PlanConfig,
+    random: NDArray[np.uint64],
+) -> list[tuple[float, Lanes]]:
+    """The best annealed, each flip judged by the whole plan, and the rest as they were; best first."""
+    from garage2usd.planning.polish import anneal  # noqa: PLC0415
 
     squares = len(ground.squares)
+    is_small = squares <= _SMALL_SQUARES
+    count = _ANNEALED if is_small else _ANNEALED_MIDDLE
+    if sizes.is_chosen.any():
+        count //= 2
+    work = _ANNEAL_SQUARES if is_small else _ANNEAL_SQUARES_MIDDLE
+    flips = int(work * min(1.0, plan.episodes / _FULL_EPISODES)) // squares
+    starts = ranked[:count] if is_small else _apart(ranked, count)
+    return _improved(
+        ground, board, ranked, starts, lambda: anneal(ground, board, sizes, random, flips, _HOTTEST, _COLDEST)
+    )
+
+
+def _improved(
+    ground: Ground,
+    board: "Board",
+    ranked: list[tuple[float, Lanes]],
+    starts: list[tuple[float, Lanes]],
+    polish: "Callable[[], float]",
+) -> list[tuple[float, Lanes]]:
+    """What polish makes of some plans, and all plans as they were; best first."""
     best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
-
-    def improve(count: int, polish: "Callable[[], float]") -> None:
-        for _, lanes in _ranked(best.values())[:count]:
-            _put(ground, board, lanes)
-            value = polish()
-            improved = _taken(ground, board)
-            best.setdefault(improved.tobytes(), (value, improved))
-
-    affordable = max(1, _CLIMB_SQUARES // (20 * squares**2))
-    improve(min(plan.climb_top, affordable), lambda: climb(ground, board, random, _CLIMB_PASSES))
-    flips = int(_ANNEAL_SQUARES * min(1.0, plan.episodes / _FULL_EPISODES)) // (_ANNEALED * squares)
-    improve(_ANNEALED, lambda: anneal(ground, board, random, flips, _HOTTEST, _COLDEST))
+    for _, lanes in starts:
+        _put(ground, board, lanes)
+        value = polish()
+        improved = _taken(ground, board)
+        best.setdefault(improved.tobytes(), (value, improved))
     return _ranked(best.values())
+
+
+def _valued(
+    ground: Ground, board: "Board", sizes: "Sizes", ranked: list[tuple[float, Lanes]]
+) -> list[tuple[float, Lanes]]:
+    """The same with their values in the sides that suit each; best first."""
+    from garage2usd.planning.polish import settled_worth  # noqa: PLC0415
+
+    valued = []
+    for _, lanes in ranked:
+        _put(ground, board, lanes)
+        valued.append((settled_worth(ground, board, sizes), lanes))
+    return _ranked(valued)
+
+
+def _labelled(
+    ground: Ground,
+    board: "Board",
+    sizes: "Sizes",
+    ranked: list[tuple[float, Lanes]],
+    plan: PlanConfig,
+    random: NDArray[np.uint64],
+) -> list[tuple[float, Lanes]]:
+    """The best annealed under the rules of circulation, and the rest as they were; best first."""
+    from garage2usd.planning.circuit import anneal_labels, new_draft  # noqa: PLC0415
+
+    draft = new_draft(ground)
+    ranked = _valued(ground, board, sizes, ranked)
+    trials = int(_LABEL_TRIALS * min(1.0, plan.episodes / _FULL_EPISODES))
+    refresh = _LABEL_REFRESH_ROUNDS * len(ground.squares)
+    polished = _improved(
+        ground,
+        board,
+        ranked,
+        _apart(ranked, _LABELLED),
+        lambda: anneal_labels(ground, board, draft, sizes, random, trials, _LABEL_HEATS, _LABEL_PRICES, refresh),
+    )
+    if len(ground.squares) > _WHOLE_SQUARES:
+        return polished
+    return _ranked([*polished, *_annealed(ground, board, sizes, ranked, plan, random)])
+
+
+def _apart(ranked: list[tuple[float, Lanes]], count: int) -> list[tuple[float, Lanes]]:
+    """The best few plans of which no two have most lanes in common, then the best of the rest."""
+    chosen: list[tuple[float, Lanes]] = []
+    for entry in ranked:
+        common = max((int((entry[1] & lanes).sum()) / max(1, int(lanes.sum())) for _, lanes in chosen), default=0.0)
+        if common < _MOSTLY_COMMON:
+            chosen.append(entry)
+        if len(chosen) == count:
+            break
+    return chosen
 
 
 def _drifted(
@@ -189,23 +345,12 @@ def _drifted(
     return _ranked(best.values())
 
 
-def _without_dead_ends(ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]]) -> list[tuple[float, Lanes]]:
-    """The plans with each dead end led on or taken off; best first."""
-    from garage2usd.planning.board import measure  # noqa: PLC0415
-    from garage2usd.planning.polish import close_dead_ends  # noqa: PLC0415
-
-    closed = {}
-    for _, lanes in ranked:
-        _put(ground, board, lanes)
-        close_dead_ends(ground, board)
-        kept = _taken(ground, board)
-        closed[kept.tobytes()] = (measure(ground, board), kept)
-    return _ranked(closed.values())
-
-
 def _ranked(plans: "Iterable[tuple[float, Lanes]]") -> list[tuple[float, Lanes]]:
-    """Best first; equal values by their lanes, so that no order of meeting matters."""
-    return sorted(plans, key=lambda entry: (-entry[0], entry[1].tobytes()))
+    """Each once, best first; equal values by their lanes, so that no order of meeting matters."""
+    return sorted(
+        {lanes.tobytes(): (value, lanes) for value, lanes in plans}.values(),
+        key=lambda entry: (-entry[0], entry[1].tobytes()),
+    )
 
 
 def _taken(ground: Ground, board: "Board") -> Lanes:

@@ -6,10 +6,15 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure
+from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
+from garage2usd.planning.sizes import Sizes, floor_cost, settle, side_now, sync
 
-__all__ = ["anneal", "climb", "close_dead_ends", "connect"]
+__all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
+
+_FAULTS = 5
+_RESIZED_EVERY = 40
+_SETTLING_PASSES = 2
 
 
 @compiled
@@ -102,51 +107,6 @@ def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
 
 
 @compiled
-def close_dead_ends(ground: Ground, board: Board) -> None:
-    """Lead each dead end on to the nearest other lane over free squares, or take it off; keeps all joined."""
-    cells, stride, queue = board.cells, ground.stride, board.queue
-    steps = (-stride, stride, -1, 1)
-    came = np.zeros(len(cells), np.int64)
-    changed = True
-    rounds = 0
-    while changed:
-        changed = False
-        rounds += 1
-        for tip in ground.squares:
-            if cells[tip] != 1:
-                continue
-            degree, root = 0, np.int64(-1)
-            for step in steps:
-                if cells[tip + step] >= 1:
-                    degree += 1
-                    root = tip + step
-            if degree != 1 or cells[root] != 1:
-                continue
-            changed = True
-            came[:] = 0
-            came[tip] = tip
-            queue[0] = tip
-            head, tail, found = 0, 1, np.int64(-1)
-            while head < tail and found < 0 and rounds == 1:
-                q = queue[head]
-                head += 1
-                for step in steps:
-                    p = q + step
-                    if came[p] == 0 and (cells[p] == 0 or (cells[p] == 1 and p != root and q != tip)):
-                        came[p] = q
-                        if cells[p] == 1:
-                            found = q
-                            break
-                        queue[tail] = p
-                        tail += 1
-            if found < 0:
-                cells[tip] = 0
-            while found >= 0 and found != tip:
-                cells[found] = 1
-                found = came[found]
-
-
-@compiled
 def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
     """Whether a square has a lane beside it: without, no flip of it keeps the lanes joined."""
     beside = False
@@ -156,10 +116,35 @@ def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
 
 
 @compiled
-def climb(ground: Ground, board: Board, random: NDArray[np.uint64], passes: int) -> float:
+def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
+    """Value of the lanes in `board.cells` less that of the floor, in the sides that they ask for; NO_VALUE if infeasible.
+
+    Below `least` faults may be left out of it.
+    """
+    if not (sizes.is_chosen[0] or sizes.is_chosen[1]):
+        return measure_above(ground, board, least)
+    sync(ground, board, sizes)
+    floor = floor_cost(sizes)
+    value = measure_above(ground, board, least + floor)
+    return value if value == NO_VALUE else value - floor
+
+
+@compiled
+def settled_worth(ground: Ground, board: Board, sizes: Sizes) -> float:
+    """The same after every line along which no car drives has got the side that pays best; NO_VALUE if infeasible."""
+    if sizes.is_chosen[0] or sizes.is_chosen[1]:
+        sync(ground, board, sizes)
+        if measure_above(ground, board, np.inf) == NO_VALUE:
+            return NO_VALUE
+        settle(ground, board, sizes, _SETTLING_PASSES)
+    return worth(ground, board, sizes, -np.inf)
+
+
+@compiled
+def climb(ground: Ground, board: Board, sizes: Sizes, random: NDArray[np.uint64], passes: int) -> float:
     """Raise the value of the lanes in `board.cells` by flips of one square or of two side by side; returns it."""
     cells = board.cells
-    value = measure(ground, board)
+    value = settled_worth(ground, board, sizes)
     order = ground.squares.copy()
     for _ in range(passes):
         for index in range(len(order) - 1, 0, -1):
@@ -174,29 +159,57 @@ def climb(ground: Ground, board: Board, random: NDArray[np.uint64], passes: int)
                 if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
                     continue
                 flip(cells, q, p)
-                tried = measure(ground, board)
+                tried = worth(ground, board, sizes, value)
                 if tried > value + 1e-9:
                     value, improved = tried, True
                 else:
                     flip(cells, q, p)
         if not improved:
             break
-    return value
+    return worth(ground, board, sizes, -np.inf)
 
 
 @compiled
 def anneal(
-    ground: Ground, board: Board, random: NDArray[np.uint64], flips: int, hottest: float, coldest: float
+    ground: Ground,
+    board: Board,
+    sizes: Sizes,
+    random: NDArray[np.uint64],
+    flips: int,
+    hottest: float,
+    coldest: float,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells`; leaves the best met there and returns its value."""
+    """Anneal the feasible lanes in `board.cells`; leaves the best met there and returns its value.
+
+    Lines along which no car drives take other sides now and then, where sides are chosen. Plans that break fewer rules
+    of circulation are better than others, whatever their value.
+    """
     cells = board.cells
-    value = measure(ground, board)
-    best, best_cells = value, cells.copy()
+    is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
+    value = settled_worth(ground, board, sizes)
+    best, best_faults, best_cells, best_kept = value, board.tally[_FAULTS], cells.copy(), sizes.kept_mm.copy()
     cooling = (coldest / hottest) ** (1.0 / max(1, flips))
     heat = hottest
     for _ in range(flips):
         heat *= cooling
         draw = next_random(random)
+        threshold = value + heat * np.log(max(uniform(random), 1e-300))
+        if is_sized and (draw >> np.uint64(40)) % np.uint64(_RESIZED_EVERY) == 0:
+            axis = int((draw >> np.uint64(4)) & np.uint64(1))
+            count = len(cells) // ground.stride if axis == 0 else ground.stride
+            line = int((draw >> np.uint64(8)) % np.uint64(count))
+            if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0:
+                continue
+            kept = sizes.kept_mm[axis, line]
+            sizes.kept_mm[axis, line] = sizes.free_mm[int((draw >> np.uint64(20)) % np.uint64(len(sizes.free_mm)))]
+            if side_now(sizes, axis, line) == sizes.actual_mm[axis, line]:
+                continue
+            tried = worth(ground, board, sizes, threshold)
+            if tried >= threshold:
+                value = tried
+            else:
+                sizes.kept_mm[axis, line] = kept
+            continue
         q = ground.squares[int((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
         step = (0, 0, 1, ground.stride)[int(draw & np.uint64(3))]
         p = q + step
@@ -205,13 +218,16 @@ def anneal(
         if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
             continue
         flip(cells, q, p)
-        tried = measure(ground, board)
-        if tried > NO_VALUE and (tried >= value or uniform(random) < np.exp((tried - value) / heat)):
+        tried = worth(ground, board, sizes, threshold)
+        if tried > NO_VALUE and tried >= threshold:
             value = tried
-            if value > best + 1e-9:
-                best = value
+            faults = board.tally[_FAULTS]
+            if faults < best_faults or (faults == best_faults and value > best + 1e-9):
+                best, best_faults = value, faults
                 best_cells[:] = cells
+                best_kept[:] = sizes.kept_mm
         else:
             flip(cells, q, p)
     cells[:] = best_cells
-    return measure(ground, board)
+    sizes.kept_mm[:] = best_kept
+    return worth(ground, board, sizes, -np.inf)

@@ -1,0 +1,299 @@
+"""R and C while lanes are annealed: each line of squares is as wide as what it holds asks for. Compiled."""
+# ruff: noqa: PLR2004 - bits of edges
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.compiled import compiled
+from garage2usd.config import BayConfig
+from garage2usd.grid import Cell
+from garage2usd.planning.board import FAR, Board
+from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
+from garage2usd.planning.ground import Ground
+
+__all__ = [
+    "ALONG_X",
+    "ALONG_Z",
+    "Sizes",
+    "driven_ways",
+    "floor_cost",
+    "foresee",
+    "resize",
+    "settle",
+    "side_now",
+    "sizes_of",
+    "sync",
+    "weigh",
+]
+
+ALONG_X, ALONG_Z = 1, 2
+_STALLS, _TIME, _UNUSED = 0, 1, 2
+_MM_PER_M, _MM2_PER_M2 = 1000, 1.0e6
+
+
+class Sizes(NamedTuple):
+    """The sides of the lines of squares; axis 0 has rows with their depths C, axis 1 columns with their widths R.
+
+    Attributes
+    ----------
+    is_chosen
+        bool, shape (2,): whether the sides along an axis are chosen with the plan, or given.
+    free_mm
+        int64: what a line may be where no car drives along it.
+    aisle_mm
+        What it is where one does.
+    stall_mm
+        int64, shape (3,): stall width, stall length, column.
+    kept_mm
+        int64, shape (2, lines): side of each line while no car drives along it.
+    actual_mm
+        int64, shape (2, lines): its side now.
+    driven
+        int64, shape (2, lines): on how many of its squares cars drive along it.
+    least_mm
+        int64, shape (2, lines): the least side of lines with a vehicle door across their end.
+    is_floor
+        bool, shape (padded,): squares inside the contour that are no obstacle.
+    area_m2
+        float64, shape (1,): floor of all those squares.
+    hint
+        float64, shape (2, lines): what a line is likely to gain, in stalls, if cars begin or cease to drive along it.
+    price
+        float64, shape (1,): what a square metre of floor costs, in stalls; 0 where no side is chosen.
+    """
+
+    is_chosen: NDArray[np.bool_]
+    free_mm: NDArray[np.int64]
+    aisle_mm: int
+    stall_mm: NDArray[np.int64]
+    kept_mm: NDArray[np.int64]
+    actual_mm: NDArray[np.int64]
+    driven: NDArray[np.int64]
+    least_mm: NDArray[np.int64]
+    is_floor: NDArray[np.bool_]
+    area_m2: NDArray[np.float64]
+    hint: NDArray[np.float64]
+    price: NDArray[np.float64]
+
+
+def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
+    """The sides of a ground: chosen where the settings say so and give none, else as they are."""
+    rows = len(ground.cells) // ground.stride
+    sides = ground.sides_mm.reshape(rows, ground.stride, 2)
+    lines = max(rows, ground.stride)
+    actual = np.zeros((2, lines), np.int64)
+    actual[0, :rows], actual[1, : ground.stride] = sides[:, :, 0].max(axis=1), sides[:, :, 1].max(axis=0)
+    is_chosen = np.array(bay.chosen_sides)
+    kept = actual.copy()
+    kept[is_chosen] = free_sides_mm(bay)[-1]
+    stall = np.array([round(side * 1000) for side in (bay.stall_width_m, bay.stall_length_m, bay.column_size_m)])
+    return Sizes(
+        is_chosen,
+        np.array(free_sides_mm(bay), np.int64),
+        aisle_side_mm(bay),
+        stall.astype(np.int64),
+        kept,
+        actual,
+        np.zeros((2, lines), np.int64),
+        _door_sides(ground, bay, lines),
+        ground.cells != Cell.OBSTACLE,
+        np.zeros(1),
+        np.zeros((2, lines)),
+        np.zeros(1),
+    )
+
+
+def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> NDArray[np.int64]:
+    """Least sides of the lines that end in a portal on the border of the site's squares."""
+    least = np.zeros((2, lines), np.int64)
+    door = round(bay.portal_side_m * _MM_PER_M)
+    for portal in ground.portals.tolist():
+        row, col = divmod(portal, ground.stride)
+        if Cell.OBSTACLE in {ground.cells[portal - ground.stride], ground.cells[portal + ground.stride]}:
+            least[1, col] = door
+        else:
+            least[0, row] = door
+    return least
+
+
+@compiled
+def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
+    """Whether cars drive along X on a square, and along Z, as a sum of `ALONG_X` and `ALONG_Z`."""
+    least = 1 if cells[q] == 1 else 2
+    ways = 0
+    if cells[q] == 1:
+        ways |= ALONG_X * (cells[q - 1] >= 1 or cells[q + 1] >= 1)
+        ways |= ALONG_Z * (cells[q - stride] >= 1 or cells[q + stride] >= 1)
+    elif cells[q] >= least:
+        ways |= ALONG_X * (cells[q - 1] == 1 or cells[q + 1] == 1)
+        ways |= ALONG_Z * (cells[q - stride] == 1 or cells[q + stride] == 1)
+    return ways
+
+
+@compiled
+def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
+    """Stalls on a square by its sides and the edges that are open to lanes, as `garage2usd.stalls` counts them."""
+    stall_width, stall_length, column = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
+    x, z = edges & 3, edges >> 2
+    along_x, along_z = 0, 0
+    if x != 0 and depth >= stall_length:
+        rows = 2 if x == 3 and depth >= 2 * stall_length else 1
+        along_x = rows * (max(width - column, 0) // stall_width)
+    if z != 0 and width >= stall_length:
+        rows = 2 if z == 3 and width >= 2 * stall_length else 1
+        along_z = rows * (max(depth - column, 0) // stall_width)
+    return max(along_x, along_z)
+
+
+@compiled
+def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
+    """Write what a square holds by its open edges into `ground.capacity`."""
+    depth, width = sizes.actual_mm[0, q // ground.stride], sizes.actual_mm[1, q % ground.stride]
+    for edges in range(16):
+        ground.capacity[q, edges] = _fits(sizes, depth, width, edges)
+
+
+@compiled
+def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
+    """First square of a line, the step along it, and the square after its last."""
+    if axis == 0:
+        return line * ground.stride, 1, (line + 1) * ground.stride
+    return line, ground.stride, len(ground.cells)
+
+
+@compiled
+def weigh(
+    ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int, change: NDArray[np.int64]
+) -> float:
+    """What another side of a line would change: added to stalls, time and unused squares; returns the floor in m2."""
+    cells, stride = board.cells, ground.stride
+    first, step, last = _line(ground, axis, line)
+    across = 0
+    for index in range((last - first + step - 1) // step):
+        q = first + index * step
+        if not sizes.is_floor[q]:
+            continue
+        # the place on a line is the number of the line across
+        other = sizes.actual_mm[1 - axis, index]
+        across += other
+        if cells[q] != 0:
+            continue
+        edges, near = 0, FAR
+        for way in range(4):
+            p = q + (-stride, stride, -1, 1)[way]
+            if cells[p] == 1:
+                edges |= 1 << way
+                near = min(near, board.hops[p])
+        if edges == 0:
+            continue
+        before = ground.capacity[q, edges]
+        after = _fits(sizes, side_mm if axis == 0 else other, other if axis == 0 else side_mm, edges)
+        change[_STALLS] += after - before
+        change[_TIME] += (after - before) * (1 + near)
+        change[_UNUSED] += (after == 0) - (before == 0)
+    return (side_mm - sizes.actual_mm[axis, line]) * across / _MM2_PER_M2
+
+
+@compiled
+def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> None:
+    """Give a line another side."""
+    first, step, last = _line(ground, axis, line)
+    longer = side_mm - sizes.actual_mm[axis, line]
+    sizes.actual_mm[axis, line] = side_mm
+    across = 0
+    for index in range((last - first + step - 1) // step):
+        q = first + index * step
+        if sizes.is_floor[q]:
+            _set_capacity(ground, sizes, q)
+            across += sizes.actual_mm[1 - axis, index]
+    sizes.area_m2[0] += longer * across / _MM2_PER_M2
+
+
+@compiled
+def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
+    """Count anew where cars drive, and give every line the side that follows."""
+    if not (sizes.is_chosen[0] or sizes.is_chosen[1]):
+        return
+    stride = ground.stride
+    for axis in range(2):
+        for line in range(sizes.driven.shape[1]):
+            sizes.driven[axis, line] = 0
+    for q in range(stride, len(board.cells) - stride):
+        if board.cells[q] >= 1:
+            ways = driven_ways(board.cells, stride, q)
+            sizes.driven[0, q // stride] += ways & ALONG_X
+            sizes.driven[1, q % stride] += ways >> 1
+    is_new = sizes.area_m2[0] == 0
+    for axis in range(2):
+        if not sizes.is_chosen[axis]:
+            continue
+        for line in range(len(board.cells) // stride if axis == 0 else stride):
+            side = side_now(sizes, axis, line)
+            if side == sizes.actual_mm[axis, line]:
+                continue
+            if is_new:
+                sizes.actual_mm[axis, line] = side
+            else:
+                resize(ground, sizes, axis, line, side)
+    if is_new:
+        for q in range(stride, len(board.cells) - stride):
+            if sizes.is_floor[q]:
+                _set_capacity(ground, sizes, q)
+                sizes.area_m2[0] += sizes.actual_mm[0, q // stride] * sizes.actual_mm[1, q % stride] / _MM2_PER_M2
+
+
+@compiled
+def side_now(sizes: Sizes, axis: int, line: int) -> int:
+    """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
+    side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
+    return max(side, sizes.least_mm[axis, line])
+
+
+@compiled
+def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
+    """Set `hint`, from the hops of the board's lanes."""
+    change = np.zeros(3, np.int64)
+    for axis in range(2):
+        if not sizes.is_chosen[axis]:
+            continue
+        for line in range(len(board.cells) // ground.stride if axis == 0 else ground.stride):
+            other = sizes.aisle_mm if sizes.driven[axis, line] == 0 else sizes.kept_mm[axis, line]
+            change[:] = 0
+            area = weigh(ground, board, sizes, axis, line, max(other, sizes.least_mm[axis, line]), change)
+            sizes.hint[axis, line] = ground.weights[0] * change[_STALLS] - sizes.price[0] * area
+
+
+@compiled
+def floor_cost(sizes: Sizes) -> float:
+    """What the floor costs, in stalls."""
+    return sizes.price[0] * sizes.area_m2[0]
+
+
+@compiled
+def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
+    """Choose the side of every line without driven squares, one after the other, for most stalls less the floor's price.
+
+    The hops of the board are to be those of its lanes.
+    """
+    sync(ground, board, sizes)
+    change = np.zeros(3, np.int64)
+    for _ in range(passes):
+        for axis in range(2):
+            if not sizes.is_chosen[axis]:
+                continue
+            count = len(board.cells) // ground.stride if axis == 0 else ground.stride
+            for line in range(count):
+                if sizes.driven[axis, line] > 0:
+                    continue
+                best, kept = 0.0, sizes.kept_mm[axis, line]
+                for side in sizes.free_mm:
+                    change[:] = 0
+                    area = weigh(ground, board, sizes, axis, line, max(side, sizes.least_mm[axis, line]), change)
+                    gain = change[_STALLS] - sizes.price[0] * area
+                    if gain > best + 1e-9:
+                        best, kept = gain, side
+                sizes.kept_mm[axis, line] = kept
+                if side_now(sizes, axis, line) != sizes.actual_mm[axis, line]:
+                    resize(ground, sizes, axis, line, side_now(sizes, axis, line))
