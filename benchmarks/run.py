@@ -1,6 +1,6 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [building | planning | scale | stages | unity | compiled ...]
+Usage: python benchmarks/run.py [building | planning | rules | scale | stages | unity | compiled ...]
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 from planning import planning
+from rules import rules
 from scale import scale
 from stage import stages
 from unity import unity
@@ -34,6 +35,7 @@ def main() -> None:
     measures = {
         "building": _building,
         "planning": planning,
+        "rules": rules,
         "scale": scale,
         "stages": stages,
         "unity": unity,

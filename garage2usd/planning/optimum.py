@@ -2,6 +2,7 @@
 
 from collections import deque
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,17 +10,21 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Cell, Structure
-from garage2usd.planning.ground import Ground, cells_of, ground_of
-from garage2usd.planning.planner import plan_lanes
-from garage2usd.planning.score import Score, evaluate
+from garage2usd.grid import Cell, CellArray, Structure
+from garage2usd.planning.circulation import CirculationRules, circulation
+from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
+from garage2usd.planning.score import Score, evaluate, is_feasible
+
+if TYPE_CHECKING:
+    from garage2usd.planning.broken_profile import Sheet
 
 __all__ = ["Optimum", "find_optimum", "free_hops"]
 
-_MAX_COLS = 12
 _MAX_LAYOUTS = 20_000_000
-_STALLS_STEP = 3
 _FAR = 1 << 20
+_FREE_OF_RULES = PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW)
+
+_Frontiers = list[tuple[NDArray[np.int64], NDArray[np.float64]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,52 +47,82 @@ class Optimum:
     frontiers: int
 
 
-def find_optimum(site: Structure, *, bay: BayConfig, known: Structure | None = None) -> Optimum:
-    """Find the best of all feasible structures on a small site, dead ends allowed.
+def find_optimum(
+    site: Structure, *, bay: BayConfig, plan: PlanConfig = _FREE_OF_RULES, known: Structure | None = None
+) -> Optimum:
+    """Find the best of all feasible structures on a small site that keep the rules of circulation.
 
     Parameters
     ----------
     site
-        Static objects; the smaller side has at most 12 squares, and about 9 x 12 is what time allows.
+        Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper than
+        two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two take a
+        minute.
     bay
         Size of the stalls.
+    plan
+        The rules R1 to R3 that are asked for, as for the planner, and the weights of the score; left out, nothing is
+        asked for. The turning stall that ``dead_ends = "standard"`` keeps free never counts.
     known
-        A good feasible structure to start from; the planner's if left out.
+        A structure to beat, which saves time; it is left aside if it is not feasible or breaks a rule.
 
     Raises
     ------
     ConfigError
-        If the site is too large.
+        If the site is too large, or R4 is asked for.
     GenerationError
-        If the site has no feasible structure, or more candidates than can be scored.
+        If the site has no such structure with a stall, or more candidates than can be scored.
 
     Notes
     -----
     ``y' = N_S - 5 t / N_S - U_S`` with t the sum of the parking times. For ``N_S <= n`` it is at most
     ``N_S - U_S - 5 t / n``, and t is at least what it would be if every way to a lane were the shortest over free
-    squares: both are sums over squares of what the four neighbours decide. A dynamic programme over frontiers
-    maximises that sum for all suffixes; every layout whose sum is above the best known is then scored exactly. So it
-    is done for n in steps of three stalls down to where no layout can win.
+    squares: both are sums over squares of what the four neighbours decide. A frontier-based search, dynamic
+    programming over the broken profile, maximises N_S for n, then that sum for all suffixes; every layout whose sum is
+    above the best known is then scored exactly, those with the greatest sums first.
+
+    R1 is kept by labels: pruning leaves the core, and each lane that it takes off is a stub of some depth. Whether
+    labels are sound is seen from neighbours alone, and each layout that keeps R1 has one sound labelling, so that the
+    profile carries labels in place of lanes. A lane that joins two of the same piece closes the loop of R2, and one
+    flag tells of the square above and to the left for R3. So the programme meets just the layouts that keep the rules.
     """
-    if min(site.shape) > _MAX_COLS:
-        raise ConfigError("site", f"{site.shape[0]} x {site.shape[1]} squares", f"a side of at most {_MAX_COLS}")
-    plan = PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW)
-    best = known or plan_lanes(site, plan=plan, bay=bay, seed=0).structure
-    turned = site.shape[1] > site.shape[0]
-    upright = _turned(best) if turned else best
+    upright = _upright(site)
+    if plan.dead_ends is DeadEnds.STANDARD:
+        plan = plan.model_copy(update={"dead_ends": DeadEnds.ALLOW})
     ground = ground_of(upright, bay=bay, plan=plan)
-    value = evaluate(upright, bay=bay).value
-    most = int(ground.capacity.max()) * ((2 * len(ground.squares) + 2) // 3)
-    scored = frontiers = 0
-    while most > value + 2 * -plan.parking_time_weight:
-        result = _beat(ground, upright.shape, value, most)
-        scored, frontiers = scored + result.scored, frontiers + result.frontiers
-        if result.lanes is not None:
-            upright = upright.with_cells(cells_of(ground, result.lanes))
-            value = evaluate(upright, bay=bay).value
-        most -= _STALLS_STEP
-    structure = _turned(upright) if turned else upright
-    return Optimum(structure, evaluate(structure, bay=bay), scored, frontiers)
+    sheet = _sheet(ground, upright.shape)
+    best, value = known, -np.inf
+    if known is not None and is_feasible(known) and not circulation(known).broken(ground.rules):
+        score = evaluate(known, bay=bay, plan=plan)
+        value = score.value if score.stalls else -np.inf
+    found = _beat(ground, sheet, value)
+    if found.lanes is not None:
+        best = site.with_cells(_as_on(site, cells_of(ground, found.lanes)))
+    elif best is None or value == -np.inf:
+        raise GenerationError("optimum", "no structure with a stall keeps the rules", seed=0, attempts=1)
+    return Optimum(best, evaluate(best, bay=bay, plan=plan), found.scored, found.frontiers)
+
+
+def _sheet(ground: Ground, shape: tuple[int, int]) -> "Sheet":
+    """The site as the search reads it; nothing is worth anything yet."""
+    from garage2usd.planning.broken_profile import Sheet, column_bits  # noqa: PLC0415 - only planning pays for it
+
+    rules, cols = ground.rules, shape[1]
+    if rules.stretch_squares:
+        raise ConfigError("plan.longest_stretch_cells", rules.stretch_squares, "0: the optimum knows R1 to R3 only")
+    depth = min(rules.dead_end_squares, len(ground.squares)) if rules.is_asked else -1
+    bits = column_bits(cols, depth)
+    if bits == 0:
+        most = max(side for side in range(cols) if column_bits(side, depth) or side == 0)
+        raise ConfigError("site", f"{shape[0]} x {shape[1]} squares", f"a side of at most {most}{_under(rules)}")
+    squares = _squares_of(ground)
+    beside = (squares + step for step in (-ground.stride, ground.stride, -1, 1))
+    portals = np.sum([ground.cells[others] >= Cell.ENTRANCE for others in beside], axis=0)
+    return Sheet(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
+
+
+def _under(rules: CirculationRules) -> str:
+    return f" with dead ends of up to {rules.dead_end_squares} squares" if rules.is_asked else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,38 +132,33 @@ class _Beaten:
     frontiers: int
 
 
-def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _Beaten:
-    """Look for a layout of more than `value` among those of up to `most` stalls."""
-    from garage2usd.planning.board import NO_VALUE, new_board  # noqa: PLC0415 - only planning pays for the compiler
-    from garage2usd.planning.frontier import (  # noqa: PLC0415
-        FORBIDDEN,
-        Sheet,
-        advance,
-        complete,
-        enumerate_layouts,
-        suffix_values,
-    )
+def _beat(ground: Ground, sheet: "Sheet", value: float) -> _Beaten:
+    """Look for a layout of more than `value`."""
+    from garage2usd.planning.board import NO_VALUE, new_board  # noqa: PLC0415
+    from garage2usd.planning.broken_profile import FORBIDDEN, complete  # noqa: PLC0415
+    from garage2usd.planning.frontier import enumerate_layouts, suffix_values  # noqa: PLC0415
 
-    hops = free_hops(ground)
-    price = -float(ground.weights[1]) / most
-    kinds = cells_of(ground, np.zeros(len(ground.squares), dtype=np.bool_)).ravel()
-    sheet = Sheet(shape[1], kinds, _worth(ground, hops, price))
-    layers = [(np.zeros(1, np.int64), np.zeros(1))]
-    after = np.concatenate((np.cumsum((kinds == Cell.FREE)[::-1])[::-1][1:], [0]))
-    for index in range(len(kinds)):
-        layers.append(advance(sheet, index, *layers[-1], value, int(after[index])))
+    squares, floor = _squares_of(ground), max(value, NO_VALUE)
+    stalls = sheet._replace(worth=ground.capacity[squares].astype(np.float64))
+    keys, counts = _frontiers(stalls)[-1]
+    most = max((count for key, count in zip(keys, counts, strict=True) if complete(stalls, key)), default=0.0)
+    if most == 0:
+        return _Beaten(None, 0, 0)
+    hops, price = free_hops(ground), -float(ground.weights[1]) / most
+    sheet = sheet._replace(worth=_worth(ground, hops, price))
+    layers = _frontiers(sheet)
     suffixes = [np.array([0.0 if complete(sheet, key) else FORBIDDEN for key in layers[-1][0]])]
-    for index in reversed(range(len(kinds))):
+    for index in reversed(range(len(squares))):
         suffixes.append(suffix_values(sheet, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
     suffixes.reverse()
     offsets = np.concatenate(([0], np.cumsum([len(keys) for keys, _ in layers])))
     frontiers = int(offsets[-1])
-    if not len(layers[-1][0]) or suffixes[0][0] <= value:
+    if suffixes[0][0] <= floor:
         return _Beaten(None, 0, frontiers)
     board = new_board(ground)
     keys = np.concatenate([keys for keys, _ in layers])
     found, scored = enumerate_layouts(
-        sheet, ground, board, offsets, keys, np.concatenate(suffixes), hops, price, value, _MAX_LAYOUTS
+        sheet, ground, board, offsets, keys, np.concatenate(suffixes), hops, price, floor, _MAX_LAYOUTS
     )
     if scored >= _MAX_LAYOUTS:
         raise GenerationError("optimum", "more candidates than can be scored", seed=0, attempts=scored)
@@ -136,10 +166,26 @@ def _beat(ground: Ground, shape: tuple[int, int], value: float, most: int) -> _B
     return _Beaten(lanes, scored, frontiers)
 
 
+def _frontiers(sheet: "Sheet") -> _Frontiers:
+    """The frontiers before each square and after the last, each with the most that leads to it."""
+    from garage2usd.planning.broken_profile import first_frontier  # noqa: PLC0415
+    from garage2usd.planning.frontier import advance  # noqa: PLC0415
+
+    layers = [(np.array([first_frontier(sheet)], dtype=np.int64), np.zeros(1))]
+    for index in range(len(sheet.kinds)):
+        layers.append(advance(sheet, index, *layers[-1]))
+    return layers
+
+
+def _squares_of(ground: Ground) -> NDArray[np.int64]:
+    """All squares of the site in reading order, as indices into the ground."""
+    squares = np.arange(len(ground.cells)).reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING]
+    return np.ascontiguousarray(squares).ravel()
+
+
 def _worth(ground: Ground, hops: NDArray[np.int64], price: float) -> NDArray[np.float64]:
     """Relaxed contribution of each square by its open edges; shape (rows * cols, 16)."""
-    inside = cells_of(ground._replace(cells=np.arange(len(ground.cells))), np.zeros(len(ground.squares), np.bool_))
-    squares = inside.ravel()
+    squares = _squares_of(ground)
     near = np.full((len(squares), 16), _FAR)
     for edges in range(1, 16):
         beside = [step for bit, step in enumerate((-ground.stride, ground.stride, -1, 1)) if edges >> bit & 1]
@@ -169,6 +215,32 @@ def free_hops(ground: Ground) -> NDArray[np.int64]:
     return hops
 
 
-def _turned(structure: Structure) -> Structure:
-    """The same with rows and columns exchanged."""
-    return Structure(structure.cells.T, structure.row_depths_mm, structure.column_widths_mm)
+def _is_turned(site: Structure) -> bool:
+    return site.shape[1] > site.shape[0]
+
+
+def _is_flipped(site: Structure) -> bool:
+    """Whether the entrances are on the first half of the longer side."""
+    along = int(_is_turned(site))
+    places = [entrance[along] for entrance in site.where(Cell.ENTRANCE)]
+    return 2 * sum(places) < len(places) * (site.shape[along] - 1)
+
+
+def _upright(site: Structure) -> Structure:
+    """The site with its smaller side along the rows, for a short profile, and its entrances towards the last row.
+
+    Squares are decided from the first row on. How far off an entrance they are is then seen early, by the ways among
+    them that are decided, and the enumeration ends up to a thousand times sooner than from the other side.
+    """
+    cells, depths, widths = site.cells, site.row_depths_mm, site.column_widths_mm
+    if _is_turned(site):
+        cells, depths, widths = cells.T, widths, depths
+    if _is_flipped(site):
+        cells, depths = cells[::-1], depths[::-1]
+    return Structure(np.ascontiguousarray(cells), np.ascontiguousarray(widths), np.ascontiguousarray(depths))
+
+
+def _as_on(site: Structure, cells: CellArray) -> CellArray:
+    """The matrix of an upright site as it is on the site."""
+    flipped = cells[::-1] if _is_flipped(site) else cells
+    return np.ascontiguousarray(flipped.T if _is_turned(site) else flipped)
