@@ -5,6 +5,7 @@ from pathlib import Path
 from garage2usd.checks import (
     accessible,
     aisle,
+    circulation,
     clearance,
     consistency,
     egress,
@@ -45,6 +46,7 @@ RULES: tuple[Rule, ...] = tuple(
     for module in (
         stall,
         aisle,
+        circulation,
         clearance,
         headroom,
         portal,

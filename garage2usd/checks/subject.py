@@ -13,6 +13,7 @@ from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solids
 from garage2usd.grid import Structure
 from garage2usd.layout import StallUse
+from garage2usd.planning import MeasuredCirculation, measured_circulation
 
 __all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
 
@@ -195,6 +196,11 @@ class Subject:
     def ramps(self) -> tuple[Ramp, ...]:
         """The ramps."""
         return tuple(ramps_of(self.things))
+
+    @cached_property
+    def circulation(self) -> MeasuredCirculation | None:
+        """How traffic circulates on the lanes; None where S, R and C are not known."""
+        return None if self.structure is None else measured_circulation(self.structure)
 
     @cached_property
     def parking_stalls(self) -> tuple[StallOutline, ...]:
