@@ -77,7 +77,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ----------
     path
         A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
-        (``.toml``), or a structure as text or JSON.
+        (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
     profile
         What it is checked against; left out, the profile that it was designed to if it tells, else ``cn-jgj100``.
 
