@@ -8,7 +8,6 @@ from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
 from garage2usd.checks.subject import Fault, Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
-from garage2usd.config.plan import UnreachableStalls
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, UnreachableStallError
@@ -147,7 +146,7 @@ def _laid_out(
         return None, "no square beside a lane takes a stall"
     try:
         layout = lay_out(structure, graph, config, unreachable=unreachable or ())
-        must_prove = unreachable is None and config.plan.unreachable_stalls is not UnreachableStalls.KEEP
+        must_prove = unreachable is None and config.plan.unreachable_stalls.are_proven
         return without_unreachable(layout, graph, config) if must_prove else layout, None
     except ConfigError as error:
         if error.field.startswith("bay."):

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["build"]
 
+_RULES_NAMED = 3
+
 
 @click.command(short_help="Build a garage and write it as a USD stage.")
 @click.argument("config", required=False, type=INPUT_FILE)
@@ -94,6 +96,7 @@ def _describe(made: "Build") -> None:
         ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", "every stall, from an entrance and to an exit"),
+        ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
@@ -105,6 +108,20 @@ def _describe(made: "Build") -> None:
     ]
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def _checked(made: "Build") -> str:
+    """How many errors, warnings and remarks a check finds, and how to see them."""
+    against = f"against {made.garage.config.standard.name}"
+    if made.findings is None:
+        return f"not done here for so many stalls: garage2usd check {made.report}"
+    counts = Counter(finding.severity.value for finding in made.findings)
+    words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
+    told = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
+    if not told:
+        return f"nothing found {against}"
+    rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
+    return f"{', '.join(told)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
 
 
 def _dropped(made: "Build") -> str:

@@ -1,4 +1,4 @@
-"""S, R and C as people have them: lists, arrays, files of NumPy and text; what is none of these is refused in a line."""
+"""S, R and C as people have them: lists, arrays, files of NumPy and text; what is none of these is refused."""
 
 import io
 import time

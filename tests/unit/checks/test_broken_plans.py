@@ -169,7 +169,8 @@ def test_a_stage_and_its_report_say_the_same_of_stalls_that_no_car_gets_into(tmp
     drawing = "...\nE=X"
     free = {"occupied_stalls": []}
     bay = {"row_depths_m": [8.1, 4.2], "column_widths_m": 8.1}
-    made = build(GarageConfig(**settings_with(site={"structure": drawing}, bay=bay, parking=free)), tmp_path / "g.usda")
+    settings = settings_with(site={"structure": drawing}, bay=bay, parking=free, plan={"unreachable_stalls": "keep"})
+    made = build(GarageConfig(**settings), tmp_path / "g.usda")
     profile = profile_without("aisle_width", **WIDE_CIRCLE)
     found = [
         [finding for finding in check_file(path, profile=profile)[0] if finding.rule == "swept-path"]
