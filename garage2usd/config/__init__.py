@@ -54,9 +54,9 @@ class GarageConfig(Settings):
     stage: StageConfig = StageConfig()
     """The stage's files."""
     profile: str | Profile = DEFAULT_PROFILE
-    """The standard that the garage is designed to: 'cn-jgj100', 'uk-istructe', 'us-ada', a TOML file with a profile of
-    one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes the place
-    of defaults that do not satisfy it; settings that are given stay."""
+    """The standard that the garage is designed to: 'cn-jgj100', 'de-garvo', 'uk-istructe', 'us-ada', a TOML file with a
+    profile of one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes
+    the place of defaults that do not satisfy it; settings that are given stay."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.

@@ -16,6 +16,7 @@ from garage2usd.profiles import load_profile, read_profile
 
 FOUND_IN_GOOD_ONE = {"personnel-exits"}
 CN = load_profile("cn-jgj100")
+CIRCULATION = {"dead-end-depth", "loop", "stretch-length", "lane-field"}
 DRAWN = {
     "no exit": ("exit-missing", "...\nE==\n..."),
     "no entrance": ("entrance-missing", "...\n==X\n..."),
@@ -229,6 +230,22 @@ def test_circulation_is_measured_in_metres(name):
     for metres, rules in ((6.8 * squares, set()), (6.8 * squares - 0.01, {rule})):
         profile = profile_without("column_spacing", **{limit: {"value": metres, "unit": "m"}})
         assert found_in(settings, profile) - FOUND_IN_GOOD_ONE == rules
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
+    drawing = "\n".join([*DRAWN["a dead end with branches that are short"][1].split("\n"), "..=.=.."])
+    settings = settings_with(
+        site={"structure": drawing}, parking={"occupied_stalls": []}, stage={"form": form}, plan={"dead_ends": "allow"}
+    )
+    made = build(GarageConfig(**settings), tmp_path / "g.usda")
+    profile = profile_without(loops={"steps": [[10, 0]], "above": 1}, stretch_length={"value": 10})
+    found = [
+        [finding for finding in check_file(path, profile=profile)[0] if finding.rule in CIRCULATION]
+        for path in (made.stage, made.report)
+    ]
+    assert {finding.rule for finding in found[0]} == {"dead-end-depth", "loop", "stretch-length"}
+    assert found[0] == found[1]
 
 
 def test_findings_of_circulation_tell_place_and_figures(tmp_path):
