@@ -93,9 +93,10 @@ def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
 
 
 def _place(subject: Subject, square: Square) -> Point | None:
-    """Middle of a lane square as the lane graph has it."""
+    """Middle of a lane square as the lane graph has it, to the millimetre."""
     name = _name(square)
-    return next((node.position for node in subject.nodes if node.name == name), None)
+    x_z = next((node.position for node in subject.nodes if node.name == name), None)
+    return None if x_z is None else (round(x_z[0], 3), round(x_z[1], 3))
 
 
 def _name(square: Square) -> str:
