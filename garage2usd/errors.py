@@ -167,5 +167,5 @@ _BRIEF_CHARACTERS = 80
 
 
 def _brief(value: object) -> str:
-    text = repr(value)
+    text = repr(value).replace("\n", "")  # arrays take a line a row
     return text if len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."

@@ -7,17 +7,20 @@ from pathlib import Path
 
 from PIL import Image
 
+from garage2usd.checks import Finding, check_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
+from garage2usd.layout.tight import tight_stalls
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
+from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, write_labels, write_stage
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
@@ -25,6 +28,8 @@ from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image
 
 __all__ = ["Build", "Garage", "build", "generate"]
+
+_MOST_CHECKED_STALLS = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +73,9 @@ class Build:
         Folder of the stage's assets; None where the stage holds them itself.
     seconds
         Seconds that each step took.
+    findings
+        What the garage misses of its profile by the rules that are quick (see `garage2usd.checks.check_layout`), errors
+        first; None for more than 1000 stalls, which take longer.
     """
 
     garage: Garage
@@ -77,6 +85,7 @@ class Build:
     pictures: tuple[Path, ...]
     asset_folder: Path | None
     seconds: dict[str, float]
+    findings: tuple[Finding, ...] | None = None
 
 
 def generate(
@@ -184,7 +193,10 @@ def build(
         places = publish([*assets, *drawn, labels, report, stage], path.parent)
     *_, labels, report, stage = places
     shown = places[len(assets) : len(assets) + len(drawn)]
-    return Build(garage, stage, report, labels, shown, places[0] if assets else None, seconds)
+    start = time.perf_counter()
+    findings = _findings(garage)
+    seconds["check"] = time.perf_counter() - start
+    return Build(garage, stage, report, labels, shown, places[0] if assets else None, seconds, findings)
 
 
 def _generate(
@@ -195,6 +207,7 @@ def _generate(
         config = config.with_seed(seed)
     clock = [time.perf_counter()]
     site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+    check_room(site, config.bay)
     clock.append(time.perf_counter())
     if (site.cells == Cell.LANE).any():
         if tape is not None:
@@ -211,13 +224,32 @@ def _generate(
             "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
         )
     layout = lay_out(plan.structure, graph, config)
-    if config.plan.unreachable_stalls is not UnreachableStalls.KEEP:
-        from garage2usd.driving import without_unreachable  # noqa: PLC0415 - compiled code that only this setting needs
-
-        layout = without_unreachable(layout, graph, config, progress=progress)
+    layout = _driven(layout, graph, config, progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _findings(garage: Garage) -> tuple[Finding, ...] | None:
+    """What a garage misses of its profile, where that is found in a moment."""
+    if len(garage.layout.stalls) > _MOST_CHECKED_STALLS:
+        return None
+    return tuple(check_layout(garage.layout, garage.graph, garage.config))
+
+
+def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
+    """The layout with what is asked of stalls that no car gets into; the compiled proof is loaded only for doubts."""
+    choice = config.plan.unreachable_stalls
+    if choice.are_proven:
+        from garage2usd.driving import without_unreachable  # noqa: PLC0415
+
+        return without_unreachable(layout, graph, config, progress=progress)
+    tight = tight_stalls(layout.structure, layout.stalls, config.bay) if choice is UnreachableStalls.REFUSE else ()
+    if tight:
+        from garage2usd.driving.refusal import refuse_undrivable  # noqa: PLC0415
+
+        refuse_undrivable(layout, graph, config, tight, progress=progress)
+    return layout
 
 
 def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:

@@ -13,11 +13,22 @@ from pydantic import BaseModel, ValidationError
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
 from garage2usd.errors import ConfigError, ReportError
-from garage2usd.grid import Structure
+from garage2usd.grid import Cell, Structure
 from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.layout.compartments import compartment_name
-from garage2usd.planning import Plan, area_per_stall_m2, dimensioned, evaluate, principles, rank_of, tape_of
+from garage2usd.planning import (
+    Plan,
+    area_per_stall_m2,
+    dimensioned,
+    evaluate,
+    measured_circulation,
+    neither_share,
+    principles,
+    rank_of,
+    tape_of,
+)
+from garage2usd.planning.circulation import rules_of
 from garage2usd.version import VERSION
 
 __all__ = ["read_report", "write_report"]
@@ -62,9 +73,9 @@ def write_report(
             "unused_squares": score.unused_squares,
         },
         "learning": _learning(plan, config),
-        "gave_way": dict(plan.gave_way),
         "principles": asdict(principles(structure, bay=config.bay)),
-        "area_per_stall_m2": round(area_per_stall_m2(structure, config.bay), 3),
+        "circulation": _circulation(structure, config),
+        "area_per_stall_m2": round(layout.area_per_stall_m2, 3),
         "stall_uses": {use.value: count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
         "illuminance": asdict(layout.illuminance),
         "lane_kinds": graph.kind_counts(),
@@ -174,6 +185,30 @@ def _section(report: _Report, name: str, path: Path) -> dict[str, Any]:
     if not isinstance(section, dict):
         raise ReportError(path, f"no report of a build: config.{name}: not a table")
     return section
+
+
+def _circulation(structure: Structure, config: GarageConfig) -> dict[str, Any]:
+    """How traffic circulates, in an architect's figures, and which of the rules that were asked for are broken."""
+    found = measured_circulation(structure)
+    squares = int(((structure.cells == Cell.FREE) | (structure.cells == Cell.LANE)).sum())
+    rules = rules_of(config.plan, squares=squares)
+    asked = {
+        "R1": rules.is_asked,
+        "R2": rules.asks_loop,
+        "R3": rules.is_asked,
+        "R4": rules.stretch_squares > 0,
+    }
+    return {
+        "loops": found.circulation.loops,
+        "longest_dead_end_m": found.dead_end_m,
+        "longest_dead_end_squares": found.circulation.dead_end_squares,
+        "longest_stretch_m": found.stretch_m,
+        "longest_stretch_squares": found.circulation.longest_stretch_squares,
+        "blocks": len(found.circulation.blocks),
+        "rules_asked": [name for name, is_asked in asked.items() if is_asked],
+        "rules_broken": found.circulation.faults(rules),
+        "neither_share": round(neither_share(structure, config.bay), 4),
+    }
 
 
 def _tape(structure: Structure) -> str | None:

@@ -5,6 +5,7 @@ from pathlib import Path
 from garage2usd.checks import (
     accessible,
     aisle,
+    circulation,
     clearance,
     consistency,
     egress,
@@ -18,12 +19,16 @@ from garage2usd.checks import (
     usd,
 )
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
+from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.checks.plan_reader import plan_subject
 from garage2usd.checks.rule import Rule
 from garage2usd.checks.stage_reader import profile_name, stage_subject
 from garage2usd.checks.subject import Subject
+from garage2usd.config import GarageConfig
 from garage2usd.documents import is_file
 from garage2usd.errors import ConfigError
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.stage.reading import STAGE_SUFFIXES
 
@@ -37,6 +42,7 @@ __all__ = [
     "as_table",
     "check",
     "check_file",
+    "check_layout",
     "read_subject",
 ]
 
@@ -45,6 +51,7 @@ RULES: tuple[Rule, ...] = tuple(
     for module in (
         stall,
         aisle,
+        circulation,
         clearance,
         headroom,
         portal,
@@ -60,11 +67,24 @@ RULES: tuple[Rule, ...] = tuple(
     for rule in module.BOOK.rules
 )
 """All rules."""
+_LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
 def check(subject: Subject, profile: Profile) -> list[Finding]:
     """What a garage misses of a profile and of the rules that need none, errors first."""
     findings = (finding for rule in RULES for finding in rule.findings(subject, profile))
+    return sorted(findings, key=Finding.sort_key)
+
+
+def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list[Finding]:
+    """What a garage that was just made misses of its profile, errors first.
+
+    Notes
+    -----
+    Without what takes a stage or long: the rules of USD, and the proof that a car gets into each stall.
+    """
+    subject = layout_subject(layout, graph, config, source="", kind="report")
+    findings = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(subject, config.standard))
     return sorted(findings, key=Finding.sort_key)
 
 
@@ -75,7 +95,7 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ----------
     path
         A stage (``.usd``, ``.usda``, ``.usdc``, ``.usdz``), a report (``.json``), a configuration with a structure
-        (``.toml``), or a structure as text or JSON.
+        (``.toml``), or a structure as text, JSON, ``.npy`` or ``.npz``.
     profile
         What it is checked against; left out, the profile that it was designed to if it tells, else ``cn-jgj100``.
 

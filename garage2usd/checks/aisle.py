@@ -8,7 +8,6 @@ import shapely
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
-from garage2usd.checks.stall import home_of
 from garage2usd.checks.subject import LaneEdge, Point, Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
@@ -79,7 +78,7 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 def _is_parked(solid: Solid, subject: Subject) -> bool:
-    return solid.label == "car" and home_of(solid.footprint, subject) is not None
+    return solid.label == "car" and subject.home_of(solid.footprint) is not None
 
 
 def _serving_edges(subject: Subject) -> list[LaneEdge]:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
-from garage2usd.checks.stall import standing_in
 from garage2usd.checks.subject import StallOutline, Subject
 from garage2usd.profiles import Length, Profile
 
@@ -131,7 +130,7 @@ def _closest(
     car: _ParkedCar, near: Iterable[Solid], labels: Container[str], required: float, what: str, subject: Subject
 ) -> Iterator[Miss]:
     """The least distance of a car to pieces of some labels; those that stand in its stall have rules of their own."""
-    inside = {solid.name for solid in standing_in(car.stall, subject)}
+    inside = {solid.name for solid in subject.standing_in_stalls[car.stall]}
     distances = [
         (car.polygon.distance(solid.footprint), solid.name)
         for solid in near

@@ -10,7 +10,6 @@ import shapely
 
 from garage2usd.checks.aisle import dead_end_of
 from garage2usd.checks.openings import section_of
-from garage2usd.checks.stall import home_of
 from garage2usd.checks.subject import Point, StallOutline, Subject
 from garage2usd.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
@@ -58,7 +57,7 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     for name, label, ground in _standing(subject, height_m):
         if name in left_out:
             continue
-        home = home_of(ground.convex_hull, subject) if label in _OWN else None
+        home = subject.home_of(ground.convex_hull) if label in _OWN else None
         if home is not None:
             own[home.name].append(name)
             if label == "car":

@@ -7,7 +7,7 @@ from typing import Any
 from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
 from garage2usd.checks.subject import Fault, Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
-from garage2usd.config.plan import UnreachableStalls
+from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, UnreachableStallError
@@ -30,7 +30,7 @@ def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject
     Parameters
     ----------
     path
-        A report (``.json``), a configuration (``.toml``), or a structure as text or JSON.
+        A report (``.json``), a configuration (``.toml``), or a structure as text, JSON or a file of NumPy.
     profile
         What the sizes of a plan without any are designed to.
 
@@ -46,6 +46,9 @@ def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject
     """
     if path.suffix == ".toml":
         config = load_config(path)
+        return _of_config(config, path, kind="plan"), config
+    if is_array_file(path):
+        config = config_from_mapping(_given(profile) | matrices_of(path, field=_FIELD))
         return _of_config(config, path, kind="plan"), config
     if path.suffix != ".json":
         text = read_text(path, field=_FIELD)
@@ -147,7 +150,7 @@ def _laid_out(
         return None, "no square beside a lane takes a stall"
     try:
         layout = lay_out(structure, graph, config, unreachable=unreachable or ())
-        must_prove = unreachable is None and config.plan.unreachable_stalls is not UnreachableStalls.KEEP
+        must_prove = unreachable is None and config.plan.unreachable_stalls.are_proven
         return without_unreachable(layout, graph, config) if must_prove else layout, None
     except ConfigError as error:
         if error.field.startswith("bay."):

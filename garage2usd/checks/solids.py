@@ -1,6 +1,6 @@
 """What a car can touch or people can bump into: pieces of all objects, found by place."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -111,6 +111,15 @@ class Solids:
         """The pieces of what stands, or of what hangs, that meet an area or lie within a distance of it."""
         found = self._tree.query(area, predicate="dwithin", distance=within_m)
         return [self._solid(index) for index in sorted(found[self._hangs[found] == hanging].tolist())]
+
+    def standing_at_each(self, areas: Sequence[shapely.Polygon]) -> list[list[Solid]]:
+        """For each of many areas, the pieces of what stands that meet it."""
+        area, found = self._tree.query(np.array(areas, dtype=object), predicate="intersects")
+        stands = ~self._hangs[found]
+        pieces: list[list[Solid]] = [[] for _ in areas]
+        for number, index in sorted(zip(area[stands].tolist(), found[stands].tolist(), strict=True)):
+            pieces[number].append(self._solid(index))
+        return pieces
 
     def _with_labels(self, labels: Collection[str]) -> NDArray[np.bool_]:
         wanted = np.array([label in labels for label in self._labels], dtype=bool)

@@ -1,22 +1,24 @@
 """Rules of single stalls: their size, and that nothing but one car stands in each."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Length, Profile
 
-__all__ = ["BOOK", "home_of", "standing_in"]
+if TYPE_CHECKING:
+    from garage2usd.checks.solids import Solid
+
+__all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _TOUCH_M = 0.02
 _BELONGS = {"car", "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
 """What may stand in a stall, or has a rule of its own."""
-_AT_HOME = 0.5
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
@@ -51,7 +53,7 @@ def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
 @BOOK.rule("column-in-stall", asks="no column stands in a stall")
 def _column(subject: Subject, _: Profile) -> Iterator[Miss]:
     for stall in subject.stalls:
-        for solid in standing_in(stall, subject):
+        for solid in subject.standing_in_stalls[stall]:
             if solid.label == "column":
                 yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall", things=(solid.name,))
                 break
@@ -60,7 +62,7 @@ def _column(subject: Subject, _: Profile) -> Iterator[Miss]:
 @BOOK.rule("stall-blocked", asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars")
 def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
     for stall in subject.parking_stalls:
-        for solid in standing_in(stall, subject):
+        for solid in subject.standing_in_stalls[stall]:
             if solid.label not in _BELONGS:
                 message = f"a {solid.kind} stands in the stall: {solid.name}"
                 yield Miss(stall.name, stall.centre, message, things=(solid.name,))
@@ -69,16 +71,14 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 @BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall")
 def _outside(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for name, ground in _cars(subject).items():
-        stall = home_of(ground, subject)
+    for name, (ground, stall) in subject.cars.items():
         if stall is not None and not stall.polygon.buffer(_TOUCH_M).covers(ground):
             yield Miss(name, _centre(ground), f"the car stands out of {stall.name}", things=(name,))
 
 
 @BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")
 def _kept_free(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for name, ground in _cars(subject).items():
-        stall = home_of(ground, subject)
+    for name, (_, stall) in subject.cars.items():
         if stall is not None and not stall.takes_cars:
             message = f"{name} stands in a stall of the use {stall.use.value}"
             yield Miss(stall.name, stall.centre, message, things=(name,))
@@ -87,8 +87,7 @@ def _kept_free(subject: Subject, _: Profile) -> Iterator[Miss]:
 @BOOK.rule("stall-two-cars", asks="a stall holds one car at most")
 def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
     first: dict[str, str] = {}
-    for name, ground in _cars(subject).items():
-        stall = home_of(ground, subject)
+    for name, (_, stall) in subject.cars.items():
         if stall is not None and first.setdefault(stall.name, name) != name:
             both = first[stall.name], name
             yield Miss(stall.name, stall.centre, f"{both[0]} and {both[1]} stand in one stall", things=both)
@@ -114,29 +113,6 @@ def _too_high(subject: Subject, clause: Length | None, label: str) -> Iterator[M
     for name, solid in highest.items():
         if solid.top_m > clause.amount + ROUNDING_M:
             yield Miss(name, solid.centre, f"the {solid.kind} is too high", solid.top_m, clause.amount)
-
-
-def standing_in(stall: StallOutline, subject: Subject) -> list[Solid]:
-    """The pieces of what stands in a stall, not only on its lines."""
-    return subject.solids.at(stall.polygon.buffer(-_TOUCH_M))
-
-
-def home_of(ground: shapely.Polygon, subject: Subject) -> StallOutline | None:
-    """The stall that more than half of a car stands in."""
-    best, most = None, _AT_HOME * ground.area
-    for index in subject.stall_tree.query(ground, predicate="intersects").tolist():
-        area = subject.stalls[index].polygon.intersection(ground).area
-        if area > most:
-            best, most = subject.stalls[index], area
-    return best
-
-
-def _cars(subject: Subject) -> dict[str, shapely.Polygon]:
-    """The convex ground of each car."""
-    pieces: dict[str, list[shapely.Polygon]] = {}
-    for solid in subject.solids.standing("car"):
-        pieces.setdefault(solid.name, []).append(solid.footprint)
-    return {name: shapely.union_all(parts).convex_hull for name, parts in pieces.items()}
 
 
 def _centre(shape: shapely.Polygon) -> tuple[float, float]:

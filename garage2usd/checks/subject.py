@@ -12,14 +12,17 @@ from pxr import Usd
 
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
-from garage2usd.checks.solids import Solids
+from garage2usd.checks.solids import Solid, Solids
 from garage2usd.grid import Structure
 from garage2usd.layout import StallUse
+from garage2usd.planning import MeasuredCirculation, measured_circulation
 
 __all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
 
 Point = tuple[float, float]
 """(x, z) in metres."""
+_LINE_M = 0.02
+_AT_HOME = 0.5
 
 
 class Fault(NamedTuple):
@@ -202,6 +205,11 @@ class Subject:
         return tuple(ramps_of(self.things))
 
     @cached_property
+    def circulation(self) -> MeasuredCirculation | None:
+        """How traffic circulates on the lanes; None where S, R and C are not known."""
+        return None if self.structure is None else measured_circulation(self.structure)
+
+    @cached_property
     def parking_stalls(self) -> tuple[StallOutline, ...]:
         """The stalls that cars park in."""
         return tuple(stall for stall in self.stalls if stall.takes_cars)
@@ -210,6 +218,30 @@ class Subject:
     def stall_tree(self) -> shapely.STRtree:
         """The ground of all stalls, by place."""
         return shapely.STRtree([stall.polygon for stall in self.stalls])
+
+    @cached_property
+    def standing_in_stalls(self) -> dict[StallOutline, list[Solid]]:
+        """For each stall, the pieces of what stands in it, not only on its lines."""
+        inside = shapely.buffer(np.array([stall.polygon for stall in self.stalls], dtype=object), -_LINE_M)
+        return dict(zip(self.stalls, self.solids.standing_at_each(inside.tolist()), strict=True))
+
+    @cached_property
+    def cars(self) -> dict[str, tuple[shapely.Polygon, StallOutline | None]]:
+        """The convex ground of each car, and the stall that more than half of it stands in."""
+        pieces: dict[str, list[shapely.Polygon]] = {}
+        for solid in self.solids.standing("car"):
+            pieces.setdefault(solid.name, []).append(solid.footprint)
+        grounds = {name: shapely.union_all(parts).convex_hull for name, parts in pieces.items()}
+        return {name: (ground, self.home_of(ground)) for name, ground in grounds.items()}
+
+    def home_of(self, ground: shapely.Polygon) -> StallOutline | None:
+        """The stall that more than half of a ground lies in."""
+        best, most = None, _AT_HOME * ground.area
+        for index in self.stall_tree.query(ground, predicate="intersects").tolist():
+            area = self.stalls[index].polygon.intersection(ground).area
+            if area > most:
+                best, most = self.stalls[index], area
+        return best
 
     @cached_property
     def onward(self) -> tuple[tuple[int, ...], ...]:

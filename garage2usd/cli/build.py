@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["build"]
 
+_RULES_NAMED = 3
+
 
 @click.command(short_help="Build a garage and write it as a USD stage.")
 @click.argument("config", required=False, type=INPUT_FILE)
@@ -82,8 +84,6 @@ def build(
 
 
 def _describe(made: "Build") -> None:
-    from garage2usd.planning import area_per_stall_m2  # noqa: PLC0415 - keeps --help instant
-
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
@@ -95,9 +95,10 @@ def _describe(made: "Build") -> None:
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
         ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
-        ("m2/stall", f"{area_per_stall_m2(layout.structure, garage.config.bay):.1f}"),
+        ("m2/stall", f"{layout.area_per_stall_m2:.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
         ("reachable", "every stall, from an entrance and to an exit"),
+        ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
         *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
@@ -114,6 +115,20 @@ def _describe(made: "Build") -> None:
 def _displaced(layout: "Layout") -> int:
     """How many stalls of the plan stair cores took."""
     return sum(len(core.stalls) for core in layout.cores)
+
+
+def _checked(made: "Build") -> str:
+    """How many errors, warnings and remarks a check finds, and how to see them."""
+    against = f"against {made.garage.config.standard.name}"
+    if made.findings is None:
+        return f"not done here for so many stalls: garage2usd check {made.report}"
+    counts = Counter(finding.severity.value for finding in made.findings)
+    words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
+    told = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
+    if not told:
+        return f"nothing found {against}"
+    rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
+    return f"{', '.join(told)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
 
 
 def _dropped(made: "Build") -> str:

@@ -22,7 +22,7 @@ seed_option = click.option(
 
 def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """The standard; `text` says what for."""
-    names = "cn-jgj100, uk-istructe, us-ada or a TOML file"
+    names = "cn-jgj100, de-garvo, uk-istructe, us-ada or a TOML file"
     return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
 
 

@@ -9,11 +9,12 @@ from typing import Any
 from pydantic import BaseModel, Field, ValidationError, field_validator
 
 from garage2usd.config.design import designed_settings
+from garage2usd.config.files import with_files, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
-from garage2usd.documents import read_text, read_toml
+from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
 from garage2usd.settings import Settings
@@ -53,9 +54,9 @@ class GarageConfig(Settings):
     stage: StageConfig = StageConfig()
     """The stage's files."""
     profile: str | Profile = DEFAULT_PROFILE
-    """The standard that the garage is designed to: 'cn-jgj100', 'uk-istructe', 'us-ada', a TOML file with a profile of
-    one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes the place
-    of defaults that do not satisfy it; settings that are given stay."""
+    """The standard that the garage is designed to: 'cn-jgj100', 'de-garvo', 'uk-istructe', 'us-ada', a TOML file with a
+    profile of one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes
+    the place of defaults that do not satisfy it; settings that are given stay."""
 
     def __init__(self, **settings: Any) -> None:  # noqa: ANN401 - pydantic's own signature
         """Validate `settings`.
@@ -81,6 +82,12 @@ class GarageConfig(Settings):
     def standard(self) -> Profile:
         """The profile that the garage is designed to."""
         return load_profile(self.profile) if isinstance(self.profile, str) else self.profile
+
+    @property
+    def names_files(self) -> bool:
+        """Whether S, R or C are in files that `load_config` reads."""
+        bay = self.bay
+        return any(file is not None for file in (self.site.structure_file, bay.column_widths_file, bay.row_depths_file))
 
     def with_seed(self, seed: int) -> "GarageConfig":
         """The same settings with another seed."""
@@ -119,8 +126,8 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     Parameters
     ----------
     path
-        The file. A relative ``site.structure_file`` or ``profile`` in it starts at the file's folder and is read here,
-        so that the configuration carries structure and profile itself.
+        The file. Relative paths in it, of ``profile`` or of the files with S, R and C, start at its folder; they are
+        read here, so that the configuration carries profile and matrices itself.
     profile
         Name or file of a profile that takes the place of the file's own.
 
@@ -136,11 +143,12 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     elif isinstance(settings.get("profile"), str):
         settings["profile"] = profile_setting(settings["profile"], folder=path.parent)
     config = config_from_mapping(settings)
-    if config.site.structure_file is None:
+    if not config.names_files:
         return config
-    text = read_text(path.parent / config.site.structure_file, field="site.structure_file")
-    site = {key: value for key, value in settings["site"].items() if key != "structure_file"}
-    return config_from_mapping({**settings, "site": {**site, "structure": text}})
+    try:
+        return config_from_mapping(with_files(settings, path.parent))
+    except ConfigError as error:
+        raise without_files(error, settings) from None
 
 
 def profile_setting(name_or_file: str | Path, *, folder: Path | None = None) -> str | Profile:

@@ -52,12 +52,19 @@ class Choice(StrEnum):
 class UnreachableStalls(StrEnum):
     """What becomes of stalls that the design car does not get into and out of without a touch."""
 
+    REFUSE = "refuse"
+    """A garage that has some is an error; proven where narrow aisles or stalls leave it in doubt."""
     KEEP = "keep"
     """They are stalls as the others; nothing is proven."""
     MARK = "mark"
     """Each stall is proven, and those without ways are hatched and kept free."""
     DROP = "drop"
     """Each stall is proven, and those without ways are left out; the floor there is bare."""
+
+    @property
+    def are_proven(self) -> bool:
+        """Whether every stall is proven."""
+        return self in {UnreachableStalls.MARK, UnreachableStalls.DROP}
 
 
 class SarsaParameters(NamedTuple):
@@ -170,9 +177,10 @@ class PlanConfig(Settings):
     """Whether a site on which no plan keeps the rules of circulation is an error; else the report says which rules
     gave way."""
 
-    unreachable_stalls: UnreachableStalls = UnreachableStalls.KEEP
-    """'keep', 'mark' or 'drop': stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and
-    out of without a touch are hatched and kept free, or left out."""
+    unreachable_stalls: UnreachableStalls = UnreachableStalls.REFUSE
+    """What becomes of stalls that a car of 4.8 x 1.8 m with a turning radius of 6 m does not get into and out of
+    without a touch. 'refuse': an error, where aisles under 5.5 m or stalls under 2.3 m leave it in doubt; 'keep':
+    nothing; 'mark': they are hatched and kept free; 'drop': they are left out."""
 
     choice: Choice = Choice.BEST
     """'best', or 'draw': any plan of the archive above `quality_floor`, by seed."""

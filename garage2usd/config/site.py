@@ -19,13 +19,25 @@ _DEFAULT_SHAPE = 7, 9
 CARRIAGEWAY_MARGIN_M = 0.05
 DOOR_JAMB_M, DOOR_FRAME_M = 0.6, 0.08
 """Wall and steel frame on each side of a vehicle door."""
+_MAX_GIVEN_SQUARES = 4_000_000
+_CELLS = (-1, 0, 1, 2, 3)
 
 
 def _drawing(value: object) -> object:
-    """Let arrays of numbers -1 to 3 stand for the text form."""
-    if isinstance(value, np.ndarray):
-        return "\n".join(" ".join(str(int(cell)) for cell in row) for row in np.atleast_2d(value))
-    return value
+    """Let arrays and lists of rows, of numbers -1 to 3 or of symbols, stand for the text form."""
+    if isinstance(value, list | tuple) and value and all(isinstance(row, str) for row in value):
+        return "\n".join(value)
+    if not isinstance(value, np.ndarray | list | tuple):
+        return value
+    try:
+        cells = np.asarray(value)
+    except ValueError:
+        raise ValueError("rows of equal length") from None
+    if cells.ndim != 2 or not 0 < cells.size <= _MAX_GIVEN_SQUARES:  # noqa: PLR2004 - rows and columns
+        raise ValueError(f"rows and columns of at most {_MAX_GIVEN_SQUARES} squares, not the shape {cells.shape}")
+    if cells.dtype.kind not in "iuf" or not np.isin(cells, _CELLS).all():
+        raise ValueError("whole numbers -1 outside or obstacle, 0 free, 1 lane, 2 entrance, 3 exit")
+    return "\n".join(" ".join(map(str, row)) for row in cells.astype(np.int64).tolist())
 
 
 def _lists(value: object) -> object:
@@ -61,7 +73,8 @@ class SiteConfig(Settings):
     """Least Manhattan distance between two obstacles, the paper's sigma_2."""
 
     contour: Drawing | None = None
-    """The contour as text: one line a row, '#' outside and '.' inside; in Python also an array of -1 and 0."""
+    """The contour as text: one line a row, '#' outside and '.' inside; also rows as a list, and in
+    Python an array of -1 and 0."""
     entrance_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each entrance, instead of drawing them."""
     exit_cells: tuple[SquareIndex, ...] | None = None
@@ -69,10 +82,11 @@ class SiteConfig(Settings):
     obstacle_cells: tuple[SquareIndex, ...] | None = None
     """[row, col] of each obstacle, instead of drawing them."""
     structure: Drawing | None = None
-    """A structure matrix as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3; in Python also
-    an array. Without lanes it is planned, with lanes it is taken as it is."""
+    """The paper's S as text: '#', '.', '=' lane, 'E' entrance, 'X' exit, or numbers -1 to 3; also rows as a list, of
+    symbols or of numbers, and in Python an array. Without lanes it is planned, with lanes it is taken as it is."""
     structure_file: Path | None = None
-    """A file that holds such a text; a relative path starts at the configuration file."""
+    """A file that holds such a text, or an .npy or .npz file of NumPy with such numbers; an .npz file may hold S, R
+    and C. A relative path starts at the configuration file."""
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
@@ -106,6 +120,11 @@ class BayConfig(Settings):
     row_depths_m: SidesM | None = None
     """The paper's C: depth along Z of every row, of each, or of each square, constant along a row;
     `square_side_m` or what `dimensioned` chooses unless it is given."""
+    column_widths_file: Path | None = None
+    """A file that holds R: numbers as text, an .npy file, or R in an .npz file. A relative path starts at the
+    configuration file."""
+    row_depths_file: Path | None = None
+    """A file that holds C, likewise."""
     stall_width_m: float = Field(2.4, ge=1.8, le=6)
     """Width of one stall between its lines."""
     stall_length_m: float = Field(5.3, ge=3.5, le=12)
@@ -133,6 +152,13 @@ class BayConfig(Settings):
     def chosen_sides(self) -> tuple[bool, bool]:
         """Whether C, the depths of the rows, is chosen with the plan, and whether R, the widths of the columns, is."""
         return self.dimensioned and self.row_depths_m is None, self.dimensioned and self.column_widths_m is None
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        for sides, file in (("column_widths_m", "column_widths_file"), ("row_depths_m", "row_depths_file")):
+            if getattr(self, sides) is not None and getattr(self, file) is not None:
+                raise ValueError(f"only one of {sides} and {file}")
+        return self
 
     @property
     def carriageway_setback_m(self) -> float:

@@ -47,6 +47,9 @@ __all__ = [
 ]
 
 
+_MM2_PER_M2 = 1_000_000
+
+
 @dataclass(frozen=True, eq=False)
 class Layout:
     """Every object of a garage with its place.
@@ -84,6 +87,12 @@ class Layout:
         """Number of objects of each kind."""
         counts = np.bincount(self.placements.kind, minlength=len(KINDS)).tolist()
         return {str(kind): count for kind, count in zip(KINDS, counts, strict=True)}
+
+    @property
+    def area_per_stall_m2(self) -> float:
+        """Floor inside the contour, obstacles apart, over the number of stalls that stair cores leave."""
+        areas = np.outer(self.structure.row_depths_mm, self.structure.column_widths_mm)
+        return float(areas[self.structure.cells != Cell.OBSTACLE].sum()) / _MM2_PER_M2 / len(self.stalls)
 
     def of_kind(self, kind: ObjectKind) -> tuple[Placement, ...]:
         """All objects of one kind."""

@@ -1,6 +1,7 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimension, dimensioned
+from garage2usd.planning.measured import MeasuredCirculation, measured_circulation, neither_share
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
@@ -9,6 +10,7 @@ from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 
 __all__ = [
     "ArchivedPlan",
+    "MeasuredCirculation",
     "Plan",
     "Principles",
     "Score",
@@ -18,6 +20,8 @@ __all__ = [
     "evaluate",
     "given_plan",
     "is_feasible",
+    "measured_circulation",
+    "neither_share",
     "plan_lanes",
     "play",
     "principles",

@@ -101,7 +101,7 @@ def _ladders(ground: Ground, runs: Runs) -> NDArray[np.int64]:
         low, high = int(lines.min()), int(lines.max())
         for near, far, more in product(range(_INSETS), range(_INSETS), range(2)):
             span = high - far - low - near
-            if span < 2:  # noqa: PLR2004 - rails side by side would be one lane two squares wide
+            if span < 2:  # rails side by side would be one lane two squares wide
                 continue
             parts = max(1, -(-span // (stretch + 1))) + more
             rails = np.unique(np.linspace(low + near, high - far, parts + 1).round().astype(int))

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
-from garage2usd.planning.archive import below, next_random, uniform
+from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, measure, stalls_at
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes, driven_ways, floor_cost, foresee, resize, settle, side_now, sync, weigh
@@ -563,7 +563,7 @@ def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.u
 def _is_run(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int, side: int) -> bool:
     """Whether a lane has no lane or portal beside it across the direction `side`."""
     across = stride if side == 1 else 1
-    return label[q] == 1 and cells[q - across] <= 0 and cells[q + across] <= 0
+    return bool(label[q] == 1 and cells[q - across] <= 0 and cells[q + across] <= 0)
 
 
 @compiled
@@ -645,7 +645,7 @@ def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> f
         return NO_VALUE
     gain = weights[0] * change[_N] + weights[2] * change[_UNUSED]
     gain += weights[1] * ((tally[_TIME] + change[_TIME]) / stalls - tally[_TIME] / max(1, tally[_N]))
-    return gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS]
+    return float(gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS])
 
 
 @compiled
@@ -675,7 +675,7 @@ def anneal_labels(
     prices: tuple[float, float, float, float],
     refresh: int,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells` under the rules; leaves the best that keeps them and returns its value.
+    """Anneal the feasible lanes in `board.cells` under the rules; leaves the best that keeps them, returns its value.
 
     Parameters
     ----------

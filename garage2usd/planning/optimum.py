@@ -56,8 +56,8 @@ def find_optimum(
     ----------
     site
         Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper than
-        two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two take a
-        minute.
+        two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two
+        take a minute.
     bay
         Size of the stalls.
     plan
@@ -92,7 +92,7 @@ def find_optimum(
     ground = ground_of(upright, bay=bay, plan=plan)
     sheet = _sheet(ground, upright.shape)
     best, value = known, -np.inf
-    if known is not None and is_feasible(known) and not circulation(known).broken(ground.rules):
+    if known is not None and is_feasible(known) and not circulation(known).faults(ground.rules):
         score = evaluate(known, bay=bay, plan=plan)
         value = score.value if score.stalls else -np.inf
     found = _beat(ground, sheet, value)

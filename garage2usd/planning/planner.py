@@ -147,11 +147,11 @@ def _better(
         polished = _labelled(ground, board, sizes, ranked, plan, random)
     else:
         polished = _drifted(ground, board, ranked, plan, random)
-    return polished if not is_sized else _by_floor(site, ground, board, polished, bay)
+    return polished if not is_sized else _by_floor(site, ground, polished, bay)
 
 
 def _by_floor(
-    site: Structure, ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]], bay: BayConfig
+    site: Structure, ground: Ground, ranked: list[tuple[float, Lanes]], bay: BayConfig
 ) -> list[tuple[float, Lanes]]:
     """The first few by the rules that they break and their floor for a stall, the rest as they are."""
 

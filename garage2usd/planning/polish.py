@@ -1,5 +1,4 @@
 """Repair and polish of lanes: joining what is apart, and flips of squares that raise the value. Compiled."""
-# ruff: noqa: C901 - a search for ways is one loop over squares
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +116,7 @@ def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
 
 @compiled
 def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
-    """Value of the lanes in `board.cells` less that of the floor, in the sides that they ask for; NO_VALUE if infeasible.
+    """Value of the lanes on the board less the price of the floor, in the sides that they ask for, or NO_VALUE.
 
     Below `least` faults may be left out of it.
     """

@@ -1,5 +1,5 @@
 """R and C while lanes are annealed: each line of squares is as wide as what it holds asks for. Compiled."""
-# ruff: noqa: PLR2004 - bits of edges
+# ruff: noqa: C901, PLR0912, PLR2004 - bits of edges, and loops over two axes
 
 from typing import NamedTuple
 
@@ -193,7 +193,7 @@ def weigh(
         change[_STALLS] += after - before
         change[_TIME] += (after - before) * (1 + near)
         change[_UNUSED] += (after == 0) - (before == 0)
-    return (side_mm - sizes.actual_mm[axis, line]) * across / _MM2_PER_M2
+    return float((side_mm - sizes.actual_mm[axis, line]) * across / _MM2_PER_M2)
 
 
 @compiled
@@ -248,7 +248,7 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
 def side_now(sizes: Sizes, axis: int, line: int) -> int:
     """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
     side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
-    return max(side, sizes.least_mm[axis, line])
+    return int(max(side, sizes.least_mm[axis, line]))
 
 
 @compiled
@@ -268,12 +268,12 @@ def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
 @compiled
 def floor_cost(sizes: Sizes) -> float:
     """What the floor costs, in stalls."""
-    return sizes.price[0] * sizes.area_m2[0]
+    return float(sizes.price[0] * sizes.area_m2[0])
 
 
 @compiled
 def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
-    """Choose the side of every line without driven squares, one after the other, for most stalls less the floor's price.
+    """Choose the side of every line without traffic, one after the other, for most stalls less the price of the floor.
 
     The hops of the board are to be those of its lanes.
     """

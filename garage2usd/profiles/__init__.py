@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 DEFAULT_PROFILE = "cn-jgj100"
-PROFILE_NAMES = ("cn-jgj100", "uk-istructe", "us-ada")
+PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
 """The profiles that are shipped."""
 
 

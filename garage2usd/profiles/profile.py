@@ -48,6 +48,15 @@ class Profile(Settings):
     dead_end_length: Length | None = None
     """Length over which a dead-end aisle keeps a turning stall free."""
 
+    dead_end_depth: Length | None = None
+    """Greatest depth of a dead end with all its branches, whether or not a turning stall is kept free."""
+    loops: Steps | None = None
+    """Least number of loops of the lanes, on which cars drive round again."""
+    stretch_length: Length | None = None
+    """Longest stretch of lanes between two junctions, or a junction and a portal."""
+    lane_field_width: Length | None = None
+    """Greatest clear width of lanes that lie side by side."""
+
     clear_height: Length | None = None
     """Least height that nothing hangs below."""
     van_clear_height: Length | None = None

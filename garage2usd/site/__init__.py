@@ -41,12 +41,17 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: Fittings
     GenerationError
         If a step found no valid result within its attempts.
     """
+    for field, file in (
+        ("site.structure_file", site.structure_file),
+        ("bay.column_widths_file", bay.column_widths_file),
+        ("bay.row_depths_file", bay.row_depths_file),
+    ):
+        if file is not None:
+            raise ConfigError(field, str(file), "a file read by load_config")
     ramps = ramp_squares(bay, fittings) if fittings else 0
     if site.structure is not None:
         cells = cells_from_text(site.structure, field="site.structure")
         check_structure(cells)
-    elif site.structure_file is not None:
-        raise ConfigError("site.structure_file", str(site.structure_file), "a file read by load_config")
     else:
         cells = _static_cells(site, seed=seed, ramps=ramps)
     _check_size(site, cells)

@@ -7,34 +7,22 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.grid import Cell
-from garage2usd.lanes import LaneGraph, LaneKind, Square
+from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.placement import to_world
-from garage2usd.layout.specs import CarSpec, ColumnSpec, ObstacleSpec, PortalSpec, WallPostSpec, WallSpec, rectangle
+from garage2usd.layout.specs import CarSpec, ColumnSpec, ObstacleSpec, WallPostSpec, WallSpec, rectangle
+from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.stalls import Edge
 from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
-from garage2usd.view.plan_sheet import ARROW_END_M, INK, PAPER, Mark, Sheet
+from garage2usd.view.plan_access import RAMP, portals, ramps, turned
+from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
+from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
 from garage2usd.view.route import route_of
 
 __all__ = ["Mark", "draw_plan"]
 
 _Element = Area | Line | Disc | Text
 
-_LANE_COLOUR: dict[LaneKind, Colour] = {
-    LaneKind.CROSSROADS: (166, 150, 178),
-    LaneKind.T_JUNCTION: (150, 160, 186),
-    LaneKind.STRAIGHT: (148, 156, 166),
-    LaneKind.ENTRANCE: (72, 160, 96),
-    LaneKind.EXIT: (206, 84, 72),
-}
-_LANE_NAME = {
-    LaneKind.CROSSROADS: "crossroads",
-    LaneKind.T_JUNCTION: "T-junction",
-    LaneKind.STRAIGHT: "straight lane",
-    LaneKind.ENTRANCE: "entrance",
-    LaneKind.EXIT: "exit",
-}
 _STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.STANDARD: (206, 222, 238),
     StallUse.EV: (190, 228, 196),
@@ -49,19 +37,15 @@ _STALL_WORDS = {
     StallUse.TURNING: "kept for turning",
     StallUse.ACCESS_AISLE: "access aisle",
 }
-_FREE: Colour = (226, 224, 216)
 _SOLID: Colour = (120, 112, 108)
+_ON_FOOT: Colour = (20, 150, 70)
+_DOOR_M = 1.2
 _CAR: Colour = (112, 146, 192)
-_SEAM: Colour = (206, 204, 196)
-_ARROW: Colour = (236, 238, 242)
 _IN: Colour = (16, 96, 208)
 _OUT: Colour = (226, 96, 16)
 _BODIES = {body.name: body for body in CAR_BODIES}
-_LINE_M = 0.12
 _NUMBER_M, _NUMBER_WIDTH_M, _NUMBER_FROM_MOUTH_M = 0.75, 2.0, 0.75
 _DIGIT = re.compile(r"\d")
-_KEEP_RIGHT_M = 1.3
-_CHEVRON_M = 0.7
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
@@ -78,16 +62,19 @@ def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, m
         Findings, drawn with a number at their places and listed below.
     """
     rows, cols = layout.structure.shape
-    sheet = Sheet(layout.structure, marks, _legend(layout, graph, with_route=stall is not None))
+    found = measured_circulation(layout.structure)
+    sheet = Sheet(layout.structure, marks, _legend(layout, graph, found, with_route=stall is not None))
 
     def elements() -> Iterator[_Element]:
-        yield from _squares(layout, graph)
+        yield from squares(layout, graph, found)
         yield from _stalls(layout)
-        yield from _arrows(graph)
+        yield from arrows(graph)
+        yield from ramps(layout, sheet)
         yield from _building(layout)
-        yield from _portals(layout, sheet)
+        yield from portals(layout, sheet)
         if stall is not None:
             yield from _route(graph, stall)
+        yield sheet.title(_figures(layout, found))
         yield from sheet.dimensions()
         yield from sheet.legend(layout)
         yield from sheet.marks()
@@ -96,16 +83,33 @@ def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, m
     return Drawing(sheet.low, sheet.high, sheet.px_per_m, PAPER, title, list(elements()))
 
 
-def _legend(layout: Layout, graph: LaneGraph, *, with_route: bool) -> list[tuple[Colour, str]]:
+def _figures(layout: Layout, found: MeasuredCirculation) -> str:
+    """The garage in an architect's figures."""
+    stalls, loops = len(layout.stalls), found.circulation.loops
+    return ", ".join(
+        [
+            f"{stalls} stalls",
+            *([f"{layout.area_per_stall_m2:.1f} m2 a stall"] if stalls else []),
+            f"{loops or 'no'} loop{'s' if loops > 1 else ''}",
+            f"longest dead end {found.dead_end_m:.1f} m" if found.dead_ends else "no dead end",
+            f"longest stretch without a junction {found.stretch_m:.1f} m",
+        ]
+    )
+
+
+def _legend(
+    layout: Layout, graph: LaneGraph, found: MeasuredCirculation, *, with_route: bool
+) -> list[tuple[Colour, str]]:
     """Only what there is."""
-    kinds = {kind for _, kind in graph.graph.nodes(data="kind")}
     uses = {stall.use for stall in layout.stalls}
     counts = layout.counts()
-    entries = [(_LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
+    entries = lane_legend(graph, found)
     entries += [(_STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
     entries += [(_CAR, "parked car")] if counts[ObjectKind.CAR] else []
-    entries += [(_FREE, "free")]
+    entries += [(FREE, "free")]
+    entries += [(RAMP, "ramp")] if counts[ObjectKind.RAMP] else []
     entries += [(_SOLID, "obstacle")] if counts[ObjectKind.OBSTACLE] else []
+    entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
 
@@ -114,25 +118,12 @@ def _stall_words(use: StallUse) -> str:
     return _STALL_WORDS.get(use, f"{use} stall")
 
 
-def _squares(layout: Layout, graph: LaneGraph) -> Iterator[Area | Line]:
-    structure = layout.structure
-    x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
-    for row, line in enumerate(structure.cells.tolist()):
-        for col, cell in enumerate(line):
-            if cell == Cell.OBSTACLE:
-                continue
-            kind = graph.kind((row, col)) if cell != Cell.FREE else None
-            box = rectangle(x[col], z[row], x[col + 1], z[row + 1])
-            yield Area(box, _LANE_COLOUR[kind] if kind else _FREE, str(kind or "free"))
-            yield Line([*box, box[0]], _SEAM, _LINE_M / 4)
-
-
 def _stalls(layout: Layout) -> Iterator[Area | Line | Text]:
     cars = {(place.square, place.name): place for place in layout.of_kind(ObjectKind.CAR)}
     for stall in layout.stalls:
         corners = stall.corners_m()
         yield Area(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
-        yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, _LINE_M)
+        yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
         car = cars.get((stall.square, stall.named("Car")))
         if car:
             yield Area(_car_outline(car), _CAR, "car")
@@ -164,37 +155,18 @@ def _number(stall: Stall) -> Text:
     return Text(at, stall.number, height, INK, kind="number")
 
 
-def _arrows(graph: LaneGraph) -> Iterator[Line]:
-    """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
-    nodes = graph.graph.nodes
-    for one, other in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
-        ends = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in (one, other)]
-        kinds = graph.kind(one), graph.kind(other)
-        backwards = kinds[1] is LaneKind.ENTRANCE or kinds[0] is LaneKind.EXIT
-        is_one_way = bool({LaneKind.ENTRANCE, LaneKind.EXIT} & set(kinds))
-        if not backwards:
-            yield _chevron(ends[0], ends[1], 0.0 if is_one_way else _KEEP_RIGHT_M)
-        if backwards or not is_one_way:
-            yield _chevron(ends[1], ends[0], 0.0 if is_one_way else _KEEP_RIGHT_M)
-
-
-def _chevron(start: Point, end: Point, aside_m: float) -> Line:
-    length = math.dist(start, end)
-    dx, dz = (end[0] - start[0]) / length, (end[1] - start[1]) / length
-    x, z = (start[0] + end[0]) / 2 - dz * aside_m, (start[1] + end[1]) / 2 + dx * aside_m
-    size = _CHEVRON_M
-    wings = [(x - (dx + side * dz) * size, z - (dz - side * dx) * size) for side in (1, -1)]
-    return Line([wings[0], (x, z), wings[1]], _ARROW, 1.5 * _LINE_M, "direction")
-
-
-def _building(layout: Layout) -> Iterator[Area]:
+def _building(layout: Layout) -> Iterator[Area | Line]:
     for place in layout.of_kind(ObjectKind.OBSTACLE):
         if isinstance(place.spec, ObstacleSpec):
             yield _placed(place, place.spec.width_m, place.spec.depth_m, _SOLID, "obstacle")
+    for core in layout.cores:
+        (x, z), half = core.door_m, _DOOR_M / 2
+        ends = [(x - half, z), (x + half, z)] if core.along_x else [(x, z - half), (x, z + half)]
+        yield Line(ends, _ON_FOOT, 3 * LINE_M, "exit on_foot")
     for place in layout.of_kind(ObjectKind.WALL):
         if isinstance(place.spec, WallSpec):
             half = place.spec.length_m / 2
-            yield _turned(place, rectangle(-half, -place.spec.thickness_m, half, 0.0), INK, "wall")
+            yield turned(place, rectangle(-half, -place.spec.thickness_m, half, 0.0), INK, "wall")
         elif isinstance(place.spec, WallPostSpec):
             yield _placed(place, place.spec.side_m, place.spec.side_m, INK, "wall")
     for place in layout.of_kind(ObjectKind.COLUMN):
@@ -202,36 +174,11 @@ def _building(layout: Layout) -> Iterator[Area]:
             yield _placed(place, place.spec.size_m, place.spec.size_m, INK, "column")
 
 
-def _portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
-    """The wall beside a door, and outside of it an arrow with a word."""
-    for place in layout.of_kind(ObjectKind.PORTAL):
-        spec = place.spec
-        if not isinstance(spec, PortalSpec):
-            continue
-        half, door, back = spec.length_m / 2, spec.door_width_m / 2, -spec.thickness_m
-        for sides in ((-half, -door), (door, half)):
-            yield _turned(place, rectangle(sides[0], back, sides[1], 0.0), INK, "wall")
-        kind = LaneKind.ENTRANCE if spec.is_entrance else LaneKind.EXIT
-        yield _turned(place, rectangle(-door, back, door, 0.0), _LANE_COLOUR[kind], f"portal {kind}")
-        x, _, z = place.position_m
-        tail, tip = (-3.0, -0.8) if spec.is_entrance else (-0.8, -3.0)
-        wing = tip + math.copysign(0.9, tail - tip)
-        strokes = [[(0.0, tail), (0.0, tip)], [(-0.8, wing), (0.0, tip), (0.8, wing)]]
-        for stroke in strokes:
-            points = [to_world(point, (x, z), place.yaw_rad) for point in stroke]
-            yield Line(points, _LANE_COLOUR[kind], 0.35, "direction")
-        word = "IN" if spec.is_entrance else "OUT"
-        is_beside = abs(math.sin(place.yaw_rad)) > 0.5  # noqa: PLR2004 - a quarter turn
-        half = (text_width(word, sheet.letters_m) if is_beside else sheet.letters_m) / 2
-        at = to_world((0.0, -ARROW_END_M - half), (x, z), place.yaw_rad)
-        yield Text(at, word, sheet.letters_m, _LANE_COLOUR[kind], kind="portal")
-
-
 def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
     """Both ways on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()
-    yield Line([*corners, corners[0]], _IN, 2.5 * _LINE_M, "chosen")
+    yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
     mouth = to_world((0.0, stall.length_m / 2), stall.centre_m, stall.yaw_rad)
     inside = to_world((0.0, stall.length_m / 2 - _ROUTE_INTO_STALL_M), stall.centre_m, stall.yaw_rad)
     yield from _way(graph, route.to_stall, [mouth, inside], _IN, "way in")
@@ -271,15 +218,10 @@ def _way(
 def _distinct(points: Sequence[Point]) -> list[Point]:
     kept = [points[0]]
     for point in points[1:]:
-        if math.dist(point, kept[-1]) > _LINE_M:
+        if math.dist(point, kept[-1]) > LINE_M:
             kept.append(point)
     return kept
 
 
 def _placed(place: Placement, width_m: float, depth_m: float, colour: Colour, kind: str) -> Area:
-    return _turned(place, rectangle(-width_m / 2, -depth_m / 2, width_m / 2, depth_m / 2), colour, kind)
-
-
-def _turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Area:
-    x, _, z = place.position_m
-    return Area([to_world(point, (x, z), place.yaw_rad) for point in shape], colour, kind)
+    return turned(place, rectangle(-width_m / 2, -depth_m / 2, width_m / 2, depth_m / 2), colour, kind)

@@ -22,6 +22,7 @@ ARROW_END_M = 3.6
 """How far from a wall the arrows before its doors end."""
 _DIMENSION_GAP = 2.2
 _LETTERS_PX, _LETTERS_SHARE = 15, 1 / 140
+_TITLE, _TITLE_ROOM, _RAMP_GAP = 1.4, 2.4, 1.6
 _SCALE_BAR_M = 10.0
 _MOST_LISTED = 60
 
@@ -57,6 +58,8 @@ class Sheet:
         Height of letters on it.
     low, high
         Corners (x, z) of the paper; the plan begins at (0, 0).
+    ramp_m
+        How far from the inner side of a wall the ramp behind it is shown.
     """
 
     def __init__(self, structure: Structure, marks: Sequence[Mark], legend: Sequence[tuple[Colour, str]]) -> None:
@@ -65,9 +68,10 @@ class Sheet:
         side_m = max(self._width_m, self._depth_m)
         self.px_per_m = min(_MAX_PX_PER_M, _MAX_SIDE_PX / side_m)
         self.letters_m = max(_LETTERS_PX / self.px_per_m, side_m * _LETTERS_SHARE)
-        self._zone_m = ARROW_END_M + text_width("OUT", self.letters_m) + self.letters_m
+        self._zone_m = ARROW_END_M + text_width("OUT", self.letters_m) + _RAMP_GAP * self.letters_m
         margin = self._zone_m + 2 * _DIMENSION_GAP * self.letters_m
-        self.low = (-margin, -margin)
+        self.ramp_m = self._zone_m - _RAMP_GAP * self.letters_m
+        self.low = (-margin, -margin - _TITLE_ROOM * self.letters_m)
         right = max(self._width_m + self._zone_m + self.letters_m, _LEAST_WIDTH_PX / self.px_per_m - margin)
         self._foot_m = self._depth_m + self._zone_m + self.letters_m
         self._places = self._legend_places(right)
@@ -75,6 +79,14 @@ class Sheet:
             self._places[-1][1] - self._foot_m + self.letters_m * (2.5 + 1.6 * (1 + min(len(marks), _MOST_LISTED + 1)))
         )
         self.high = (right, self._foot_m + lines)
+
+    def title(self, words: str) -> Text:
+        """A line over everything else, in larger letters where they find room."""
+        letters = _TITLE * self.letters_m
+        room = self.high[0] - self.low[0] - 2 * self.letters_m
+        height = letters * min(1.0, room / text_width(words, letters))
+        at = self.low[0] + self.letters_m, self.low[1] + self.letters_m + letters / 2
+        return Text(at, words, height, INK, is_left=True, kind="title")
 
     def dimensions(self) -> Iterator[Line | Text]:
         """Chains of R above and of C to the left, each with the overall size, and the numbers of columns and rows."""

@@ -22,7 +22,14 @@ MOST_THAT_ARE_NOT_RUN = 8
 def test_the_page_of_a_builds_files_names_every_key_in_them(tmp_path):
     Reader(tmp_path).start_with_a_garage()
     report, labels = (json.loads((tmp_path / f"garage_{name}.json").read_text()) for name in ("report", "labels"))
-    keys = {*report, *report["stalls"][0], *labels, *labels["classes"][0], *labels["objects"][0]}
+    keys = {
+        *report,
+        *report["circulation"],
+        *report["stalls"][0],
+        *labels,
+        *labels["classes"][0],
+        *labels["objects"][0],
+    }
     told = set(re.findall(r"`(\w+)`", (REPOSITORY / "docs" / "files.md").read_text()))
     assert keys <= told
 

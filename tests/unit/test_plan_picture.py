@@ -18,9 +18,11 @@ from sample_files import REPOSITORY
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.errors import ConfigError
+from garage2usd.grid import Cell
 from garage2usd.lanes import LaneKind
 from garage2usd.layout import ObjectKind, StallUse
-from garage2usd.pipeline import generate
+from garage2usd.pipeline import build, generate
+from garage2usd.planning import measured_circulation
 from garage2usd.view.plan_picture import Mark, draw_plan
 from garage2usd.view.plan_sheet import MARK_COLOUR
 from garage2usd.view.raster import to_image
@@ -230,7 +232,7 @@ def test_texts_of_the_sheet_are_inside_and_keep_clear_of_each_other(drawn):
     left, top, width, height = (float(value) for value in svg.get("viewBox").split())
     paper = shapely.box(left, top, left + width, top + height)
     boxes = []
-    for kind in ("dimension", "portal", "row", "column", "legend", "summary", "finding"):
+    for kind in ("title", "dimension", "portal", "row", "column", "legend", "summary", "finding"):
         for element in texts(svg, kind):
             size = float(element.get("font-size"))
             long = size * 0.62 * len(element.text) if kind != "legend" else size * 0.5 * len(element.text)
@@ -271,13 +273,90 @@ def test_the_png_shows_the_same(drawn):
             has_car = (stall.square, stall.named("Car")) in cars
             assert pixel(*stall.centre_m) == ((112, 146, 192) if has_car else colours[stall.use])
     lane_colours = {
-        LaneKind.CROSSROADS: (166, 150, 178), LaneKind.T_JUNCTION: (150, 160, 186), LaneKind.STRAIGHT: (148, 156, 166),
+        LaneKind.CROSSROADS: (98, 146, 148), LaneKind.T_JUNCTION: (114, 158, 158), LaneKind.STRAIGHT: (132, 172, 170),
         LaneKind.ENTRANCE: (72, 160, 96), LaneKind.EXIT: (206, 84, 72),
     }  # fmt: skip
+    rounds = measured_circulation(garage.layout.structure).circulation.rounds
     for square, about in garage.graph.graph.nodes(data=True):
         place = about["x_m"], about["z_m"]
         if not marked.contains(shapely.Point(place)):
-            assert pixel(*place) == lane_colours[garage.graph.kind(square)]
+            expected = (204, 152, 104) if rounds[square] else lane_colours[garage.graph.kind(square)]
+            assert pixel(*place) == expected
+
+
+CIRCULATES = """
+.......E....
+.==========.
+.=..=.=...=.
+.=..=.===.=.
+.====...=.=.
+....=...====
+..===......X
+"""
+
+
+@pytest.fixture(scope="module")
+def circulating():
+    return generate(GarageConfig(site={"structure": CIRCULATES}, seed=1))
+
+
+def test_lanes_are_tinted_by_whether_cars_drive_through_them(circulating):
+    svg = ET.fromstring(to_svg(draw_plan(circulating.layout, circulating.graph)))
+    structure = circulating.layout.structure
+    x, z = structure.column_edges_m, structure.row_edges_m
+    graph = circulating.graph.graph.copy()
+    portals = {square for square in graph if structure.cells[square] > Cell.LANE}
+    while tips := [square for square in graph if graph.degree(square) < 2 and square not in portals]:
+        graph.remove_nodes_from(tips)
+    through = set(graph) - portals
+    for kind, squares in (("through", set(graph)), ("dead_end", set(circulating.graph.graph) - set(graph))):
+        expected = shapely.union_all([shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in squares])
+        assert same(shapely.union_all([shape for _, shape in polygons(svg, kind)]), expected)
+    assert through
+    legend = [element.text for element in texts(svg, "legend")]
+    assert {"lane driven through", "dead end", "ramp"} <= set(legend)
+
+
+def test_the_title_has_the_figures_of_the_report(circulating, tmp_path):
+    report = json.loads(build(circulating.config, tmp_path / "g.usda").report.read_text())
+    (title,) = texts(ET.fromstring(to_svg(draw_plan(circulating.layout, circulating.graph))), "title")
+    figures, loops = report["circulation"], report["circulation"]["loops"]
+    assert title.text == (
+        f"{len(report['stalls'])} stalls, {report['area_per_stall_m2']:.1f} m2 a stall, {loops} loops, "
+        f"longest dead end {figures['longest_dead_end_m']:.1f} m, "
+        f"longest stretch without a junction {figures['longest_stretch_m']:.1f} m"
+    )
+    assert loops == 2
+    structure = circulating.layout.structure
+    found = measured_circulation(structure)
+    assert (figures["longest_dead_end_m"], figures["longest_stretch_m"]) == (found.dead_end_m, found.stretch_m)
+    assert (figures["longest_dead_end_squares"], figures["blocks"]) == (found.circulation.dead_end_squares, 0)
+    assert (figures["rules_asked"], figures["rules_broken"]) == (["R1", "R2", "R3"], ["R1"])
+    assert 0 < figures["neither_share"] < 1
+
+
+def test_ramps_are_drawn_from_their_doors_on_as_far_as_the_sheet_goes(drawn, circulating):
+    for garage in (drawn[0], circulating):
+        drawing = draw_plan(garage.layout, garage.graph)
+        svg = ET.fromstring(to_svg(drawing))
+        expected = shapely.union_all([footprint(place) for place in garage.layout.of_kind(ObjectKind.RAMP)])
+        found = shapely.union_all([shape for _, shape in polygons(svg, "ramp")])
+        assert bool(found.area) == bool(garage.layout.of_kind(ObjectKind.RAMP))
+        assert expected.buffer(CENTIMETRE).contains(found)
+        assert shapely.box(*drawing.low, *drawing.high).contains(found)
+        doors = shapely.union_all([footprint(place) for place in garage.layout.of_kind(ObjectKind.PORTAL)])
+        assert all(shapely.distance(part, doors) < CENTIMETRE for part in shapely.get_parts(found))
+
+
+def test_doors_of_stair_cores_are_drawn_where_they_open():
+    config = GarageConfig(site={"structure": ".......\n..#....\nE=====X\n......."})
+    garage = generate(config)
+    svg = ET.fromstring(to_svg(draw_plan(garage.layout, garage.graph)))
+    (door,) = [points(line) for line in svg.iter(f"{SVG}polyline") if "on_foot" in line.get("class", "").split()]
+    x, z = garage.layout.structure.column_edges_m, garage.layout.structure.row_edges_m
+    assert [z_m for _, z_m in door] == pytest.approx([z[2], z[2]])
+    assert np.mean([x_m for x_m, _ in door]) == pytest.approx((x[2] + x[3]) / 2)
+    assert "door of a stair core" in [element.text for element in texts(svg, "legend")]
 
 
 def test_the_same_drawing_gives_the_same_bytes(garage):

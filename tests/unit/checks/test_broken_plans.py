@@ -16,14 +16,22 @@ from garage2usd.profiles import load_profile, read_profile
 
 FOUND_IN_GOOD_ONE = {"personnel-exits"}
 CN = load_profile("cn-jgj100")
+CIRCULATION = {"dead-end-depth", "loop", "stretch-length", "lane-field"}
 DRAWN = {
     "no exit": ("exit-missing", "...\nE==\n..."),
     "no entrance": ("entrance-missing", "...\n==X\n..."),
     "a portal inside": ("portal-inside", ".......\n.=====X\n.=.E.=.\n.=====.\n.=...=.\nE=====."),
     "an exit beside no lane": ("portal-cut-off", "....\nE==X\n....\n....\nX..."),
-    "stalls that no lane leads to": ("stall-route", "........\nE======X\n........\n..====..\n........"),
+    "stalls that no lane leads to": ("stall-route", "......\nE====X\n......\n..==..\n......"),
     "an entrance that leads nowhere": ("portal-route", "E=######\n########\n........\nE======X\n........"),
     "an exit that looks at another part of the garage": ("portal-shut", "....#...\nE==X#.=.\n..=.#.=.\n..=====."),
+    "a dead end with branches that are short": (
+        "dead-end-depth",
+        ".......\nE=====X\n...=...\n..===..\n..=.=..",
+    ),
+    "many stalls without a loop": ("loop", "......X......\nE===========X\n............."),
+    "a long aisle without a junction": ("stretch-length", "..........\nE========X\n.........."),
+    "lanes side by side": ("lane-field", "......\nE====X\n..==..\n......"),
     "portals side by side": ("portal-distance", "......\n.=====\n.=...=\nE=...=\nX=====\n......"),
 }
 
@@ -166,7 +174,8 @@ def test_a_stage_and_its_report_say_the_same_of_stalls_that_no_car_gets_into(tmp
     drawing = "...\nE=X"
     free = {"occupied_stalls": []}
     bay = {"row_depths_m": [8.1, 4.2], "column_widths_m": 8.1}
-    made = build(GarageConfig(**settings_with(site={"structure": drawing}, bay=bay, parking=free)), tmp_path / "g.usda")
+    settings = settings_with(site={"structure": drawing}, bay=bay, parking=free, plan={"unreachable_stalls": "keep"})
+    made = build(GarageConfig(**settings), tmp_path / "g.usda")
     profile = profile_without("aisle_width", **WIDE_CIRCLE)
     found = [
         [finding for finding in check_file(path, profile=profile)[0] if finding.rule == "swept-path"]
@@ -203,13 +212,56 @@ def test_a_narrow_door_is_reported():
 
 
 @pytest.mark.parametrize(("kept_free", "rules"), [("standard", set()), ("allow", {"dead-end"})])
-def test_a_long_dead_end_needs_a_turning_stall(kept_free, rules):
+def test_a_long_dead_end_needs_a_turning_stall_and_is_too_deep_with_one(kept_free, rules):
     settings = settings_with(
         site={"structure": ".......\nE=====.\n.=.....\n.=====X\n......."},
         plan={"dead_ends": kept_free},
         parking={"occupied_stalls": []},
     )
-    assert found_in(settings) - FOUND_IN_GOOD_ONE == rules
+    assert found_in(settings) - FOUND_IN_GOOD_ONE == rules | {"dead-end-depth"}
+    assert found_in(settings, profile_without("dead_end_depth")) - FOUND_IN_GOOD_ONE == rules
+
+
+@pytest.mark.parametrize("name", ["a dead end with branches that are short", "a long aisle without a junction"])
+def test_circulation_is_measured_in_metres(name):
+    """The same squares as short as a stall break no rule of lengths."""
+    rule, drawing = DRAWN[name]
+    cells = cells_from_text(drawing, field="S")
+    bay = {"row_depths_m": 6.8, "column_widths_m": 6.8}
+    settings = settings_with(site={"structure": drawing}, bay=bay, parking={"occupied_stalls": []})
+    limit = {"dead-end-depth": "dead_end_depth", "stretch-length": "stretch_length"}[rule]
+    squares = {"dead-end-depth": 4, "stretch-length": cells.shape[1] - 2}[rule]
+    for metres, rules in ((6.8 * squares, set()), (6.8 * squares - 0.01, {rule})):
+        profile = profile_without("column_spacing", **{limit: {"value": metres, "unit": "m"}})
+        assert found_in(settings, profile) - FOUND_IN_GOOD_ONE == rules
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested", "flat"])
+def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
+    drawing = "\n".join([*DRAWN["a dead end with branches that are short"][1].split("\n"), "..=.=.."])
+    settings = settings_with(
+        site={"structure": drawing}, parking={"occupied_stalls": []}, stage={"form": form}, plan={"dead_ends": "allow"}
+    )
+    made = build(GarageConfig(**settings), tmp_path / "g.usda")
+    profile = profile_without(loops={"steps": [[10, 0]], "above": 1}, stretch_length={"value": 10})
+    found = [
+        [finding for finding in check_file(path, profile=profile)[0] if finding.rule in CIRCULATION]
+        for path in (made.stage, made.report)
+    ]
+    assert {finding.rule for finding in found[0]} == {"dead-end-depth", "loop", "stretch-length"}
+    assert found[0] == found[1]
+
+
+def test_findings_of_circulation_tell_place_and_figures(tmp_path):
+    (tmp_path / "plan.txt").write_text(DRAWN["a dead end with branches that are short"][1])
+    (finding,) = (f for f in check_file(tmp_path / "plan.txt")[0] if f.rule == "dead-end-depth")
+    assert (finding.place, finding.position_m) == ("[4, 2]", (20.25, 36.45))
+    assert (finding.measured, finding.required, finding.unit) == (32.4, 24.0, "m")
+    assert finding.severity == "warning"
+    assert "6 lane squares" in finding.message
+    (tmp_path / "plan.txt").write_text(DRAWN["lanes side by side"][1])
+    (finding,) = (f for f in check_file(tmp_path / "plan.txt")[0] if f.rule == "lane-field")
+    assert (finding.place, finding.measured, finding.required) == ("[1, 2]", 15.5, 11.0)
 
 
 @pytest.fixture(scope="module")

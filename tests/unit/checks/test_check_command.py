@@ -79,7 +79,7 @@ def test_a_stage_says_what_it_was_designed_to(tmp_path):
     [
         (["none.usda"], 1, "PATH: got 'none.usda'; allowed: an existing file"),
         (["."], 2, "is a directory"),
-        (["plan.txt", "--profile", "iso"], 2, "one of cn-jgj100, uk-istructe, us-ada"),
+        (["plan.txt", "--profile", "iso"], 2, "one of cn-jgj100, de-garvo, uk-istructe, us-ada"),
         (["empty.txt"], 1, "rows of equal length"),
         (["--rules"], 2, "No such option"),
     ],

@@ -5,11 +5,12 @@ from collections import Counter
 
 import pytest
 
-from garage2usd.checks import Severity, check
+from garage2usd.checks import Severity, check, check_layout
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.config import GarageConfig, SiteConfig, load_config
 from garage2usd.errors import ConfigError
 from garage2usd.pipeline import generate
+from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.profiles import PROFILE_NAMES, load_profile
 
 CLIENT = """
@@ -54,6 +55,29 @@ def test_a_garage_passes_the_profile_that_it_is_designed_to(profile, dimensioned
     stall = garage.layout.stalls[0]
     assert stall.width_m == pytest.approx(standard.stall_width.amount, abs=0.01)
     assert stall.length_m == pytest.approx(standard.stall_length.amount, abs=0.01)
+
+
+CIRCULATION = {"dead-end-depth", "loop", "lane-field"}
+
+
+@pytest.mark.parametrize("dimensioned", [False, True])
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
+@pytest.mark.parametrize("seed", [0, 7])
+def test_a_garage_planned_by_the_default_rules_circulates(seed, profile, dimensioned):
+    plan = {"episodes": 150, "starts": 1}
+    config = GarageConfig(seed=seed, profile=profile, plan=plan, bay={"dimensioned": dimensioned})
+    garage = generate(config)
+    assert not circulation(garage.plan.structure).faults(rules_of(config.plan, squares=63))
+    found = check_layout(garage.layout, garage.graph, config)
+    assert not CIRCULATION & {finding.rule for finding in found}
+
+
+def test_a_garage_planned_for_the_score_alone_does_not_circulate():
+    config = GarageConfig(seed=1, plan={"episodes": 150, "circulation": "allow"})
+    garage = generate(config)
+    found = {finding.rule: finding for finding in check_layout(garage.layout, garage.graph, config)}
+    assert {"dead-end-depth", "loop"} <= set(found)
+    assert {found[rule].severity for rule in CIRCULATION & set(found)} == {Severity.WARNING}
 
 
 def test_ada_gives_accessible_stalls_by_its_table():

@@ -1,5 +1,6 @@
 import json
 import math
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -167,8 +168,22 @@ E====.#
 }
 
 
+KEPT = {"unreachable_stalls": "keep"}
+
+
+def test_a_lane_too_narrow_for_its_stalls_is_refused_with_the_stalls_unless_told_otherwise():
+    failed = {proof.stall for proof in proofs_of(drawn(**NARROW, plan=KEPT)) if not proof.is_proven}
+    with pytest.raises(ConfigError) as caught:
+        drawn(**NARROW)
+    assert caught.value.field == "bay.row_depths_m"
+    named = set(re.findall(r"Stall_r\d+_c\d+_\d+", str(caught.value)))
+    assert named
+    assert named <= failed
+    assert "their aisles are 2.50 m clear" in str(caught.value)
+
+
 def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
-    narrow = drawn(**NARROW)
+    narrow = drawn(**NARROW, plan=KEPT)
     failed = [proof for proof in proofs_of(narrow) if not proof.is_proven]
     stalls = {stall.name: stall for stall in narrow.layout.stalls}
     assert failed
@@ -182,7 +197,7 @@ def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
 
 
 def test_stalls_without_ways_are_marked_and_hold_nothing():
-    kept, marked = drawn(**NARROW), drawn(**NARROW, plan={"unreachable_stalls": "mark"})
+    kept, marked = drawn(**NARROW, plan=KEPT), drawn(**NARROW, plan={"unreachable_stalls": "mark"})
     failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
     unreachable = [stall for stall in marked.layout.stalls if stall.use is StallUse.UNREACHABLE]
     assert failed <= {stall.name for stall in unreachable}
@@ -195,7 +210,7 @@ def test_stalls_without_ways_are_marked_and_hold_nothing():
 
 
 def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
-    kept, dropped = drawn(**NARROW), drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+    kept, dropped = drawn(**NARROW, plan=KEPT), drawn(**NARROW, plan={"unreachable_stalls": "drop"})
     failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
     assert failed
     assert failed <= dropped.layout.unreachable
@@ -209,7 +224,7 @@ def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
 
 
 def test_a_garage_without_any_stall_that_cars_get_into_is_refused():
-    names = {stall.name for stall in drawn(**NARROW).layout.stalls}
+    names = {stall.name for stall in drawn(**NARROW, plan=KEPT).layout.stalls}
     narrow = drawn(**NARROW, plan={"unreachable_stalls": "drop"})
     with pytest.raises(ConfigError, match=r"plan.unreachable_stalls: got 'drop'; allowed: a plan that leaves a stall"):
         lay_out(narrow.layout.structure, narrow.graph, narrow.config, unreachable=names)

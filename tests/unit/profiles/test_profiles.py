@@ -8,6 +8,7 @@ from sample_files import REPOSITORY
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import PROFILE_NAMES, Confidence, Length, Profile, load_profile, read_profile
 
+GUIDANCE = {"dead_end_depth": "warning", "loops": "warning", "stretch_length": "info", "lane_field_width": "warning"}
 STALL = {"value": 2.5, "unit": "m", "source": "the client", "confidence": "high"}
 
 
@@ -39,6 +40,10 @@ def test_every_shipped_file_is_a_profile():
         ("us-ada", "van_clear_height", 2.4892),
         ("us-ada", "van_stall_width", 3.3528),
         ("uk-istructe", "clear_height", 2.1),
+        ("us-ada", "dead_end_depth", 25.908),
+        ("us-ada", "stretch_length", 60.96),
+        ("de-garvo", "stall_width", 2.4),
+        ("de-garvo", "exit_distance", 30.0),
     ],
 )
 def test_lengths_are_read_in_their_own_unit(name, clause, metres):
@@ -56,6 +61,20 @@ def test_accessible_stalls_grow_with_the_garage_as_ada_208_says(stalls, required
 @pytest.mark.parametrize(("stalls", "required"), [(1, 1), (100, 1), (101, 2), (1000, 2), (1001, 3), (9000, 3)])
 def test_portals_grow_with_the_garage(stalls, required):
     assert load_profile("cn-jgj100").portals.required(stalls) == required
+
+
+def test_guidance_is_no_error_and_every_shipped_profile_has_it():
+    for name in PROFILE_NAMES:
+        profile = load_profile(name)
+        severities = {clause: getattr(profile, clause).severity for clause in GUIDANCE}
+        assert severities == GUIDANCE
+        # twice the least aisle, so that lanes beside each other are found at any size that a profile designs to
+        assert profile.lane_field_width.amount == pytest.approx(2 * profile.aisle_width.amount)
+
+
+@pytest.mark.parametrize(("stalls", "loops"), [(1, 0), (50, 0), (51, 1), (9000, 1)])
+def test_a_loop_is_asked_of_more_than_fifty_stalls(stalls, loops):
+    assert {load_profile(name).loops.required(stalls) for name in PROFILE_NAMES} == {loops}
 
 
 def test_a_profile_of_ones_own_is_read_from_a_file(tmp_path):
@@ -117,7 +136,7 @@ def test_steps_ascend_and_go_on(steps, allowed):
 @pytest.mark.parametrize(
     ("name", "text", "allowed"),
     [
-        ("cn-jgj", None, "one of cn-jgj100, uk-istructe, us-ada, or a path"),
+        ("cn-jgj", None, "one of cn-jgj100, de-garvo, uk-istructe, us-ada, or a path"),
         ("none.toml", None, "a readable file"),
         ("bad.toml", b"name = ", "TOML"),
         ("bad.toml", b"\xff", "UTF-8"),

@@ -1,0 +1,107 @@
+"""Rules of circulation: deep dead ends, loops, stretches without a junction, and lanes that lie side by side."""
+
+from collections.abc import Iterator, Sequence
+
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.subject import LaneNode, Point, Subject
+from garage2usd.lanes import Square
+from garage2usd.profiles import Profile
+
+__all__ = ["BOOK"]
+
+BOOK = RuleBook()
+_BESIDE = ((0, 0), (0, 1), (1, 0), (1, 1))
+
+
+@BOOK.rule("dead-end-depth", "dead_end_depth", asks="no dead end with its branches is too deep")
+def _depth(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    if profile.dead_end_depth is None or subject.circulation is None:
+        return
+    required = profile.dead_end_depth.amount
+    for run in subject.circulation.dead_ends:
+        if run.length_m > required + ROUNDING_M:
+            message = f"the dead end of {_lanes(len(run.squares))} is too deep"
+            yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
+
+
+@BOOK.rule("loop", "loops", asks="the lanes of a garage with many stalls form a loop")
+def _loops(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    if profile.loops is None or subject.circulation is None:
+        return
+    stalls = len(subject.parking_stalls)
+    required, measured = profile.loops.required(stalls), subject.circulation.circulation.loops
+    if measured < required:
+        message = f"who finds none of the {stalls} stalls free cannot drive round again"
+        yield Miss("", None, message, measured, required)
+
+
+@BOOK.rule("stretch-length", "stretch_length", asks="no stretch of lanes between two junctions is too long")
+def _stretches(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    if profile.stretch_length is None or subject.circulation is None:
+        return
+    required = profile.stretch_length.amount
+    for run in subject.circulation.stretches:
+        if run.length_m > required + ROUNDING_M:
+            message = f"a stretch of {_lanes(len(run.squares))} has no junction"
+            yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
+
+
+@BOOK.rule("lane-field", "lane_field_width", asks="lanes do not lie side by side")
+def _fields(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    if profile.lane_field_width is None or subject.circulation is None:
+        return
+    required = profile.lane_field_width.amount
+    nodes = {node.name: node for node in subject.nodes}
+    for field in _joined(subject.circulation.circulation.blocks):
+        measured = max(_clear_m(block, nodes) for block in field)
+        if measured > required + ROUNDING_M:
+            message = f"lanes lie side by side, {len(field)} times four of them in a block"
+            yield Miss(_name(field[0]), _place(subject, field[0]), message, measured, required)
+
+
+def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
+    """Metres from column to column across the narrower side of a block of two by two lanes; 0 where one is missing."""
+    row, col = block
+    corners = [nodes.get(_name((row + down, col + right))) for down, right in _BESIDE]
+    known = [node for node in corners if node is not None]
+    if len(known) < len(_BESIDE):
+        return 0.0
+    first, last = known[0], known[-1]
+    return min(
+        abs(last.position[axis] - first.position[axis]) + (first.widths_m[axis] + last.widths_m[axis]) / 2
+        for axis in (0, 1)
+    )
+
+
+def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
+    """Blocks that share lanes, together; each field, and the fields, in reading order."""
+    left, fields = set(blocks), []
+    for block in blocks:
+        if block not in left:
+            continue
+        left.remove(block)
+        field, waiting = [block], [block]
+        while waiting:
+            row, col = waiting.pop()
+            around = [(row + down, col + right) for down in (-1, 0, 1) for right in (-1, 0, 1)]
+            near = [other for other in around if other in left]
+            left.difference_update(near)
+            field += near
+            waiting += near
+        fields.append(sorted(field))
+    return fields
+
+
+def _place(subject: Subject, square: Square) -> Point | None:
+    """Middle of a lane square as the lane graph has it, to the millimetre."""
+    name = _name(square)
+    x_z = next((node.position for node in subject.nodes if node.name == name), None)
+    return None if x_z is None else (round(x_z[0], 3), round(x_z[1], 3))
+
+
+def _name(square: Square) -> str:
+    return f"[{square[0]}, {square[1]}]"
+
+
+def _lanes(count: int) -> str:
+    return "one lane square" if count == 1 else f"{count} lane squares"

@@ -1,0 +1,67 @@
+"""Refusal of a garage with stalls that no car gets into, proven where that is in doubt."""
+
+from collections.abc import Sequence
+
+from garage2usd.config import GarageConfig
+from garage2usd.driving.garage import prove_garage
+from garage2usd.driving.layout_garage import layout_garage
+from garage2usd.errors import ConfigError
+from garage2usd.lanes import LaneGraph
+from garage2usd.layout import Layout, Stall
+from garage2usd.layout.tight import clear_aisle_m
+from garage2usd.progress import Progress, silent
+
+__all__ = ["refuse_undrivable"]
+
+_MOST_TRIED, _NAMED = 24, 5
+
+
+def refuse_undrivable(
+    layout: Layout, graph: LaneGraph, config: GarageConfig, tight: Sequence[Stall], *, progress: Progress = silent
+) -> None:
+    """Refuse a garage if a car does not get into one of the stalls in doubt, and out again.
+
+    Parameters
+    ----------
+    layout, graph, config
+        The garage.
+    tight
+        The stalls in doubt; at most 24 of them, spread evenly, are tried.
+    progress
+        Told of each stall.
+
+    Raises
+    ------
+    ConfigError
+        With the setting of the aisle's width and the stalls without ways.
+    """
+    every = max(1, -(-len(tight) // _MOST_TRIED))
+    garage = layout_garage(layout, graph, config.bay.carriageway_setback_m)
+    names = {stall.name for stall in tight[::every]}
+    tried = [at for at in garage.stalls if at.name in names]
+    proofs = prove_garage(garage, tried, most_explained=0, progress=progress)
+    without = {proof.stall for proof in proofs if not proof.is_proven}
+    if not without:
+        return
+    found = [stall for stall in tight if stall.name in without]
+    narrowest_m = min(clear_aisle_m(layout.structure, stall, config.bay) for stall in found)
+    named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
+    field, value = _setting(config, found[0])
+    raise ConfigError(
+        field,
+        value,
+        f"aisles and stalls that the design car of 4.8 x 1.8 m gets into: it gets into {len(tried) - len(found)} of "
+        f"{len(tried)} that were tried, not into {named}; their aisles are {narrowest_m:.2f} m clear, 5.5 m are enough "
+        f"for stalls of 2.4 m; plan.unreachable_stalls = 'mark', 'drop' or 'keep' builds it nevertheless",
+    )
+
+
+def _setting(config: GarageConfig, stall: Stall) -> tuple[str, object]:
+    """The setting that made the aisle of a stall, and its value."""
+    bay = config.bay
+    key = "row_depths_m" if stall.edge.name in {"UP", "DOWN"} else "column_widths_m"
+    if getattr(bay, key) is not None:
+        return f"bay.{key}", getattr(bay, key)
+    if bay.dimensioned:
+        return "bay.stall_width_m", bay.stall_width_m
+    return "bay.square_side_m", bay.square_side_m

@@ -1,0 +1,86 @@
+"""Lanes on a plan: which of them are driven through, which are dead ends, and their directions."""
+
+import math
+from collections.abc import Iterator
+
+from garage2usd.grid import Cell
+from garage2usd.lanes import LaneGraph, LaneKind
+from garage2usd.layout import Layout
+from garage2usd.layout.specs import rectangle
+from garage2usd.planning import MeasuredCirculation
+from garage2usd.view.drawing import Area, Colour, Line, Point
+
+__all__ = ["FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
+
+LANE_COLOUR: dict[LaneKind, Colour] = {
+    LaneKind.CROSSROADS: (98, 146, 148),
+    LaneKind.T_JUNCTION: (114, 158, 158),
+    LaneKind.STRAIGHT: (132, 172, 170),
+    LaneKind.ENTRANCE: (72, 160, 96),
+    LaneKind.EXIT: (206, 84, 72),
+}
+"""Of portals, and of lanes that cars drive through, which is where loops run."""
+_LANE_NAME = {
+    LaneKind.CROSSROADS: "crossroads",
+    LaneKind.T_JUNCTION: "T-junction",
+    LaneKind.STRAIGHT: "lane driven through",
+    LaneKind.ENTRANCE: "entrance",
+    LaneKind.EXIT: "exit",
+}
+_DEAD_END: Colour = (204, 152, 104)
+FREE: Colour = (226, 224, 216)
+_SEAM: Colour = (206, 204, 196)
+_ARROW: Colour = (236, 238, 242)
+LINE_M = 0.12
+_KEEP_RIGHT_M = 1.3
+_CHEVRON_M = 0.7
+
+
+def lane_legend(graph: LaneGraph, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
+    """Kinds of lane that there are, with their colours."""
+    rounds = found.circulation.rounds
+    kinds = {kind for square, kind in graph.graph.nodes(data="kind") if not rounds[square]}
+    entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
+    return entries + ([(_DEAD_END, "dead end")] if found.dead_ends else [])
+
+
+def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Iterator[Area | Line]:
+    """Every square by its kind; a lane in a dead end has a tint of its own."""
+    structure, rounds = layout.structure, found.circulation.rounds
+    x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
+    for row, line in enumerate(structure.cells.tolist()):
+        for col, cell in enumerate(line):
+            if cell == Cell.OBSTACLE:
+                continue
+            kind = graph.kind((row, col)) if cell != Cell.FREE else None
+            box = rectangle(x[col], z[row], x[col + 1], z[row + 1])
+            if kind is None:
+                yield Area(box, FREE, "free")
+            elif rounds[row, col]:
+                yield Area(box, _DEAD_END, f"{kind} dead_end")
+            else:
+                yield Area(box, LANE_COLOUR[kind], f"{kind} through")
+            yield Line([*box, box[0]], _SEAM, LINE_M / 4)
+
+
+def arrows(graph: LaneGraph) -> Iterator[Line]:
+    """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
+    nodes = graph.graph.nodes
+    for one, other in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
+        ends = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in (one, other)]
+        kinds = graph.kind(one), graph.kind(other)
+        backwards = kinds[1] is LaneKind.ENTRANCE or kinds[0] is LaneKind.EXIT
+        is_one_way = bool({LaneKind.ENTRANCE, LaneKind.EXIT} & set(kinds))
+        if not backwards:
+            yield _chevron(ends[0], ends[1], 0.0 if is_one_way else _KEEP_RIGHT_M)
+        if backwards or not is_one_way:
+            yield _chevron(ends[1], ends[0], 0.0 if is_one_way else _KEEP_RIGHT_M)
+
+
+def _chevron(start: Point, end: Point, aside_m: float) -> Line:
+    length = math.dist(start, end)
+    dx, dz = (end[0] - start[0]) / length, (end[1] - start[1]) / length
+    x, z = (start[0] + end[0]) / 2 - dz * aside_m, (start[1] + end[1]) / 2 + dx * aside_m
+    size = _CHEVRON_M
+    wings = [(x - (dx + side * dz) * size, z - (dz - side * dx) * size) for side in (1, -1)]
+    return Line([wings[0], (x, z), wings[1]], _ARROW, 1.5 * LINE_M, "direction")
