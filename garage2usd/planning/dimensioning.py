@@ -88,7 +88,7 @@ def aisle_side_mm(bay: BayConfig) -> int:
 
 
 def free_sides_mm(bay: BayConfig) -> list[int]:
-    """Sides of lines of squares without traffic along them, ascending: a stall's length, the widths of two and of three."""
+    """Sides of lines without traffic along them, ascending: the length of a stall, the widths of two and of three."""
     length, width, ends = (round(side * _MM_PER_M) for side in (bay.stall_length_m, bay.stall_width_m, bay.row_ends_m))
     return sorted({length, *(max(count * width + ends, length) for count in _STALLS_BETWEEN_COLUMNS)})
 
