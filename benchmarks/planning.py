@@ -84,7 +84,7 @@ def _table(cases: dict[str, tuple[Structure, BayConfig]], asked: Asked) -> str:
             start = time.perf_counter()
             made = [planner(site, bay, asked, seed) for seed in range(SEEDS)]
             seconds = (time.perf_counter() - start) / SEEDS
-            sound = [structure for structure in made if not circulation(structure).broken(rules)]
+            sound = [structure for structure in made if not circulation(structure).faults(rules)]
             values = [evaluate(structure, bay=bay).value for structure in sound]
             percent = [100 * value / optimum for value in values]
             shares[name] += percent

@@ -92,7 +92,7 @@ def find_optimum(
     ground = ground_of(upright, bay=bay, plan=plan)
     sheet = _sheet(ground, upright.shape)
     best, value = known, -np.inf
-    if known is not None and is_feasible(known) and not circulation(known).broken(ground.rules):
+    if known is not None and is_feasible(known) and not circulation(known).faults(ground.rules):
         score = evaluate(known, bay=bay, plan=plan)
         value = score.value if score.stalls else -np.inf
     found = _beat(ground, sheet, value)

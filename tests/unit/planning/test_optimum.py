@@ -162,7 +162,7 @@ def test_equals_exhaustive_search(name):
         result = find_optimum(site, bay=bay, plan=planned(rule))
         assert result.score.value == pytest.approx(expected[rule]), rule
         assert feasible(result.structure.cells)
-        assert not circulation(result.structure).broken(rules_of(planned(rule), squares=20))
+        assert not circulation(result.structure).faults(rules_of(planned(rule), squares=20))
 
 
 # proven by another program, with dead ends of up to so many squares
@@ -182,7 +182,7 @@ def test_gate_under_the_rules(gate, depth):
     result = find_optimum(site, bay=BAY, plan=planned(depth))
     assert result.score.value == pytest.approx(UNDER_RULES[gate, depth], abs=1e-4)
     assert feasible(result.structure.cells)
-    assert not circulation(result.structure).broken(rules_of(planned(depth), squares=61))
+    assert not circulation(result.structure).faults(rules_of(planned(depth), squares=61))
 
 
 COMB = "\n".join([".=..=..=."] * 5 + [".=======.", "..E...X.."])
