@@ -6,13 +6,15 @@ from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.grid import Cell, Structure
 from garage2usd.site import make_site
 
-__all__ = ["GATES", "held_out", "site_of"]
+__all__ = ["GATES", "GATE_BAY", "held_out", "site_of"]
 
 ROWS, COLS = 7, 9
 SIDES_M = (5.5, 6.3, 7.2, 7.5, 7.8, 8.1, 8.4, 9.0)
 
 GATES = {"G1": ((6, 2), (6, 6)), "G2": ((6, 4), (0, 4)), "G3": ((3, 0), (3, 8))}
-"""Entrance and exit of the gates that the presets were tuned on; every bay is 8.1 m square."""
+"""Entrance and exit of the gates that the presets were tuned on."""
+GATE_BAY = BayConfig(dimensioned=False)
+"""Every bay of these gates is 8.1 m square and stays so: y' of other R and C cannot be compared."""
 
 
 def site_of(entrance: tuple[int, int], exit_: tuple[int, int], bay: BayConfig) -> Structure:

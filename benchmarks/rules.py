@@ -4,7 +4,7 @@ import statistics
 import time
 from typing import NamedTuple
 
-from gates import GATES, held_out, site_of
+from gates import GATE_BAY, GATES, held_out, site_of
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.grid import Structure
@@ -42,7 +42,7 @@ def prove(site: Structure, bay: BayConfig, depth: int | None) -> Proof:
 
 def rules() -> str:
     """One table for the gates of tuning, one for those held out."""
-    gates = {name: (site_of(*gate, BayConfig()), BayConfig()) for name, gate in GATES.items()}
+    gates = {name: (site_of(*gate, GATE_BAY), GATE_BAY) for name, gate in GATES.items()}
     sections = [
         "## The price of the rules of circulation, 7 x 9 squares",
         (

@@ -266,7 +266,10 @@ def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[
         pictures["learning"] = draw_learning_curve(plan.learning_curve)
     if best_plans:
         pictures["best"] = draw_structures(
-            [(entry.structure, entry.score.value) for entry in plan.archive[:best_plans]]
+            [
+                (entry.structure, f"{entry.score.value:.2f} {'polished' if entry.is_polished else 'learnt'}")
+                for entry in plan.archive[:best_plans]
+            ]
         )
     return pictures
 

@@ -97,6 +97,8 @@ def _describe(made: "Build") -> None:
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
         ("m2/stall", f"{layout.area_per_stall_m2:.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
+        *_learnt(made),
+        *(("gave way", f"{name}: {reason}") for name, reason in garage.plan.gave_way.items()),
         ("reachable", "every stall, from an entrance and to an exit"),
         ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
@@ -110,6 +112,19 @@ def _describe(made: "Build") -> None:
     ]
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def _learnt(made: "Build") -> list[tuple[str, str]]:
+    """What learning alone found, and what polish made of it."""
+    from garage2usd.planning import area_per_stall_m2, dimensioned  # noqa: PLC0415 - keeps --help instant
+
+    plan, bay = made.garage.plan, made.garage.config.bay
+    if plan.learnt is None:
+        return []
+    found = dimensioned(plan.learnt.structure, bay)
+    floors = [f"{area_per_stall_m2(structure, bay):.1f} m2 a stall" for structure in (found, plan.structure)]
+    polished = "polish kept it" if plan.learnt.structure == plan.archive[0].structure else f"polish made it {floors[1]}"
+    return [("learning", f"found a plan of {floors[0]}; {polished}")]
 
 
 def _displaced(layout: "Layout") -> int:

@@ -81,6 +81,7 @@ class SarsaParameters(NamedTuple):
     interval_penalty: float
     min_run_squares: int
     wheeling_penalty: float
+    loop_reward: float
     step_penalty: float
     failure_penalty: float
     window_radius_squares: int
@@ -105,6 +106,7 @@ _PRESETS = {
         interval_penalty=2.0,
         min_run_squares=3,
         wheeling_penalty=0.5,
+        loop_reward=0.0,
         step_penalty=0.4,
         failure_penalty=20.0,
         window_radius_squares=2,
@@ -127,6 +129,7 @@ _PRESETS = {
         interval_penalty=0.5,
         min_run_squares=4,
         wheeling_penalty=2.0,
+        loop_reward=0.0,
         step_penalty=0.1,
         failure_penalty=10.0,
         window_radius_squares=1,
@@ -216,6 +219,8 @@ class PlanConfig(Settings):
     """Equal actions in a row after which a turn is free."""
     wheeling_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for each lane that a new lane square runs beside, other than the one it continues."""
+    loop_reward: float | None = Field(None, ge=0, le=1000)
+    """Reward for a new lane square that closes a loop: one that touches another lane than the one it continues."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty for every action; staying away from the start costs it twice."""
     failure_penalty: float | None = Field(None, ge=0, le=1000)

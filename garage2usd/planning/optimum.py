@@ -55,9 +55,9 @@ def find_optimum(
     Parameters
     ----------
     site
-        Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper than
-        two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two
-        take a minute.
+        Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper
+        than two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two
+        squares take a minute.
     bay
         Size of the stalls.
     plan

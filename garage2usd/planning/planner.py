@@ -37,6 +37,7 @@ _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 _LARGE_SQUARES = 1000
 _LABELLED, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 3, 800_000, 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), (4.0, 40.0, 5.0, 20.0)
+_FAULTS = 5
 _WHOLE_SQUARES = 250
 """Up to so many squares annealing that judges each flip by the whole plan still gains on what labels reach."""
 _FINALISTS, _MOSTLY_COMMON = 12, 0.9
@@ -95,10 +96,14 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     if not ranked:
         reason = f"no way over the {len(ground.squares)} free squares joins all {len(ground.portals)} portals"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
-    best_learnt = _archived(site, ground, board, ranked[0][1])
+    best_learnt = _archived(site, ground, board, _keeping_rules_first(ground, board, ranked)[0][1])
     met = {lanes.tobytes() for _, lanes in ranked}
     if plan.polishes:
         ranked = _better(site, ground, board, ranked, plan, bay, random)
+    elif any(bay.chosen_sides):
+        ranked = _by_floor(site, ground, _keeping_rules_first(ground, board, ranked), bay)
+    else:
+        ranked = _keeping_rules_first(ground, board, ranked)
     archive = tuple(
         _archived(site, ground, board, lanes, is_polished=lanes.tobytes() not in met)
         for _, lanes in ranked[: plan.archive_size]
@@ -147,7 +152,25 @@ def _better(
         polished = _labelled(ground, board, sizes, ranked, plan, random)
     else:
         polished = _drifted(ground, board, ranked, plan, random)
+    polished = _keeping_rules_first(ground, board, polished)
     return polished if not is_sized else _by_floor(site, ground, polished, bay)
+
+
+def _keeping_rules_first(
+    ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]]
+) -> list[tuple[float, Lanes]]:
+    """The same, those that break the rules of circulation least often first."""
+    from garage2usd.planning.board import measure  # noqa: PLC0415
+
+    if not ground.rules.is_asked:
+        return ranked
+
+    def faults(entry: tuple[float, Lanes]) -> int:
+        _put(ground, board, entry[1])
+        measure(ground, board)
+        return int(board.tally[_FAULTS])
+
+    return sorted(ranked, key=faults)
 
 
 def _by_floor(

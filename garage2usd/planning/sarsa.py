@@ -227,6 +227,7 @@ def learn(
                     for way in range(4):
                         beside += cells[target_square + moves[way]] == 1
                     reward -= p.wheeling_penalty * max(0, beside - 1)
+                    reward += p.loop_reward * (beside > 1)
                     stalls = board.tally[0]
                     lay(ground, board, target_square)
                     laid[lanes] = target_square

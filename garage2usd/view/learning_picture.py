@@ -60,18 +60,18 @@ def draw_learning_curve(learning_curve: NDArray[np.float64]) -> Image.Image:
         draw.text((x, _TOP_PX + height + 8), str(episode + 1), fill=_INK, font=font, anchor="ma")
     draw.point([pixel(episode, value) for episode, value in enumerate(learning_curve.tolist())], fill=_POINT)
     draw.line([pixel(i + (window - 1) / 2, value) for i, value in enumerate(mean.tolist())], fill=_MEAN, width=2)
-    title = f"G by episode, mean of {window}"
+    title = f"Learning, before polish: G by episode, mean of {window}"
     draw.text((_LEFT_PX, 12), title, fill=_INK, font=font)
     return image
 
 
-def draw_structures(plans: Sequence[tuple[Structure, float]]) -> Image.Image:
-    """Draw structures side by side in rows of four, each with its rank and score.
+def draw_structures(plans: Sequence[tuple[Structure, str]]) -> Image.Image:
+    """Draw structures side by side in rows of four, each with its rank and what is said of it.
 
     Parameters
     ----------
     plans
-        At least one (structure, score), best first; all of one shape.
+        At least one (structure, words), best first; all of one shape.
     """
     rows, cols = plans[0][0].shape
     width, height = cols * _CELL_PX, rows * _CELL_PX + _TITLE_PX
@@ -81,10 +81,10 @@ def draw_structures(plans: Sequence[tuple[Structure, float]]) -> Image.Image:
     image = Image.new("RGB", size, _PAPER)
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(size=14)
-    for index, (structure, score) in enumerate(plans):
+    for index, (structure, words) in enumerate(plans):
         left = _GAP_PX + index % across * (width + _GAP_PX)
         top = _GAP_PX + index // across * (height + _GAP_PX)
-        draw.text((left, top), f"{index + 1}: {score:.2f}", fill=_INK, font=font)
+        draw.text((left, top), f"{index + 1}: {words}", fill=_INK, font=font)
         for (row, col), value in np.ndenumerate(structure.cells):
             x, y = left + col * _CELL_PX, top + _TITLE_PX + row * _CELL_PX
             box = [x, y, x + _CELL_PX - 1, y + _CELL_PX - 1]
