@@ -12,6 +12,7 @@ from garage2usd.planning.survey import survey
 
 __all__ = [
     "FAR",
+    "FAULTS",
     "NO_VALUE",
     "Board",
     "clear",
@@ -31,7 +32,9 @@ FAR = 1 << 28
 NO_VALUE = -1.0e9
 
 _ENTRANCE = 2
-_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID, _FAULTS = 0, 1, 2, 3, 4, 5
+_STALLS, _TIME, _UNUSED, _UNTOUCHED, _LAID = 0, 1, 2, 3, 4
+FAULTS = 5
+"""Where `Board.tally` holds how often the rules of circulation are broken."""
 
 
 class Board(NamedTuple):
@@ -299,10 +302,10 @@ def faults_cost(ground: Ground, board: Board) -> float:
             rules.stretch_squares,
         )
         cost += rules.deep_cost * found.deep + rules.block_cost * found.blocks + rules.stretch_cost * found.excess
-        board.tally[_FAULTS] = found.deep + found.blocks + found.excess
+        board.tally[FAULTS] = found.deep + found.blocks + found.excess
         if rules.asks_loop and found.loops < 1:
             cost += rules.loopless_cost
-            board.tally[_FAULTS] += 1
+            board.tally[FAULTS] += 1
     return cost
 
 

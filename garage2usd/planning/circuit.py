@@ -8,17 +8,17 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.archive import below, uniform
-from garage2usd.planning.board import FAR, NO_VALUE, Board, measure, stalls_at
+from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, stalls_at
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes, driven_ways, floor_cost, foresee, resize, settle, side_now, sync, weigh
-from garage2usd.planning.survey import survey
+from garage2usd.planning.survey import STRETCH, survey
 
 __all__ = ["Draft", "anneal_labels", "new_draft", "trim"]
 
 _MOVED = 400
 _SEARCHED = 800
-_CONNECTOR, _PATH, _RUN = 6, 20, 40
-_RESIZED = 0.02
+_CONNECTOR, _BENT_SHARE, _PATH, _RUN = 6, 0.3, 20, 40
+_RESIZED, _FAULTY_SHARE, _FAULTY_SHARE_AT_LAST, _LAST_PRICES = 0.02, 0.25, 0.9, 10.0
 _N, _TIME, _UNUSED, _BAD, _BLOCKS, _EXCESS = 0, 1, 2, 3, 4, 5
 
 
@@ -35,6 +35,8 @@ class Draft(NamedTuple):
         int64, shape (3,): the marks last used.
     moved, around, queue
         int64: squares of a move, squares that it may touch, room for searches.
+    faulty
+        int64: the squares around which rules were broken at the last measurement.
     fresh, old
         int8: labels after and before the move.
     old_hops
@@ -42,7 +44,8 @@ class Draft(NamedTuple):
     lines
         int64, shape (K, 2): axis and number of the lines that get another side by a move.
     size
-        int64, shape (3,): how many squares are moved, how many are around, and how many lines get another side.
+        int64, shape (4,): how many squares are moved, how many are around, how many lines get another side, and how
+        many squares are faulty.
     tally
         int64, shape (6,): stalls, time, unused squares, faults of labels, blocks, squares too long.
     change
@@ -55,6 +58,7 @@ class Draft(NamedTuple):
     moved: NDArray[np.int64]
     around: NDArray[np.int64]
     queue: NDArray[np.int64]
+    faulty: NDArray[np.int64]
     fresh: NDArray[np.int8]
     old: NDArray[np.int8]
     old_hops: NDArray[np.int32]
@@ -74,11 +78,12 @@ def new_draft(ground: Ground) -> Draft:
         np.zeros(_MOVED, np.int64),
         np.zeros(5 * _MOVED, np.int64),
         np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int32),
         np.zeros((10 * _MOVED, 2), np.int64),
-        np.zeros(3, np.int64),
+        np.zeros(4, np.int64),
         np.zeros(6, np.int64),
         np.zeros(6, np.int64),
     )
@@ -128,8 +133,11 @@ def _through(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: i
 @compiled
 def _fault(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int) -> int:
     """How far a lane is from what its label says."""
+    through = _through(cells, label, stride, q)
     if label[q] == 1:
-        return max(0, 2 - _through(cells, label, stride, q))
+        return max(0, 2 - through)
+    if through > 1:
+        return 1  # cars drive on through it
     for step in (-stride, stride, -1, 1):
         p = q + step
         if 0 < label[p] < label[q] or cells[p] > 1:
@@ -338,6 +346,7 @@ def _joined(ground: Ground, board: Board, draft: Draft) -> int:
         return 0 if removed else 1
     if not removed:
         # new lanes alone: one that is old must touch them
+        is_new_alone = True
         for index in range(draft.size[0]):
             q = draft.moved[index]
             for step in (-stride, stride, -1, 1):
@@ -346,8 +355,9 @@ def _joined(ground: Ground, board: Board, draft: Draft) -> int:
                     stamp[2, p] = wanted
                     count += 1
                     first = p
+                    is_new_alone = False
                     break
-        if stamp[2, first] == wanted and count == 0:
+        if is_new_alone:
             return 0
     stamp[2, first] = seen
     queue[0] = first
@@ -389,14 +399,20 @@ def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
 
 
 @compiled
-def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64]) -> int:
-    """Draw a move into the draft; its kind, or -1 if what was drawn is no move."""
+def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> int:
+    """Draw a move into the draft, some of them where rules are broken; its kind, or -1 if what was drawn is no move."""
     cells, label, stride = board.cells, draft.label, ground.stride
     deepest = ground.rules.dead_end_squares
     draft.size[0] = 0
     q = ground.squares[below(random, len(ground.squares))]
-    draw = uniform(random)
     step = (-stride, stride, -1, 1)[below(random, 4)]
+    if draft.size[3] > 0 and uniform(random) < faulty_share:
+        q = draft.faulty[below(random, draft.size[3])]
+        for _ in range(below(random, 3)):
+            q += (-stride, stride, -1, 1)[below(random, 4)]
+            if cells[q] != 0 and cells[q] != 1:
+                return -1
+    draw = uniform(random)
     if draw < 0.38:  # one square
         if cells[q] == 1:
             _add(draft, q, 0)
@@ -439,19 +455,7 @@ def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     if draw < 0.88:  # a connector to the next lane straight on
         if cells[q] != 1:
             return -1
-        p, length = q + step, 0
-        while cells[p] == 0 and length <= _CONNECTOR:
-            p += step
-            length += 1
-        if length == 0 or length > _CONNECTOR or cells[p] != 1:
-            return -1
-        if label[q] > 1:
-            _add(draft, q, 1)
-        for place in range(length):
-            _add(draft, q + (place + 1) * step, 1)
-        if label[p] > 1:
-            _add(draft, p, 1)
-        return 4
+        return _connect(ground, board, draft, random, q, step)
     if draw < 0.94:  # a path between two junctions goes, but for dead ends
         if label[q] != 1 or _through(cells, label, stride, q) != 2:
             return -1
@@ -524,6 +528,28 @@ def _propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
         _add(draft, p + step, 1)
         p += side
     return 6
+
+
+@compiled
+def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> int:
+    """Lead a new lane from one on over free squares to the next lane, straight or with one bend."""
+    cells, label, stride = board.cells, draft.label, ground.stride
+    p, length = start + step, 0
+    turn = 1 + below(random, _CONNECTOR) if uniform(random) < _BENT_SHARE else 0
+    while cells[p] == 0 and length <= 2 * _CONNECTOR:
+        if not _add(draft, p, 1):
+            return -1
+        length += 1
+        if length == turn:
+            sign = 1 if uniform(random) < 0.5 else -1
+            step = sign * (stride if step in (-1, 1) else 1)
+        p += step
+    if length == 0 or length > 2 * _CONNECTOR or cells[p] != 1:
+        return -1
+    for end in (start, p):
+        if label[end] > 1 and not _add(draft, end, 1):
+            return -1
+    return 4
 
 
 @compiled
@@ -623,6 +649,38 @@ def trim(ground: Ground, board: Board) -> None:
 
 
 @compiled
+def _find_faults(ground: Ground, board: Board, draft: Draft) -> None:
+    """List the lanes around which rules are broken, by the last survey and the labels."""
+    cells, state, stride, rules = board.cells, board.state, ground.stride, ground.rules
+    count = 0
+    for q in ground.squares:
+        if cells[q] == 1 and (
+            state[q] < -rules.dead_end_squares
+            or _is_long(board, rules.stretch_squares, q)
+            or _fault(cells, draft.label, stride, q) > 0
+            or (cells[q + 1] == 1 and cells[q + stride] == 1 and cells[q + stride + 1] == 1)
+        ):
+            draft.faulty[count] = q
+            count += 1
+    draft.size[3] = count
+
+
+@compiled
+def _is_long(board: Board, stretch_squares: int, q: int) -> bool:
+    """Whether a square lay on a stretch that is too long at the last survey."""
+    return bool(stretch_squares > 0 and board.state[q] > STRETCH + stretch_squares)
+
+
+@compiled
+def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
+    """Whether there is such a square around a move."""
+    for index in range(draft.size[1]):
+        if draft.label[draft.around[index]] > 0 and _is_long(board, stretch_squares, draft.around[index]):
+            return True
+    return False
+
+
+@compiled
 def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     """Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible."""
     sync(ground, board, sizes)
@@ -684,7 +742,7 @@ def anneal_labels(
     random
         State of the random numbers.
     trials
-        Moves to try.
+        Moves to try, and as many more as it takes to keep the rules, at most the same again.
     heats
         Temperature at first and at last, in stalls.
     prices
@@ -712,36 +770,45 @@ def anneal_labels(
         measure(ground, board)
         settle(ground, board, sizes, 2)
     _tally(ground, board, draft, sizes)
+    _find_faults(ground, board, draft)
     changed = 1
-    for trial in range(trials + 1):
+    faulty_share = _FAULTY_SHARE
+    for trial in range(2 * trials + 1):
+        if trial == trials:
+            faulty_share, refresh = _FAULTY_SHARE_AT_LAST, max(1, refresh // 8)
+            price, stretch_price = _LAST_PRICES * price, _LAST_PRICES * stretch_price
         if trial == trials or (trial % refresh == refresh - 1 and changed > 0):
             changed = 0
             copy[:] = cells
             if rules.is_asked:
                 trim(ground, board)
             measured = _tally(ground, board, draft, sizes)
-            faults = board.tally[5]
+            faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and measured > best):
                 best, best_faults = measured, faults
                 best_cells[:] = cells
             cells[:] = copy
+            # moves leave labels that are sound but not what pruning says: loops of dead ends
+            _label_lanes(ground, board, draft)
             _tally(ground, board, draft, sizes)
-            if trial == trials:
+            _find_faults(ground, board, draft)
+            # beyond the last trial only to mend what is broken still
+            if trial >= trials and best_faults == 0:
                 break
-        heat *= cooling
-        price *= pricing
-        stretch_price *= stretch_pricing
+        if trial < trials:
+            heat *= cooling
+            price *= pricing
+            stretch_price *= stretch_pricing
         if is_sized and uniform(random) < _RESIZED:
             _try_side(ground, board, draft, sizes, random, heat)
             continue
-        kind = _propose(ground, board, draft, random)
+        kind = _propose(ground, board, draft, random, faulty_share)
         if kind < 0:
             continue
         _gather(draft, ground.stride)
         change[:] = 0
         _count(ground, board, draft, -1)
-        looks_far = rules.stretch_squares > 0 and kind != 2
-        if looks_far:
+        if _touches_long(board, draft, rules.stretch_squares):
             change[_EXCESS] -= _excess_around(ground, board, draft)
         floor = 0.0
         if is_sized:
@@ -750,15 +817,18 @@ def anneal_labels(
         _count(ground, board, draft, 1)
         if is_sized:
             _drive(board, draft, sizes, ground.stride, 1)
-        if looks_far:
-            change[_EXCESS] += _excess_around(ground, board, draft)
         accepted = False
         threshold = heat * np.log(max(uniform(random), 1e-300))
         draft.size[2] = 0
-        if is_sized and _gain(ground, draft, price, stretch_price) + _hope(ground, draft, sizes) >= threshold:
-            floor = _weigh_lines(ground, board, draft, sizes)
-        if _gain(ground, draft, price, stretch_price) - sizes.price[0] * floor >= threshold:
-            accepted = _joined(ground, board, draft) == 1
+        # what costs least time to know first: most moves end here
+        hope = _hope(ground, draft, sizes) if is_sized else 0.0
+        if _gain(ground, draft, price, stretch_price) + hope >= threshold:
+            if rules.stretch_squares > 0:
+                change[_EXCESS] += _excess_around(ground, board, draft)
+            if is_sized:
+                floor = _weigh_lines(ground, board, draft, sizes)
+            gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * floor
+            accepted = gain >= threshold and _joined(ground, board, draft) == 1
         if accepted:
             changed += 1
             if is_sized:
@@ -766,8 +836,7 @@ def anneal_labels(
             tally[:3] += change[:3]
             if kind >= 5:  # distances change far around
                 changed = 0
-                if _tally(ground, board, draft, sizes) == NO_VALUE:
-                    return NO_VALUE
+                _tally(ground, board, draft, sizes)
         else:
             if is_sized:
                 _drive(board, draft, sizes, ground.stride, -1)

@@ -35,9 +35,10 @@ _CLIMB_SQUARES = 40_000_000
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
 _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 _LARGE_SQUARES = 1000
-_LABELLED, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 3, 800_000, 4
-_LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), (4.0, 40.0, 5.0, 20.0)
-_FAULTS = 5
+_LABELLED, _LABELLED_LARGE, _MOST_LABELLED, _LABEL_REFRESH_ROUNDS = 3, 1, 5, 4
+_LABEL_TRIALS, _LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS_LARGE = 500_000, 1200, 1_800_000
+_LABEL_HEATS, _LABEL_HEATS_LARGE = (0.6, 0.1), (0.2, 0.08)
+_LABEL_PRICES, _LABEL_PRICES_LARGE = (4.0, 40.0, 5.0, 20.0), (8.0, 40.0, 8.0, 30.0)
 _WHOLE_SQUARES = 250
 """Up to so many squares annealing that judges each flip by the whole plan still gains on what labels reach."""
 _FINALISTS, _MOSTLY_COMMON = 12, 0.9
@@ -160,17 +161,16 @@ def _keeping_rules_first(
     ground: Ground, board: "Board", ranked: list[tuple[float, Lanes]]
 ) -> list[tuple[float, Lanes]]:
     """The same, those that break the rules of circulation least often first."""
-    from garage2usd.planning.board import measure  # noqa: PLC0415
+    return sorted(ranked, key=lambda entry: _faults(ground, board, entry[1])) if ground.rules.is_asked else ranked
 
-    if not ground.rules.is_asked:
-        return ranked
 
-    def faults(entry: tuple[float, Lanes]) -> int:
-        _put(ground, board, entry[1])
-        measure(ground, board)
-        return int(board.tally[_FAULTS])
+def _faults(ground: Ground, board: "Board", lanes: Lanes) -> int:
+    """How often lanes break the rules of circulation."""
+    from garage2usd.planning.board import FAULTS, measure  # noqa: PLC0415
 
-    return sorted(ranked, key=faults)
+    _put(ground, board, lanes)
+    measure(ground, board)
+    return int(board.tally[FAULTS])
 
 
 def _by_floor(
@@ -324,16 +324,27 @@ def _labelled(
 
     draft = new_draft(ground)
     ranked = _valued(ground, board, sizes, ranked)
-    trials = int(_LABEL_TRIALS * min(1.0, plan.episodes / _FULL_EPISODES))
-    refresh = _LABEL_REFRESH_ROUNDS * len(ground.squares)
-    polished = _improved(
-        ground,
-        board,
-        ranked,
-        _apart(ranked, _LABELLED),
-        lambda: anneal_labels(ground, board, draft, sizes, random, trials, _LABEL_HEATS, _LABEL_PRICES, refresh),
-    )
-    if len(ground.squares) > _WHOLE_SQUARES:
+    squares = len(ground.squares)
+    trials = min(max(_LABEL_TRIALS, _LABEL_TRIALS_A_SQUARE * squares), _LABEL_TRIALS_LARGE)
+    trials = int(trials * min(1.0, plan.episodes / _FULL_EPISODES))
+    is_large = squares >= _LARGE_SQUARES
+    count = _LABELLED_LARGE if is_large else _LABELLED
+    heats = _LABEL_HEATS_LARGE if is_large else _LABEL_HEATS
+    prices = _LABEL_PRICES_LARGE if is_large else _LABEL_PRICES
+    refresh = _LABEL_REFRESH_ROUNDS * squares
+    polished = ranked
+    for number, start in enumerate(_apart(ranked, _MOST_LABELLED)):
+        # more starts only where none has come to keep the rules
+        if number >= count and not min(_faults(ground, board, lanes) for _, lanes in polished):
+            break
+        polished = _improved(
+            ground,
+            board,
+            polished,
+            [start],
+            lambda: anneal_labels(ground, board, draft, sizes, random, trials, heats, prices, refresh),
+        )
+    if squares > _WHOLE_SQUARES or sizes.is_chosen.any():
         return polished
     return _ranked([*polished, *_annealed(ground, board, sizes, ranked, plan, random)])
 

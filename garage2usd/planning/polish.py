@@ -5,13 +5,12 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, flip, mark_network, measure_above
+from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes, floor_cost, settle, side_now, sync
 
 __all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
 
-_FAULTS = 5
 _RESIZED_EVERY = 40
 _SETTLING_PASSES = 2
 
@@ -186,7 +185,7 @@ def anneal(
     cells = board.cells
     is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
     value = settled_worth(ground, board, sizes)
-    best, best_faults, best_cells, best_kept = value, board.tally[_FAULTS], cells.copy(), sizes.kept_mm.copy()
+    best, best_faults, best_cells, best_kept = value, board.tally[FAULTS], cells.copy(), sizes.kept_mm.copy()
     cooling = (coldest / hottest) ** (1.0 / max(1, flips))
     heat = hottest
     for _ in range(flips):
@@ -220,7 +219,7 @@ def anneal(
         tried = worth(ground, board, sizes, threshold)
         if tried > NO_VALUE and tried >= threshold:
             value = tried
-            faults = board.tally[_FAULTS]
+            faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and value > best + 1e-9):
                 best, best_faults = value, faults
                 best_cells[:] = cells
