@@ -1,7 +1,8 @@
 """Do garages pass their own check? Builds garages of many seeds and checks each against the profile it is designed to.
 
 python benchmarks/reality.py --seeds 500
-python benchmarks/reality.py --seeds 40 --profile us-ada --rows 12 --cols 16 --rectangles 5
+python benchmarks/reality.py --seeds 100 --rows 12 --cols 16 --rectangles 5 --obstacles 3
+python benchmarks/reality.py --seeds 100 --rows 20 --cols 30 --entrances 2 --exits 2
 """
 
 import argparse
@@ -12,43 +13,54 @@ from garage2usd.checks import Severity, check
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.config import GarageConfig
 from garage2usd.pipeline import generate
+from garage2usd.planning import area_per_stall_m2
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES
+
+SITE = {
+    "rows": "height_cells",
+    "cols": "width_cells",
+    "rectangles": "rectangles",
+    "obstacles": "obstacles",
+    "entrances": "entrances",
+    "exits": "exits",
+}
 
 
 def main() -> int:
-    """Print what was found by rule, and each seed with an error; end in 1 if there is one."""
+    """Print what was found by rule, and each seed with an error or a warning; end in 1 if there is one."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, default=25, help="how many seeds, from --first on")
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--profile", choices=PROFILE_NAMES, default=DEFAULT_PROFILE)
-    parser.add_argument("--rows", type=int)
-    parser.add_argument("--cols", type=int)
-    parser.add_argument("--rectangles", type=int)
-    parser.add_argument("--obstacles", type=int)
+    for name in SITE:
+        parser.add_argument(f"--{name}", type=int)
     asked = parser.parse_args()
-    site = {
-        "height_cells": asked.rows,
-        "width_cells": asked.cols,
-        "rectangles": asked.rectangles,
-        "obstacles": asked.obstacles,
-    }
-    settings = {"profile": asked.profile, "site": {key: value for key, value in site.items() if value is not None}}
+    site = {key: value for name, key in SITE.items() if (value := getattr(asked, name)) is not None}
     found: Counter[str] = Counter()
-    bad, stalls, start = [], 0, time.perf_counter()
+    gave_way: Counter[str] = Counter()
+    bad, start = [], time.perf_counter()
+    planned, left, plan_m2, layout_m2 = 0, 0, 0.0, 0.0
     for seed in range(asked.first, asked.first + asked.seeds):
-        garage = generate(GarageConfig(**settings, seed=seed))
+        garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
         subject = layout_subject(garage.layout, garage.graph, garage.config, source=f"seed {seed}", kind="report")
         findings = check(subject, garage.config.standard)
-        errors = [finding for finding in findings if finding.severity is Severity.ERROR]
+        grave = [finding for finding in findings if finding.severity is not Severity.INFO]
         found.update(f"{finding.severity.value} {finding.rule}" for finding in findings)
-        stalls += len(subject.parking_stalls)
-        if errors:
+        gave_way.update(garage.plan.gave_way)
+        planned, left = planned + garage.plan.score.stalls, left + len(garage.layout.stalls)
+        plan_m2 += area_per_stall_m2(garage.plan.structure, garage.config.bay) / asked.seeds
+        layout_m2 += garage.layout.area_per_stall_m2 / asked.seeds
+        for rule, reason in garage.plan.gave_way.items():
+            print(f"seed {seed}: {rule} gave way: {reason}", flush=True)
+        if grave:
             bad.append(seed)
-            print(f"seed {seed}: {errors[0].rule} at {errors[0].place}: {errors[0].message}", flush=True)
+            print(f"seed {seed}: {grave[0].rule} at {grave[0].place}: {grave[0].message}", flush=True)
     for rule, count in sorted(found.items()):
         print(f"{count:7d}  {rule}")
+    print(f"rules of circulation that gave way: {dict(sorted(gave_way.items())) or 'none'}")
+    print(f"{plan_m2:.2f} m2 a stall in the plans, {layout_m2:.2f} with stair cores; {planned} stalls, {left} left")
     seconds = time.perf_counter() - start
-    print(f"{asked.seeds} seeds, {stalls} stalls, {asked.profile}: {len(bad)} with errors, {seconds:.0f} s")
+    print(f"{asked.seeds} seeds, {asked.profile}: {len(bad)} with errors or warnings, {seconds:.0f} s")
     return int(bool(bad))
 
 

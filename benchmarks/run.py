@@ -1,6 +1,6 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [building | planning | rules | scale | stages | unity | compiled ...]
+Usage: python benchmarks/run.py [building | planning | rules | circulation | scale | stages | unity | compiled ...]
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -17,6 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from circulation import circulation
 from planning import planning
 from rules import rules
 from scale import scale
@@ -36,6 +37,7 @@ def main() -> None:
         "building": _building,
         "planning": planning,
         "rules": rules,
+        "circulation": circulation,
         "scale": scale,
         "stages": stages,
         "unity": unity,
