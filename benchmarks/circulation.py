@@ -46,8 +46,8 @@ def circulation() -> str:
         "",
         (
             "Means over the seeds; the same seeds in every column. Stalls are those on squares of 8.1 m; m2 a stall "
-            "are of plans whose R and C are chosen, before stair cores. R4 is asked for from 400 free squares on. Comb: "
-            "the best of combs of parallel aisles with one across, joined and given R and C, which keeps no rule."
+            "are of plans whose R and C are chosen, before stair cores. R4 is asked for from 400 free squares on. "
+            "Comb: the best of combs of parallel aisles with one across, joined and given R and C, which keeps no rule."
         ),
         "",
         (

@@ -1,0 +1,101 @@
+"""R and C while lanes are annealed, against the sizes and stalls that finished structures have."""
+
+import numpy as np
+import pytest
+
+from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.grid import Cell, Structure
+from garage2usd.planning import area_per_stall_m2, dimension, evaluate
+from garage2usd.planning.board import measure, new_board
+from garage2usd.planning.circuit import anneal_labels
+from garage2usd.planning.circulation import circulation
+from garage2usd.planning.draft import new_draft
+from garage2usd.planning.ground import cells_of, ground_of, lanes_of
+from garage2usd.planning.sizes import resize, settle, sizes_of, sync, weigh
+
+BAY = BayConfig()
+PLAN = PlanConfig(longest_stretch_cells=9)
+
+
+def ladder(rows=14, cols=17):
+    """Aisles at every third row, joined at both ends, an obstacle, an entrance and an exit."""
+    cells = np.zeros((rows, cols), dtype=np.int8)
+    cells[1::3, 1:-1] = Cell.LANE
+    last = cells.shape[0] - 1 - (cells.shape[0] - 2) % 3
+    cells[1 : last + 1, [1, cols - 2]] = Cell.LANE
+    cells[5, 6] = Cell.OBSTACLE
+    cells[4, 0], cells[7, cols - 1] = Cell.ENTRANCE, Cell.EXIT
+    return Structure.from_arrays(cells, 8.1, 8.1)
+
+
+def board_with(structure):
+    ground = ground_of(structure, bay=BAY, plan=PLAN)
+    ground = ground._replace(capacity=ground.capacity.copy())
+    board, sizes = new_board(ground), sizes_of(ground, BAY)
+    sizes.price[0] = 1 / 25
+    board.cells[:] = ground.cells
+    board.cells[ground.squares[lanes_of(structure, ground)]] = Cell.LANE
+    sync(ground, board, sizes)
+    measure(ground, board)
+    return ground, board, sizes
+
+
+def structure_of(structure, ground, board, sizes):
+    """What is on the board, with the sides that its lines have."""
+    cells = cells_of(ground, board.cells[ground.squares] == Cell.LANE)
+    rows, cols = cells.shape
+    return Structure(cells, sizes.actual_mm[1, 4 : cols + 4], sizes.actual_mm[0, 4 : rows + 4])
+
+
+def assert_same_figures(found, ground, board, sizes):
+    measure(ground, board)
+    score = evaluate(found, bay=BAY)
+    assert board.tally[0] == score.stalls
+    assert board.tally[2] == score.unused_squares
+    assert sizes.area_m2[0] / board.tally[0] == pytest.approx(area_per_stall_m2(found, BAY))
+
+
+def test_settled_sides_count_the_stalls_and_floor_of_the_structure():
+    site = ladder()
+    ground, board, sizes = board_with(site)
+    settle(ground, board, sizes, 8)
+    found = structure_of(site, ground, board, sizes)
+    assert_same_figures(found, ground, board, sizes)
+    # the finished plan is dimensioned apart, to no more floor a stall
+    best = area_per_stall_m2(dimension(site, bay=BAY), BAY)
+    assert best <= area_per_stall_m2(found, BAY) <= 1.03 * best
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_line_is_weighed_as_it_is_resized(seed):
+    rng = np.random.default_rng(seed)
+    site = ladder()
+    ground, board, sizes = board_with(site)
+    settle(ground, board, sizes, 2)
+    measure(ground, board)
+    axis = int(rng.integers(2))
+    line = 4 + int(rng.integers(site.shape[axis]))
+    side = int(rng.choice([5300, 6700, 7800]))
+    before, area = board.tally[:3].copy(), float(sizes.area_m2[0])
+    change = np.zeros(3, np.int64)
+    added = weigh(ground, board, sizes, axis, line, side, change)
+    resize(ground, sizes, axis, line, side)
+    measure(ground, board)
+    assert (board.tally[:3] - before == change).all()
+    assert sizes.area_m2[0] - area == pytest.approx(added)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_annealed_lanes_keep_the_rules_and_the_books(seed):
+    site = ladder()
+    ground, board, sizes = board_with(site)
+    before = area_per_stall_m2(dimension(site, bay=BAY), BAY)
+    random = np.array([seed + 1], np.uint64)
+    anneal_labels(
+        ground, board, new_draft(ground), sizes, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
+        4 * len(ground.squares),
+    )  # fmt: skip
+    found = structure_of(site, ground, board, sizes)
+    assert not circulation(found).faults(ground.rules)
+    assert_same_figures(found, ground, board, sizes)
+    assert area_per_stall_m2(dimension(found, bay=BAY), BAY) < before
