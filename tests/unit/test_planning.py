@@ -8,7 +8,7 @@ from garage2usd.planning import evaluate, given_plan, plan_lanes
 from garage2usd.randomness import Step
 from garage2usd.site import make_site
 
-BAY = BayConfig()
+BAY = BayConfig(dimensioned=False)
 GATES = {"G1": ((6, 2), (6, 6)), "G2": ((6, 4), (0, 4)), "G3": ((3, 0), (3, 8))}
 COMB = """
 .=..=..=.
@@ -112,7 +112,9 @@ def brute_score(structure):
 @pytest.mark.parametrize("preset", ["paper", "tuned"])
 def test_every_archived_plan_is_feasible_distinct_and_scored_right(gate, preset):
     empty = site(gate)
-    plan = plan_lanes(empty, plan=PlanConfig(preset=preset, episodes=1500, dead_ends="allow"), bay=BAY, seed=5)
+    plan = plan_lanes(
+        empty, plan=PlanConfig(preset=preset, episodes=1500, circulation="allow", dead_ends="allow"), bay=BAY, seed=5
+    )
     assert plan.structure == plan.archive[0].structure
     assert plan.score == plan.archive[0].score
     assert len({entry.structure.digest() for entry in plan.archive}) == len(plan.archive) <= 200
@@ -169,8 +171,15 @@ def test_presets_and_overrides():
 
 def test_climbing_never_loses():
     for gate in GATES:
-        plain = plan_lanes(site(gate), plan=PlanConfig(episodes=500, climb=False, dead_ends="allow"), bay=BAY, seed=3)
-        climbed = plan_lanes(site(gate), plan=PlanConfig(episodes=500, dead_ends="allow"), bay=BAY, seed=3)
+        plain = plan_lanes(
+            site(gate),
+            plan=PlanConfig(episodes=500, climb=False, circulation="allow", dead_ends="allow"),
+            bay=BAY,
+            seed=3,
+        )
+        climbed = plan_lanes(
+            site(gate), plan=PlanConfig(episodes=500, circulation="allow", dead_ends="allow"), bay=BAY, seed=3
+        )
         assert climbed.score.value >= plain.score.value
 
 

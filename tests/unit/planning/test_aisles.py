@@ -14,7 +14,7 @@ from garage2usd.planning.ground import cells_of, ground_of
 from garage2usd.planning.polish import connect
 from garage2usd.site import make_site
 
-ALLOW = PlanConfig(dead_ends="allow")
+ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
 
 
 def large_site(height, width, seed):
@@ -62,11 +62,11 @@ def test_drift_stays_feasible_and_never_loses(seed):
 @pytest.mark.parametrize(("shape", "share"), [((20, 30), 0.84), ((40, 60), 0.91), ((100, 100), 0.95)])
 def test_large_sites(shape, share):
     site = large_site(*shape, 2)
-    plan = plan_lanes(site, plan=PlanConfig(dead_ends="allow", archive_size=20), bay=BAY, seed=3)
+    plan = plan_lanes(site, plan=PlanConfig(circulation="allow", dead_ends="allow", archive_size=20), bay=BAY, seed=3)
     bound = counting_bound(site, bay=BAY)
     assert feasible(plan.structure.cells)
     assert share * bound < plan.score.value < bound
-    assert plan.learnt_value > (share - 0.06) * bound  # Sarsa leads, polish follows
+    assert plan.learnt.score.value > (share - 0.06) * bound  # Sarsa leads, polish follows
     assert plan.score.value == pytest.approx(evaluate(plan.structure, bay=BAY).value)
 
 

@@ -7,9 +7,11 @@ from planning_reference import BAY, drawn, feasible, random_site, score, sown
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.board import NO_VALUE, clear, dead_ends, lay, measure, new_board, value_now
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
-from garage2usd.planning.polish import close_dead_ends, connect
+from garage2usd.planning.labels import trim
+from garage2usd.planning.polish import connect
 
-ALLOW, FORBID = PlanConfig(dead_ends="allow"), PlanConfig(dead_ends="forbid")
+ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
+FORBID = PlanConfig(circulation="allow", dead_ends="forbid")
 
 
 def lanes_now(ground, board):
@@ -80,10 +82,10 @@ def test_long_dead_ends(text, count):
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_closing_leaves_no_dead_end(seed):
+def test_trimming_leaves_no_dead_end(seed):
     _, ground, board, _ = sown(seed, FORBID)
     assert connect(ground, board)
-    close_dead_ends(ground, board)
+    trim(ground, board)
     cells = lanes_now(ground, board)
     assert feasible(cells)
     drivable = np.pad(cells >= 1, 1)

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible, gates, random_site, score
+from planning_reference import BAY, G1, G2, G3, OPTIMUM, OPTIMUM_WITH_LOOPS, drawn, feasible, gates, random_site, score
 
 from garage2usd.config import PlanConfig
 from garage2usd.errors import GenerationError
@@ -36,14 +36,24 @@ def check(plan, site):
 @pytest.mark.parametrize("name", GATES)
 @pytest.mark.parametrize("seed", range(3))
 def test_tuned_reaches_the_optimum_with_climb(name, seed):
-    plan = plan_lanes(GATES[name], plan=PlanConfig(dead_ends="allow"), bay=BAY, seed=seed)
+    plan = plan_lanes(GATES[name], plan=PlanConfig(circulation="allow", dead_ends="allow"), bay=BAY, seed=seed)
     check(plan, GATES[name])
     assert plan.score.value >= 0.995 * OPTIMUM[name]
     assert plan.score.value <= OPTIMUM[name] + 1e-4
-    assert plan.learnt_value >= 0.95 * OPTIMUM[name]
+    assert plan.learnt.score.value >= 0.95 * OPTIMUM[name]
     assert [entry.score.value for entry in plan.archive] == sorted(
         (entry.score.value for entry in plan.archive), reverse=True
     )
+
+
+@pytest.mark.parametrize("name", GATES)
+@pytest.mark.parametrize("seed", range(3))
+def test_tuned_reaches_the_optimum_under_rules(name, seed):
+    plan = plan_lanes(GATES[name], plan=PlanConfig(), bay=BAY, seed=seed)
+    check(plan, GATES[name])
+    assert not plan.gave_way
+    assert 0.99 * OPTIMUM_WITH_LOOPS[name] <= plan.score.value <= OPTIMUM_WITH_LOOPS[name] + 1e-4
+    assert plan.learnt.score.value >= 0.93 * OPTIMUM_WITH_LOOPS[name]
 
 
 @pytest.mark.parametrize("name", GATES)
@@ -55,7 +65,7 @@ def test_paper_learns(name):
     check(late, GATES[name])
     assert early.score.value < late.score.value
     assert late.score.value > 50
-    assert late.learnt_value == late.score.value
+    assert late.learnt.score.value == late.score.value
     assert late.learning_curve[-1000:].mean() > late.learning_curve[:1000].mean()
 
 
@@ -103,7 +113,7 @@ def test_archive_size_and_curve():
 
 
 def test_a_draw_stays_above_the_floor():
-    settings = PlanConfig(choice="draw", quality_floor=0.9, dead_ends="allow")
+    settings = PlanConfig(choice="draw", quality_floor=0.9, circulation="allow", dead_ends="allow")
     plans = [plan_lanes(G1, plan=settings, bay=BAY, seed=seed) for seed in range(4)]
     assert len({plan.structure.digest() for plan in plans}) > 1
     assert all(plan.score.value >= 0.9 * plan.archive[0].score.value for plan in plans)
