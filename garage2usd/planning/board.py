@@ -57,7 +57,8 @@ class Board(NamedTuple):
         int64: room for breadth-first searches.
     tally
         int64, shape (6,): stalls N_S, sum over stalls of (1 + hops), free squares without stalls U_S, portals that
-        touch no lane, lanes, and how often `faults_cost` last found a rule of circulation broken.
+        touch no lane, lanes, and how often `faults_cost` last found a rule of circulation broken, `FAR` for
+        infeasible lanes.
     """
 
     cells: NDArray[np.int8]
@@ -234,6 +235,7 @@ def measure_above(ground: Ground, board: Board, least: float) -> float:
     """
     cells, hops, queue, tally = board.cells, board.hops, board.queue, board.tally
     stride = ground.stride
+    tally[FAULTS] = FAR
     for portal in ground.portals:
         touched = False
         for step in (-stride, stride, -1, 1):
@@ -289,6 +291,7 @@ def measure_above(ground: Ground, board: Board, least: float) -> float:
 def faults_cost(ground: Ground, board: Board) -> float:
     """What the faults of the circulation on the lanes in `board.cells` cost beside the score; uses `state`, `queue`."""
     cost, rules = 0.0, ground.rules
+    board.tally[FAULTS] = 0
     if ground.dead_end_cost > 0:
         cost += ground.dead_end_cost * dead_ends(ground, board.cells)
     if rules.is_asked:

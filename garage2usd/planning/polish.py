@@ -158,7 +158,7 @@ def climb(ground: Ground, board: Board, sizes: Sizes, random: NDArray[np.uint64]
                     continue
                 flip(cells, q, p)
                 tried = worth(ground, board, sizes, value)
-                if tried > value + 1e-9:
+                if tried > NO_VALUE and tried > value + 1e-9:
                     value, improved = tried, True
                 else:
                     flip(cells, q, p)
