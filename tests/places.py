@@ -7,11 +7,13 @@ MILLIMETRE = 0.001
 
 
 def assert_same_places(found, expected, tolerance_m=MILLIMETRE):
-    """Two sets of points, in any order, are the same within a tolerance."""
+    """Two collections of points, in any order, are the same within a tolerance; several may lie at one place."""
     found, expected = np.asarray(found, dtype=float), np.asarray(expected, dtype=float)
     assert len(found) == len(expected)
     if not len(expected):
         return
-    distance, partner = KDTree(found).query(expected)
-    assert distance.max() < tolerance_m
-    assert len(set(partner.tolist())) == len(expected)
+    # what lies at one place lies there as often in both
+    trees = KDTree(found), KDTree(expected)
+    there, here = (tree.query_ball_point(expected, tolerance_m, return_length=True) for tree in trees)
+    assert (there == here).all()
+    assert trees[1].query(found)[0].max() < tolerance_m

@@ -36,7 +36,12 @@ def settings(seed):
             "column_size_m": column_m,
         },
         "fittings": {"clear_height_m": clear_m, "ceiling_height_m": max(2.4, clear_m + room_m)},
-        "plan": {"preset": "paper" if seed % 4 == 0 else "tuned", "episodes": 300},
+        # narrow bays and wide columns are drawn too, which no car gets between
+        "plan": {
+            "preset": "paper" if seed % 4 == 0 else "tuned",
+            "episodes": 300,
+            "unreachable_stalls": "keep",
+        },
         "parking": {"occupancy": float(rng.uniform(0, 1)), "max_yaw_deg": 5.0},
     }
 
@@ -63,7 +68,8 @@ def test_every_seed_builds_every_stall_is_reached_and_nothing_solid_meets(block)
         both = reached(cells, Cell.ENTRANCE) & reached(cells, Cell.EXIT)
         assert garage.layout.stalls
         assert {stall.access_square for stall in garage.layout.stalls} <= both
-        assert len(garage.layout.stalls) == garage.plan.score.stalls
+        displaced = sum(len(core.stalls) for core in garage.layout.cores)
+        assert len(garage.layout.stalls) + displaced == garage.plan.score.stalls
         for portal in np.argwhere(cells >= Cell.ENTRANCE):
             row, col = portal.tolist()
             around = [(row - 1, col), (row + 1, col), (row, col - 1), (row, col + 1)]
