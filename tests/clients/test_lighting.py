@@ -28,7 +28,12 @@ SIDE = 48
 @pytest.fixture(scope="module")
 def garage(tmp_path_factory):
     """A garage with little between its lights and its floor, as the prediction has it."""
-    config = GarageConfig(parking={"occupancy": 0}, fittings={"ducts": False}, plan={"episodes": 300})
+    config = GarageConfig(
+        bay={"dimensioned": False},
+        parking={"occupancy": 0},
+        fittings={"ducts": False, "stair_cores": False},
+        plan={"episodes": 300},
+    )
     return build(config, tmp_path_factory.mktemp("lux") / "garage.usdc")
 
 
