@@ -13,8 +13,6 @@ __all__ = ["STRETCH", "Survey", "survey"]
 STRETCH = 4
 """States above it are stretches: so much more than the squares that they have."""
 
-_JUNCTION = 3
-
 
 class Survey(NamedTuple):
     """Figures of the lanes of a site.

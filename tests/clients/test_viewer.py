@@ -202,7 +202,7 @@ def test_inside_it_is_lit_the_ceiling_too(opened):
     ceiling = seen[90:240, 280:720]
     assert 70 < ceiling.mean() < 235
     assert ceiling.std() > 4
-    # the sky is of one colour; what is black, as the back of a sign, is near it and not the same
+    # the sky is of one colour; something dark hangs in the view of large_20x30 that is near it and not the same
     assert (np.abs(ceiling - sky).sum(axis=2) > 9).mean() > 0.98
     page.page.keyboard.press("c")
     page.page.keyboard.press("1")
