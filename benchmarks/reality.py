@@ -12,6 +12,7 @@ from collections import Counter
 from garage2usd.checks import Severity, check
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.config import GarageConfig
+from garage2usd.driving import Limits, prove_stalls
 from garage2usd.pipeline import generate
 from garage2usd.planning import area_per_stall_m2
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES
@@ -24,6 +25,7 @@ SITE = {
     "entrances": "entrances",
     "exits": "exits",
 }
+_GEAR_CHANGES = 2
 
 
 def main() -> int:
@@ -31,6 +33,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, default=25, help="how many seeds, from --first on")
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--drive", type=int, default=0, help="of how many seeds to drive each stall")
     parser.add_argument("--profile", choices=PROFILE_NAMES, default=DEFAULT_PROFILE)
     for name in SITE:
         parser.add_argument(f"--{name}", type=int)
@@ -39,6 +42,7 @@ def main() -> int:
     found: Counter[str] = Counter()
     gave_way: Counter[str] = Counter()
     bad, start = [], time.perf_counter()
+    driven: Counter[str] = Counter()
     planned, left, plan_m2, layout_m2 = 0, 0, 0.0, 0.0
     for seed in range(asked.first, asked.first + asked.seeds):
         garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
@@ -50,6 +54,12 @@ def main() -> int:
         planned, left = planned + garage.plan.score.stalls, left + len(garage.layout.stalls)
         plan_m2 += area_per_stall_m2(garage.plan.structure, garage.config.bay) / asked.seeds
         layout_m2 += garage.layout.area_per_stall_m2 / asked.seeds
+        if seed < asked.first + asked.drive:
+            setback_m = garage.config.bay.carriageway_setback_m
+            limits = Limits(gear_changes=_GEAR_CHANGES)
+            proofs = prove_stalls(garage.layout, garage.graph, setback_m=setback_m, limits=limits)
+            driven["proven"] += sum(proof.is_proven for proof in proofs)
+            driven["stalls"] += len(proofs)
         for rule, reason in garage.plan.gave_way.items():
             print(f"seed {seed}: {rule} gave way: {reason}", flush=True)
         if grave:
@@ -59,6 +69,9 @@ def main() -> int:
         print(f"{count:7d}  {rule}")
     print(f"rules of circulation that gave way: {dict(sorted(gave_way.items())) or 'none'}")
     print(f"{plan_m2:.2f} m2 a stall in the plans, {layout_m2:.2f} with stair cores; {planned} stalls, {left} left")
+    if driven:
+        share = 100 * driven["proven"] / driven["stalls"]
+        print(f"{share:.2f} % of {driven['stalls']} stalls take a car with {_GEAR_CHANGES} changes of gear at most")
     seconds = time.perf_counter() - start
     print(f"{asked.seeds} seeds, {asked.profile}: {len(bad)} with errors or warnings, {seconds:.0f} s")
     return int(bool(bad))

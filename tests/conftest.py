@@ -1,6 +1,7 @@
 """Shared stages, and the rule that in CI a skipped test is a failed one."""
 
 import os
+import signal
 
 import pytest
 
@@ -9,6 +10,12 @@ import garage2usd
 
 def pytest_addoption(parser):
     parser.addoption("--write-pictures", action="store_true", help="replace the stored pictures by what is drawn now")
+
+
+def pytest_configure():
+    # a shell that runs the tests in the background has SIGINT ignored, which children that tests interrupt inherit
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.hookimpl(wrapper=True)

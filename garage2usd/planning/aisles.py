@@ -1,7 +1,7 @@
 """Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. Compiled."""
 # ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - a decision is one loop over the squares of a run
 
-from itertools import product
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +22,8 @@ OPTIONS = 4
 _PROFILES, _SHARES, _AHEAD = 9, 2, 4
 _LONGEST_PART = 8
 _ANY_STRETCH, _INSETS = 1000, 3
+_SIDE_RUNS, _APART = 3, 3
+"""How many runs make a side of the contour, and how far rails are apart, as aisles with a row between them are."""
 _SPREAD_SPINES = 12
 _STATES = _PROFILES * _SHARES * _AHEAD
 _OPTIMISTIC = 40.0
@@ -89,24 +91,25 @@ def runs_of(ground: Ground) -> Runs:
 
 
 def _ladders(ground: Ground, runs: Runs) -> NDArray[np.int64]:
-    """Sets of spines that join the aisles at both ends and so often between that no stretch is too long."""
+    """Sets of spines that join the aisles at both ends and so often between that no stretch is too long.
+
+    Beside rails at the ends of the whole site there are sets with one at each side of the contour.
+    """
     sets: list[list[list[int]]] = [[], []]
-    stretch = ground.rules.stretch_squares or _ANY_STRETCH
     for direction in range(2):
-        begin, end = (runs.turned[0], runs.turned[1]) if direction == 0 else (0, runs.turned[0])
-        heads = runs.first[begin:end]
-        lines = heads % ground.stride if direction == 0 else heads // ground.stride
+        across = _of_direction(runs, 1 - direction)
+        lines = _places(ground, runs.first[across], direction)
         if not len(lines):
             continue
-        low, high = int(lines.min()), int(lines.max())
+        starts, ends = _sides(ground, runs, direction)
+        met = set()
         for near, far, more in product(range(_INSETS), range(_INSETS), range(2)):
-            span = high - far - low - near
-            if span < 2:  # rails side by side would be one lane two squares wide
-                continue
-            parts = max(1, -(-span // (stretch + 1))) + more
-            rails = np.unique(np.linspace(low + near, high - far, parts + 1).round().astype(int))
-            if (np.diff(rails) > 1).all():
-                sets[direction].append((begin + np.flatnonzero(np.isin(lines, rails))).tolist())
+            outer = [int(lines.min()) + near, int(lines.max()) - far]
+            for knots in (outer, [*outer, *(starts + near), *(ends - far)]):
+                rails = _rails(knots, stretch=ground.rules.stretch_squares or _ANY_STRETCH, more=more)
+                if len(rails) > 1 and tuple(rails) not in met:
+                    met.add(tuple(rails))
+                    sets[direction].append((across.start + np.flatnonzero(np.isin(lines, rails))).tolist())
     count = max(len(found) for found in sets)
     most = max((len(spines) for found in sets for spines in found), default=1)
     ladders = np.full((2, max(count, 1), most), -1)
@@ -114,6 +117,45 @@ def _ladders(ground: Ground, runs: Runs) -> NDArray[np.int64]:
         for index, spines in enumerate(found):
             ladders[direction, index, : len(spines)] = spines
     return ladders
+
+
+def _of_direction(runs: Runs, direction: int) -> slice:
+    """Which runs lie along rows (0) or columns (1)."""
+    return slice(0 if direction == 0 else int(runs.turned[0]), int(runs.turned[direction]))
+
+
+def _places(ground: Ground, squares: NDArray[np.int64], direction: int) -> NDArray[np.int64]:
+    """Columns of squares where aisles run along rows (0), their rows where they run along columns (1)."""
+    return squares % ground.stride if direction == 0 else squares // ground.stride
+
+
+def _sides(ground: Ground, runs: Runs, direction: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Lines at which several runs of a direction begin, and at which several end: the sides of the contour."""
+    along = _of_direction(runs, direction)
+    first = _places(ground, runs.first[along], direction)
+    found = []
+    for places in (first, first + runs.length[along] - 1):
+        lines, counts = np.unique(places, return_counts=True)
+        found.append(lines[counts >= _SIDE_RUNS])
+    return found[0], found[1]
+
+
+def _rails(knots: list[int], *, stretch: int, more: int) -> list[int]:
+    """Lines for spines at the knots, first come first served where these are too close, and evenly between them.
+
+    As many lie between two knots as keep the stretches short enough, and `more`, where there is room for that many.
+    """
+    kept: list[int] = []
+    for knot in knots:
+        if all(abs(knot - other) >= _APART for other in kept):
+            kept.append(knot)
+    kept.sort()
+    rails = set(kept)
+    for low, high in pairwise(kept):
+        parts = max(1, -(-(high - low) // (stretch + 1))) + more
+        if (high - low) // parts >= _APART:
+            rails.update(np.linspace(low, high, parts + 1).round().astype(int).tolist())
+    return sorted(rails)
 
 
 def _single_spines(ground: Ground, runs: Runs) -> NDArray[np.int64]:

@@ -1,21 +1,28 @@
 """Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. Compiled."""
-# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - moves are judged in loops over shared counters
+# ruff: noqa: C901, PLR0915, PLR2004 - moves are judged in loops over shared counters
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.archive import below, uniform
-from garage2usd.planning.board import FAULTS, NO_VALUE, Board, measure, stalls_at
-from garage2usd.planning.draft import Draft, apply, gather, revert, still_joined
+from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, measure_above, stalls_at
+from garage2usd.planning.draft import Draft, apply, gather, revert
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.labels import fault, find_faults, is_long, label_lanes, through, trim
-from garage2usd.planning.moves import DISTANT, propose
+from garage2usd.planning.moves import propose
 from garage2usd.planning.sizes import Sizes, driven_ways, floor_cost, foresee, resize, settle, side_now, sync, weigh
 
 __all__ = ["anneal_labels"]
 
-_RESIZED, _FAULTY_SHARE, _FAULTY_SHARE_AT_LAST, _LAST_PRICES = 0.02, 0.25, 0.9, 10.0
+_RESIZED, _FAULTY_SHARE = 0.02, 0.25
+
+# what a fault weighs, in stalls, in the choice of the best plan: while annealing, and where faults are mended
+_FAULT_PRICE, _FAULT_PRICE_AT_LAST = 30.0, 1.0e5
+
+# what is broken still at last is mended where it is, by moves that may cost stalls before they pay
+_MENDING_TRIALS, _MENDING_REFRESH, _MENDING_HEAT, _MENDING_FAULTY_SHARE = 60_000, 2000, 2.0, 1.0
+
 _N, _TIME, _UNUSED, _BAD, _BLOCKS, _EXCESS = 0, 1, 2, 3, 4, 5
 
 
@@ -94,13 +101,9 @@ def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> 
 
 
 @compiled
-def _weigh_lines(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
-    """Find the lines around a move that get another side by it, and what that changes; returns the floor added in m2.
-
-    Each line is weighed alone; where two of them cross, the next measurement of the whole sets it right.
-    """
+def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
+    """Find the lines around a move that get another side by it."""
     draft.size[2] = 0
-    area = 0.0
     for index in range(draft.size[1]):
         q = draft.around[index]
         for axis in range(2):
@@ -113,13 +116,11 @@ def _weigh_lines(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> fl
             if is_new:
                 draft.lines[draft.size[2], 0], draft.lines[draft.size[2], 1] = axis, line
                 draft.size[2] += 1
-                area += weigh(ground, board, sizes, axis, line, side_now(sizes, axis, line), draft.change)
-    return area
 
 
 @compiled
 def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
-    """Give the lines that a move has weighed their new sides."""
+    """Give the lines that a move touches the sides that they are to have now."""
     for place in range(draft.size[2]):
         axis, line = draft.lines[place]
         resize(ground, sizes, axis, line, side_now(sizes, axis, line))
@@ -161,6 +162,19 @@ def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> f
 
 
 @compiled
+def _shortcut(board: Board, draft: Draft, stride: int) -> int:
+    """Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most."""
+    cells, hops, most = board.cells, board.hops, 0
+    for index in range(draft.size[0]):
+        q = draft.moved[index]
+        if cells[q] == 1 and draft.old[index] == 0 and hops[q] < FAR:
+            for step in (-stride, stride, -1, 1):
+                if cells[q + step] == 1 and hops[q + step] < FAR:
+                    most = max(most, hops[q + step] - hops[q] - 1)
+    return most
+
+
+@compiled
 def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
     """More than the lines around a move are likely to gain by other sides, to leave most of them unweighed."""
     hope = 0.0
@@ -196,7 +210,7 @@ def anneal_labels(
     random
         State of the random numbers.
     trials
-        Moves to try, and as many more as it takes to keep the rules, at most the same again.
+        Moves to try, and some more where rules are broken still.
     heats
         Temperature at first and at last, in stalls.
     prices
@@ -208,11 +222,12 @@ def anneal_labels(
     -----
     Each lane is labelled as driven through or as so many squares deep in a dead end; where every lane has what its
     label asks for around it, pruning ends within the rounds of R1. So R1 and R3 are judged around a move, R4 along
-    the stretches that it touches. T_S is followed by the distances of the last measurement.
+    the stretches that it touches. A move that seems worth it by what is around it is measured whole before it is made,
+    as it may lead cars another way far around: stalls, T_S and floor are exact.
     """
-    cells, tally, change, rules = board.cells, draft.tally, draft.change, ground.rules
-    best_faults = np.int64(1 << 30)
-    best, best_cells, copy = NO_VALUE, cells.copy(), cells.copy()
+    cells, rules = board.cells, ground.rules
+    best, best_faults, fault_price = NO_VALUE, np.int64(0), _FAULT_PRICE
+    best_cells, best_kept, copy = cells.copy(), sizes.kept_mm.copy(), cells.copy()
     cooling = (heats[1] / heats[0]) ** (1.0 / max(1, trials))
     pricing = (prices[1] / prices[0]) ** (1.0 / max(1, trials))
     heat, price, stretch_price = heats[0], prices[0], prices[2]
@@ -225,12 +240,11 @@ def anneal_labels(
         settle(ground, board, sizes, 2)
     _tally(ground, board, draft, sizes)
     find_faults(ground, board, draft)
-    changed = 1
+    changed, hops = 1, board.hops.copy()
     faulty_share = _FAULTY_SHARE
-    for trial in range(2 * trials + 1):
+    for trial in range(trials + _MENDING_TRIALS + 1):
         if trial == trials:
-            faulty_share, refresh = _FAULTY_SHARE_AT_LAST, max(1, refresh // 8)
-            price, stretch_price = _LAST_PRICES * price, _LAST_PRICES * stretch_price
+            heat, faulty_share, refresh = _MENDING_HEAT, _MENDING_FAULTY_SHARE, _MENDING_REFRESH
         if trial == trials or (trial % refresh == refresh - 1 and changed > 0):
             changed = 0
             copy[:] = cells
@@ -238,14 +252,21 @@ def anneal_labels(
                 trim(ground, board)
             measured = _tally(ground, board, draft, sizes)
             faults = board.tally[FAULTS]
-            if faults < best_faults or (faults == best_faults and measured > best):
+            if measured - fault_price * faults > best - fault_price * best_faults:
                 best, best_faults = measured, faults
                 best_cells[:] = cells
+                best_kept[:] = sizes.kept_mm
             cells[:] = copy
+            if trial >= trials:
+                # what is broken still is mended on the best, from its trimmed lanes
+                fault_price = _FAULT_PRICE_AT_LAST
+                cells[:] = best_cells
+                sizes.kept_mm[:] = best_kept
             # moves leave labels that are sound but not what pruning says: loops of dead ends
             label_lanes(ground, board, draft)
             _tally(ground, board, draft, sizes)
             find_faults(ground, board, draft)
+            hops[:] = board.hops
             # beyond the last trial only to mend what is broken still
             if trial >= trials and best_faults == 0:
                 break
@@ -256,49 +277,66 @@ def anneal_labels(
         if is_sized and uniform(random) < _RESIZED:
             _try_side(ground, board, draft, sizes, random, heat)
             continue
-        kind = propose(ground, board, draft, random, faulty_share)
-        if kind == 0:
+        if not propose(ground, board, draft, random, faulty_share):
             continue
-        gather(draft, ground.stride)
-        change[:] = 0
-        _count(ground, board, draft, -1)
-        if _touches_long(board, draft, rules.stretch_squares):
-            change[_EXCESS] -= _excess_around(ground, board, draft)
-        floor = 0.0
-        if is_sized:
-            _drive(board, draft, sizes, ground.stride, -1)
-        apply(ground, board, draft)
-        _count(ground, board, draft, 1)
-        if is_sized:
-            _drive(board, draft, sizes, ground.stride, 1)
-        accepted = False
         threshold = heat * np.log(max(uniform(random), 1e-300))
-        draft.size[2] = 0
-        # what costs least time to know first: most moves end here
-        hope = _hope(ground, draft, sizes) if is_sized else 0.0
-        if _gain(ground, draft, price, stretch_price) + hope >= threshold:
-            if rules.stretch_squares > 0:
-                change[_EXCESS] += _excess_around(ground, board, draft)
-            if is_sized:
-                floor = _weigh_lines(ground, board, draft, sizes)
-            gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * floor
-            accepted = gain >= threshold and still_joined(ground, board, draft) == 1
-        if accepted:
-            changed += 1
-            if is_sized:
-                _resize_lines(ground, draft, sizes)
-            tally[:3] += change[:3]
-            if kind == DISTANT:
-                changed = 0
-                _tally(ground, board, draft, sizes)
-        else:
-            if is_sized:
-                _drive(board, draft, sizes, ground.stride, -1)
-            revert(board, draft)
-            if is_sized:
-                _drive(board, draft, sizes, ground.stride, 1)
+        changed += _try_move(ground, board, draft, sizes, hops, threshold, price, stretch_price)
     cells[:] = best_cells
+    sizes.kept_mm[:] = best_kept
     return _tally(ground, board, draft, sizes)
+
+
+@compiled
+def _try_move(
+    ground: Ground,
+    board: Board,
+    draft: Draft,
+    sizes: Sizes,
+    hops: NDArray[np.int32],
+    threshold: float,
+    price: float,
+    stretch_price: float,
+) -> bool:
+    """Make the move of the draft if it gains as much as the threshold; `hops` holds those of the lanes as they are."""
+    tally, change, stride = draft.tally, draft.change, ground.stride
+    is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
+    gather(draft, stride)
+    change[:] = 0
+    draft.size[2] = 0
+    _count(ground, board, draft, -1)
+    if _touches_long(board, draft, ground.rules.stretch_squares):
+        change[_EXCESS] -= _excess_around(ground, board, draft)
+    if is_sized:
+        _drive(board, draft, sizes, stride, -1)
+    apply(ground, board, draft)
+    _count(ground, board, draft, 1)
+    if is_sized:
+        _drive(board, draft, sizes, stride, 1)
+    # most moves end here: the whole is measured only where what is around promises enough
+    hope = _hope(ground, draft, sizes) if is_sized else 0.0
+    hope -= ground.weights[1] * _shortcut(board, draft, stride)
+    if _gain(ground, draft, price, stretch_price) + hope >= threshold:
+        if ground.rules.stretch_squares > 0:
+            change[_EXCESS] += _excess_around(ground, board, draft)
+        floor = sizes.area_m2[0]
+        if is_sized:
+            _find_lines(ground, draft, sizes)
+            _resize_lines(ground, draft, sizes)
+        if measure_above(ground, board, np.inf) > NO_VALUE:
+            change[:3] = board.tally[:3] - tally[:3]
+            gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * (sizes.area_m2[0] - floor)
+            if gain >= threshold:
+                hops[:] = board.hops
+                tally[:3] += change[:3]
+                return True
+        board.hops[:] = hops
+    if is_sized:
+        _drive(board, draft, sizes, stride, -1)
+    revert(board, draft)
+    if is_sized:
+        _drive(board, draft, sizes, stride, 1)
+        _resize_lines(ground, draft, sizes)
+    return False
 
 
 @compiled

@@ -1,5 +1,5 @@
 """A draft of lanes under annealing: labels, and one move that is judged before it is made. Compiled."""
-# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - joined lanes are searched in one loop; numbers of neighbours
+# ruff: noqa: PLR2004 - an entrance among the cells
 
 from typing import NamedTuple
 
@@ -10,10 +10,9 @@ from garage2usd.compiled import compiled
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.ground import Ground
 
-__all__ = ["Draft", "add_square", "apply", "gather", "new_draft", "revert", "still_joined"]
+__all__ = ["Draft", "add_square", "apply", "gather", "new_draft", "revert"]
 
 _MOVED = 400
-_SEARCHED = 800
 
 
 class Draft(NamedTuple):
@@ -141,71 +140,3 @@ def revert(board: Board, draft: Draft) -> None:
         q = draft.moved[index]
         draft.label[q], board.hops[q] = draft.old[index], draft.old_hops[index]
         board.cells[q] = 1 if draft.old[index] > 0 else 0
-
-
-@compiled
-def still_joined(ground: Ground, board: Board, draft: Draft) -> int:
-    """Whether the lanes still form one piece after the move: 1 yes, 0 no, -1 if the search would take too long."""
-    cells, stride, queue = board.cells, ground.stride, draft.queue
-    draft.marks[2] += 1
-    wanted = draft.marks[2]
-    draft.marks[2] += 1
-    seen, stamp = draft.marks[2], draft.stamp
-    removed, count, first = False, 0, -1
-    for index in range(draft.size[0]):
-        q = draft.moved[index]
-        if cells[q] == 1:
-            if draft.old[index] == 0 and stamp[2, q] != wanted:
-                stamp[2, q] = wanted
-                count += 1
-                first = q
-            continue
-        if draft.old[index] > 0:
-            removed = True
-            for step in (-stride, stride, -1, 1):
-                p = q + step
-                if cells[p] == 1 and stamp[2, p] != wanted:
-                    stamp[2, p] = wanted
-                    count += 1
-                    first = p
-                elif cells[p] > 1:
-                    touched = False
-                    for other in (-stride, stride, -1, 1):
-                        touched |= cells[p + other] == 1
-                    if not touched:
-                        return 0
-    if first < 0:
-        return 0 if removed else 1
-    if not removed:
-        # new lanes alone: one that is old must touch them
-        is_new_alone = True
-        for index in range(draft.size[0]):
-            q = draft.moved[index]
-            for step in (-stride, stride, -1, 1):
-                p = q + step
-                if cells[p] == 1 and stamp[2, p] != wanted:
-                    stamp[2, p] = wanted
-                    count += 1
-                    first = p
-                    is_new_alone = False
-                    break
-        if is_new_alone:
-            return 0
-    stamp[2, first] = seen
-    queue[0] = first
-    head, tail, found = 0, 1, 1
-    while head < tail and found < count:
-        if head >= _SEARCHED:
-            return -1
-        q = queue[head]
-        head += 1
-        for step in (-stride, stride, -1, 1):
-            p = q + step
-            if cells[p] == 1 and stamp[2, p] != seen:
-                found += stamp[2, p] == wanted
-                stamp[2, p] = seen
-                queue[tail] = p
-                tail += 1
-    if found < count:
-        return 0
-    return 1 if removed or tail > 1 else 0

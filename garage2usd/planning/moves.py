@@ -11,10 +11,7 @@ from garage2usd.planning.draft import Draft, add_square
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.labels import through
 
-__all__ = ["DISTANT", "NEAR", "propose"]
-
-NEAR, DISTANT = 1, 2
-"""Kinds of move: one that changes distances from the entrances about itself, and one that may do so far around."""
+__all__ = ["propose"]
 
 _CONNECTOR, _BENT_SHARE, _PATH, _RUN = 6, 0.3, 20, 40
 _FLIP, _RELABEL, _EXCHANGE, _PAIR, _CONNECT, _TAKE, _LINE = 0.38, 0.50, 0.68, 0.78, 0.88, 0.94, 0.97
@@ -23,8 +20,8 @@ _THROUGH_SHARE, _ENDS_STAY_SHARE = 0.3, 0.3
 
 
 @compiled
-def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> int:
-    """Draw a move into the draft, some of them where rules are broken; `NEAR`, `DISTANT`, or 0 for no move."""
+def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> bool:
+    """Draw a move into the draft, some of them where rules are broken; False where what is drawn is no move."""
     cells, stride = board.cells, ground.stride
     draft.size[0] = 0
     q = ground.squares[below(random, len(ground.squares))]
@@ -34,23 +31,23 @@ def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint6
         for _ in range(below(random, 3)):
             q += (-stride, stride, -1, 1)[below(random, 4)]
             if cells[q] != 0 and cells[q] != 1:
-                return 0
+                return False
     draw = uniform(random)
     if draw < _FLIP:
-        return NEAR if _flip(ground, board, draft, random, q) else 0
+        return _flip(ground, board, draft, random, q)
     if draw < _RELABEL:
-        return NEAR if _relabel(ground, board, draft, random, q) else 0
+        return _relabel(ground, board, draft, random, q)
     if draw < _EXCHANGE:
-        return NEAR if _exchange(board, draft, q, q + step) else 0
+        return _exchange(board, draft, q, q + step)
     if draw < _PAIR:
-        return NEAR if _flip_pair(ground, board, draft, random, q, q + step) else 0
+        return _flip_pair(ground, board, draft, random, q, q + step)
     if draw < _CONNECT:
-        return NEAR if cells[q] == 1 and _connect(ground, board, draft, random, q, step) else 0
+        return bool(cells[q] == 1 and _connect(ground, board, draft, random, q, step))
     if draw < _TAKE:
-        return DISTANT if _take_path(ground, board, draft, random, q) else 0
+        return _take_path(ground, board, draft, random, q)
     if draw < _LINE:
-        return DISTANT if _shift_line(ground, board, draft, random, q, step) else 0
-    return DISTANT if _shift_run(ground, board, draft, q, step) else 0
+        return _shift_line(ground, board, draft, random, q, step)
+    return _shift_run(ground, board, draft, q, step)
 
 
 @compiled

@@ -1,5 +1,7 @@
 """Polish of the best plans that learning met: climbing and annealing, on equal squares or in metres."""
 
+from dataclasses import dataclass
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -7,7 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.grid import Structure
-from garage2usd.planning.ground import Ground
+from garage2usd.planning.ground import Ground, Lanes
 from garage2usd.planning.learner import uses_aisles
 from garage2usd.planning.ranking import (
     Ranked,
@@ -41,16 +43,14 @@ on what labels reach, and from which on it is large."""
 # hill climbing: passes over all squares, and the measured squares that one plan may take
 _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 
-# annealing of whole plans: how many plans, and their flips times squares; heats are in stalls
-_ANNEALED, _ANNEAL_SQUARES = 6, 6_000_000
-_ANNEALED_MIDDLE, _ANNEAL_SQUARES_MIDDLE = 4, 48_000_000
-_HOTTEST, _COLDEST = 3.0, 0.5
+# annealing of whole plans: how many plans, their flips times squares, and heats in stalls
+_ANNEALED, _ANNEALED_MIDDLE = (6, 6_000_000, (3.0, 0.5)), (6, 48_000_000, (2.0, 0.4))
 
-# annealing under rules: how many plans, more while none keeps the rules, and how many moves; large plans stay cooler
-_LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 3, 1, 5
-_LABEL_TRIALS, _LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS_LARGE, _LABEL_REFRESH_ROUNDS = 500_000, 1200, 1_800_000, 4
-_LABEL_HEATS, _LABEL_HEATS_LARGE = (0.6, 0.1), (0.2, 0.08)
-_LABEL_PRICES, _LABEL_PRICES_LARGE = (4.0, 40.0, 5.0, 20.0), (8.0, 40.0, 8.0, 30.0)
+# annealing under rules: how many runs, more while none keeps the rules, and how many moves in each
+_LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 6, 4, 10
+_LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 350, (160_000, 600_000), 4
+_LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), ((8.0, 40.0, 8.0, 30.0), (4.0, 40.0, 5.0, 20.0))
+"""Heats, and prices of faults, of which the runs take turns: which end better differs from site to site."""
 
 # annealing without rules
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
@@ -79,140 +79,119 @@ def polish(
         # polish writes what squares hold by their sides
         ground = ground._replace(capacity=ground.capacity.copy())
         sizes.price[0] = ground.weights[0] / _STALL_M2
+    polisher = _Polisher(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
     if not uses_aisles(ground, plan):
-        polished = _polished(ground, board, sizes, ranked, plan, random)
-    elif ground.rules.is_asked or is_sized:
-        polished = _labelled(ground, board, sizes, ranked, plan, random)
+        ranked = polisher.annealed(polisher.climbed(polisher.valued(ranked), plan.climb_top))
+    elif not ground.rules.is_asked and not is_sized:
+        ranked = polisher.drifted(ranked)
     else:
-        polished = _drifted(ground, board, ranked, plan, random)
-    polished = keeping_rules_first(ground, board, polished)
-    return polished if not is_sized else least_floor_first(site, ground, polished, bay)
+        is_middle = len(ground.squares) <= _WHOLE_SQUARES
+        ranked = polisher.valued(ranked)
+        if is_middle:
+            ranked = polisher.valued(polisher.annealed(ranked))
+        if not is_middle or is_sized or faults_of(ground, board, ranked[0][1]):
+            ranked = polisher.annealed_under_rules(ranked)
+    ranked = keeping_rules_first(ground, board, ranked)
+    return least_floor_first(site, ground, ranked, bay) if is_sized else ranked
 
 
-def _polished(
-    ground: Ground,
-    board: "Board",
-    sizes: "Sizes",
-    ranked: list[Ranked],
-    plan: PlanConfig,
-    random: NDArray[np.uint64],
-) -> list[Ranked]:
-    """The best climbed by flips, the best of those annealed, and the rest as they were; best first."""
-    from garage2usd.planning.polish import climb  # noqa: PLC0415
+@dataclass(frozen=True, eq=False)
+class _Polisher:
+    """Ways to improve plans of one site.
 
-    ranked = _valued(ground, board, sizes, ranked)
-    affordable = max(1, _CLIMB_SQUARES // (20 * len(ground.squares) ** 2))
-    count = min(plan.climb_top, affordable)
-    ranked = _improved(
-        ground, board, ranked, ranked[:count], lambda: climb(ground, board, sizes, random, _CLIMB_PASSES)
-    )
-    return _annealed(ground, board, sizes, ranked, plan, random)
+    Attributes
+    ----------
+    ground, board, sizes, random
+        The site, a board for its lanes, the sides of its squares, and the state of the random numbers.
+    effort
+        Share of the full number of moves.
+    """
 
+    ground: Ground
+    board: "Board"
+    sizes: "Sizes"
+    random: NDArray[np.uint64]
+    effort: float
 
-def _annealed(
-    ground: Ground,
-    board: "Board",
-    sizes: "Sizes",
-    ranked: list[Ranked],
-    plan: PlanConfig,
-    random: NDArray[np.uint64],
-) -> list[Ranked]:
-    """The best annealed, each flip judged by the whole plan, and the rest as they were; best first."""
-    from garage2usd.planning.polish import anneal  # noqa: PLC0415
+    @cached_property
+    def squares(self) -> int:
+        """How many squares are free."""
+        return len(self.ground.squares)
 
-    squares = len(ground.squares)
-    is_small = squares <= _SMALL_SQUARES
-    count = _ANNEALED if is_small else _ANNEALED_MIDDLE
-    if sizes.is_chosen.any():
-        count //= 2
-    work = _ANNEAL_SQUARES if is_small else _ANNEAL_SQUARES_MIDDLE
-    flips = int(work * min(1.0, plan.episodes / _FULL_EPISODES)) // squares
-    starts = ranked[:count] if is_small else apart(ranked, count)
-    return _improved(
-        ground, board, ranked, starts, lambda: anneal(ground, board, sizes, random, flips, _HOTTEST, _COLDEST)
-    )
+    @cached_property
+    def is_sized(self) -> bool:
+        """Whether R or C is chosen with the plan."""
+        return bool(self.sizes.is_chosen.any())
 
+    def valued(self, ranked: list[Ranked]) -> list[Ranked]:
+        """The same with their values in the sides that suit each; best first."""
+        from garage2usd.planning.polish import settled_worth  # noqa: PLC0415
 
-def _improved(
-    ground: Ground,
-    board: "Board",
-    ranked: list[Ranked],
-    starts: list[Ranked],
-    polish: "Callable[[], float]",
-) -> list[Ranked]:
-    """What polish makes of some plans, and all plans as they were; best first."""
-    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
-    for _, lanes in starts:
-        put_lanes(ground, board, lanes)
-        value = polish()
-        improved = lanes_on(ground, board)
-        best.setdefault(improved.tobytes(), (value, improved))
-    return ranked_plans(best.values())
+        def value(lanes: Lanes) -> float:
+            put_lanes(self.ground, self.board, lanes)
+            return settled_worth(self.ground, self.board, self.sizes)
 
+        return ranked_plans([(value(lanes), lanes) for _, lanes in ranked])
 
-def _valued(ground: Ground, board: "Board", sizes: "Sizes", ranked: list[Ranked]) -> list[Ranked]:
-    """The same with their values in the sides that suit each; best first."""
-    from garage2usd.planning.polish import settled_worth  # noqa: PLC0415
+    def climbed(self, ranked: list[Ranked], count: int) -> list[Ranked]:
+        """The best climbed by flips, as many as are affordable, and all as they were; best first."""
+        from garage2usd.planning.polish import climb  # noqa: PLC0415
 
-    valued = []
-    for _, lanes in ranked:
-        put_lanes(ground, board, lanes)
-        valued.append((settled_worth(ground, board, sizes), lanes))
-    return ranked_plans(valued)
+        affordable = max(1, _CLIMB_SQUARES // (20 * self.squares**2))
+        climbing = partial(climb, self.ground, self.board, self.sizes, self.random, _CLIMB_PASSES)
+        return self._improved(ranked, ranked[: min(count, affordable)], climbing)
 
+    def annealed(self, ranked: list[Ranked]) -> list[Ranked]:
+        """The best annealed, each flip judged by the whole plan, and all as they were; best first."""
+        from garage2usd.planning.polish import anneal  # noqa: PLC0415
 
-def _labelled(
-    ground: Ground,
-    board: "Board",
-    sizes: "Sizes",
-    ranked: list[Ranked],
-    plan: PlanConfig,
-    random: NDArray[np.uint64],
-) -> list[Ranked]:
-    """The best annealed under the rules of circulation, and the rest as they were; best first."""
-    from garage2usd.planning.circuit import anneal_labels  # noqa: PLC0415
-    from garage2usd.planning.draft import new_draft  # noqa: PLC0415
+        is_small = self.squares <= _SMALL_SQUARES
+        count, work, heats = _ANNEALED if is_small else _ANNEALED_MIDDLE
+        if self.is_sized:  # each flip takes longer
+            count, work = count // 2, work if is_small else work // 3
+        flips = int(work * self.effort) // self.squares
+        annealing = partial(anneal, self.ground, self.board, self.sizes, self.random, flips, *heats)
+        return self._improved(ranked, ranked[:count] if is_small else apart(ranked, count), annealing)
 
-    draft = new_draft(ground)
-    ranked = _valued(ground, board, sizes, ranked)
-    squares = len(ground.squares)
-    trials = min(max(_LABEL_TRIALS, _LABEL_TRIALS_A_SQUARE * squares), _LABEL_TRIALS_LARGE)
-    trials = int(trials * min(1.0, plan.episodes / _FULL_EPISODES))
-    is_large = squares >= _LARGE_SQUARES
-    count = _LABELLED_LARGE if is_large else _LABELLED
-    heats = _LABEL_HEATS_LARGE if is_large else _LABEL_HEATS
-    prices = _LABEL_PRICES_LARGE if is_large else _LABEL_PRICES
-    refresh = _LABEL_REFRESH_ROUNDS * squares
-    polished = ranked
-    for number, start in enumerate(apart(ranked, _MOST_LABELLED)):
-        # more starts only where none has come to keep the rules
-        if number >= count and not min(faults_of(ground, board, lanes) for _, lanes in polished):
-            break
-        polished = _improved(
-            ground,
-            board,
-            polished,
-            [start],
-            lambda: anneal_labels(ground, board, draft, sizes, random, trials, heats, prices, refresh),
-        )
-    if squares > _WHOLE_SQUARES or sizes.is_chosen.any():
-        return polished
-    return ranked_plans([*polished, *_annealed(ground, board, sizes, ranked, plan, random)])
+    def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
+        """The best annealed under the rules of circulation by labels, and all as they were; best first."""
+        from garage2usd.planning.circuit import anneal_labels  # noqa: PLC0415
+        from garage2usd.planning.draft import new_draft  # noqa: PLC0415
 
+        draft = new_draft(self.ground)
+        trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
+        if self.is_sized:  # each takes longer
+            trials //= 2
+        refresh = _LABEL_REFRESH_ROUNDS * self.squares
+        count = _LABELLED_LARGE if self.squares >= _LARGE_SQUARES else _LABELLED
+        starts = apart(ranked, count)
+        for number in range(_MOST_LABELLED):
+            # more only where none has come to keep the rules
+            if number >= count and not min(faults_of(self.ground, self.board, lanes) for _, lanes in ranked):
+                break
+            prices = _LABEL_PRICES[number % len(_LABEL_PRICES)]
+            annealing = partial(
+                anneal_labels, self.ground, self.board, draft, self.sizes, self.random,
+                trials, _LABEL_HEATS, prices, refresh,
+            )  # fmt: skip
+            ranked = self._improved(ranked, [starts[number % len(starts)]], annealing)
+        return ranked
 
-def _drifted(
-    ground: Ground, board: "Board", ranked: list[Ranked], plan: PlanConfig, random: NDArray[np.uint64]
-) -> list[Ranked]:
-    """The best annealed with flips judged by what is around them, and the rest as they were; best first."""
-    from garage2usd.planning.drift import drift  # noqa: PLC0415
+    def drifted(self, ranked: list[Ranked]) -> list[Ranked]:
+        """The best annealed with flips judged by what is around them, and all as they were; best first."""
+        from garage2usd.planning.drift import drift  # noqa: PLC0415
 
-    best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
-    flips = int(_DRIFT_FLIPS * min(1.0, plan.episodes / _FULL_EPISODES))
-    refresh = _REFRESH_ROUNDS * len(ground.squares)
-    hottest = _DRIFT_HOTTEST if len(ground.squares) < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
-    for _, lanes in ranked[:_DRIFTED]:
-        put_lanes(ground, board, lanes)
-        value = drift(ground, board, random, flips, hottest, _DRIFT_COLDEST, refresh)
-        improved = lanes_on(ground, board)
-        best.setdefault(improved.tobytes(), (value, improved))
-    return ranked_plans(best.values())
+        hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
+        flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
+        drifting = partial(drift, self.ground, self.board, self.random, flips, hottest, _DRIFT_COLDEST, refresh)
+        return self._improved(ranked, ranked[:_DRIFTED], drifting)
+
+    def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: "Callable[[], float]") -> list[Ranked]:
+        """What is made of some plans, and all plans as they were; best first."""
+        best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
+        for _, lanes in starts:
+            put_lanes(self.ground, self.board, lanes)
+            value = improve()
+            improved = lanes_on(self.ground, self.board)
+            best.setdefault(improved.tobytes(), (value, improved))
+        return ranked_plans(best.values())

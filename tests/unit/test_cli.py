@@ -183,8 +183,6 @@ def test_a_kill_in_mid_build_leaves_no_file(tmp_path, config, deadly):
         command,
         env={"TMPDIR": str(temporary), "PATH": "/usr/bin"},
         stderr=subprocess.DEVNULL,
-        # a shell that runs the tests in the background has SIGINT ignored, and children inherit that
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 - the test has one thread
     )
     time.sleep(2.0)
     assert process.poll() is None

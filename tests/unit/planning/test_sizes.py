@@ -6,11 +6,12 @@ import pytest
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.grid import Cell, Structure
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
-from garage2usd.planning.board import measure, new_board
+from garage2usd.planning.board import FAULTS, measure, new_board
 from garage2usd.planning.circuit import anneal_labels
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.draft import new_draft
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
+from garage2usd.planning.polish import settled_worth
 from garage2usd.planning.sizes import resize, settle, sizes_of, sync, weigh
 
 BAY = BayConfig()
@@ -28,8 +29,8 @@ def ladder(rows=14, cols=17):
     return Structure.from_arrays(cells, 8.1, 8.1)
 
 
-def board_with(structure):
-    ground = ground_of(structure, bay=BAY, plan=PLAN)
+def board_with(structure, plan=PLAN):
+    ground = ground_of(structure, bay=BAY, plan=plan)
     ground = ground._replace(capacity=ground.capacity.copy())
     board, sizes = new_board(ground), sizes_of(ground, BAY)
     sizes.price[0] = 1 / 25
@@ -85,15 +86,21 @@ def test_a_line_is_weighed_as_it_is_resized(seed):
     assert sizes.area_m2[0] - area == pytest.approx(added)
 
 
+@pytest.mark.parametrize("stretch_squares", [0, 9])
 @pytest.mark.parametrize("seed", range(3))
-def test_annealed_lanes_keep_the_rules_and_the_books(seed):
+def test_annealed_lanes_keep_the_rules_and_the_books(seed, stretch_squares):
     site = ladder()
-    ground, board, sizes = board_with(site)
+    ground, board, sizes = board_with(site, PlanConfig(longest_stretch_cells=stretch_squares))
+    before = settled_worth(ground, board, sizes)
+    keeps_rules = board.tally[FAULTS] == 0
     random = np.array([seed + 1], np.uint64)
-    anneal_labels(
+    value = anneal_labels(
         ground, board, new_draft(ground), sizes, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
         4 * len(ground.squares),
     )  # fmt: skip
     found = structure_of(site, ground, board, sizes)
     assert not circulation(found).faults(ground.rules)
     assert_same_figures(found, ground, board, sizes)
+    # stretches of nine squares need cross-aisles that the ladder lacks, which cost floor
+    assert keeps_rules == (stretch_squares == 0)
+    assert value > before or not keeps_rules
