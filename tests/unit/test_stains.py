@@ -19,8 +19,20 @@ from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.bounds import world_bounds_m
 
 SITE = {"width_cells": 14, "height_cells": 10, "obstacles": 2, "min_portal_distance_cells": 4}
+DRAWN = """
+..............
+E============.
+.=.#..=.....=.
+.=....=.....=.
+.============.
+.=....=.....=.
+.=....=..#..=.
+.============X
+..............
+"""
+"""Straights, bends, T-junctions and a crossroads: every kind of wear has a square."""
 CONFIG = GarageConfig(
-    seed=8, site=SITE, plan={"episodes": 200}, fittings={"floor_stain_rate": 1.0}, parking={"occupancy": 0.3}
+    seed=8, site={"structure": DRAWN}, fittings={"floor_stain_rate": 1.0}, parking={"occupancy": 0.3}
 )
 WEAR = {mark for mark in s.StainMark if mark.name.startswith("WEAR")}
 
