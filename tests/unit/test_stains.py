@@ -31,9 +31,7 @@ E============.
 ..............
 """
 """Straights, bends, T-junctions and a crossroads: every kind of wear has a square."""
-CONFIG = GarageConfig(
-    seed=8, site={"structure": DRAWN}, fittings={"floor_stain_rate": 1.0}, parking={"occupancy": 0.3}
-)
+CONFIG = GarageConfig(seed=8, site={"structure": DRAWN}, fittings={"floor_stain_rate": 1.0}, parking={"occupancy": 0.3})
 WEAR = {mark for mark in s.StainMark if mark.name.startswith("WEAR")}
 
 
