@@ -6,10 +6,10 @@ import time
 from scale import combs
 
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
-from garage2usd.grid import Structure
 from garage2usd.planning import area_per_stall_m2, dimensioned, plan_lanes
 from garage2usd.planning.planner import anneal_alone
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Structure
 
 __all__ = ["circulation"]
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from garage2usd.config import BayConfig, SiteConfig
-from garage2usd.grid import Cell, Structure
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Cell, Structure
 
 __all__ = ["GATES", "GATE_BAY", "held_out", "site_of"]
 

@@ -10,12 +10,12 @@ import numpy as np
 from memory import peak_mb
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.grid import Cell, Structure
 from garage2usd.planning import evaluate, is_feasible, plan_lanes
 from garage2usd.planning.bound import counting_bound
 from garage2usd.planning.optimum import find_optimum
 from garage2usd.planning.planner import anneal_alone
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Cell, Structure
 
 __all__ = ["combs", "scale"]
 

@@ -17,8 +17,6 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.stage import write_stage
 from garage2usd.stage.arrangement import SCATTERED, arrange
@@ -27,6 +25,8 @@ from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
 from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.tile_prototypes import TILES_FILE
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 
 __all__ = ["stages"]
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
-    from garage2usd.grid import Structure
     from garage2usd.pipeline import Garage, build, generate
+    from garage2usd.structure.grid import Structure
 
 __all__ = [
     "ConfigError",
@@ -33,7 +33,7 @@ _HOME = {
     "Garage2UsdError": "errors",
     "GarageConfig": "config",
     "GenerationError": "errors",
-    "Structure": "grid",
+    "Structure": "structure.grid",
     "UnreachableStallError": "errors",
     "build": "pipeline",
     "generate": "pipeline",

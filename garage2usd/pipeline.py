@@ -11,8 +11,6 @@ from garage2usd.checks import Finding, check_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph, build_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.tight import tight_stalls
 from garage2usd.output import check_name, check_writable, publish, staging_folder
@@ -22,6 +20,8 @@ from garage2usd.report import write_report
 from garage2usd.site import make_site
 from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, write_labels, write_stage
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan

@@ -13,8 +13,6 @@ from pydantic import BaseModel, ValidationError
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
 from garage2usd.errors import ConfigError, ReportError
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.layout.compartments import compartment_name
 from garage2usd.planning import (
@@ -29,6 +27,8 @@ from garage2usd.planning import (
     tape_of,
 )
 from garage2usd.planning.circulation import rules_of
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph
 from garage2usd.version import VERSION
 
 __all__ = ["read_report", "write_report"]
@@ -49,8 +49,8 @@ def write_report(
     -----
     ``tape`` and ``rank`` are null where no single agent makes the lanes (see `garage2usd.planning.tape`); the rank is a
     hexadecimal number of any length. ``polish_gain`` is what polish added to the best y' that learning met. ``S`` is a
-    list of rows of symbols (see `garage2usd.grid.Cell`), ``R`` and ``C`` are metres by column and by row, stall centres
-    are (x, z) in metres.
+    list of rows of symbols (see `garage2usd.structure.grid.Cell`), ``R`` and ``C`` are metres by column and by row,
+    stall centres are (x, z) in metres.
     """
     structure = plan.structure
     score = plan.score

@@ -13,9 +13,9 @@ import numpy as np
 import shapely
 from shapely import affinity
 
-from garage2usd.grid import Cell
 from garage2usd.layout import ObjectKind
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.structure.grid import Cell
 
 LENGTH_M, WIDTH_M, WHEELBASE_M, REAR_M, TRACK_M, TURNING_RADIUS_M = 4.8, 1.8, 2.7, 1.2, 1.55, 6.0
 STEP_M = 0.02

@@ -10,10 +10,10 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull
 
 from garage2usd.config.vehicles import PAINTS
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.layout import ObjectKind
 from garage2usd.layout.specs import CarSpec
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 
 SERVICES = (ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.SPRINKLER)
 HANGING = (ObjectKind.LIGHT, ObjectKind.BEAM, *SERVICES, ObjectKind.EXIT_SIGN, ObjectKind.MIRROR)

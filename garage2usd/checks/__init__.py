@@ -27,10 +27,10 @@ from garage2usd.checks.subject import Subject
 from garage2usd.config import GarageConfig
 from garage2usd.documents import is_file
 from garage2usd.errors import ConfigError
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.stage.reading import STAGE_SUFFIXES
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = [
     "RULES",

@@ -9,9 +9,9 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.checks.shapes import Array
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, Point, StallOutline
-from garage2usd.lanes import LaneKind
 from garage2usd.layout import StallUse
 from garage2usd.stage.reading import metres_y_up, numbers_of
+from garage2usd.structure.lane_graph import LaneKind
 
 __all__ = ["DrivenGround", "read_lanes"]
 

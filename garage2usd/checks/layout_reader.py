@@ -8,8 +8,6 @@ from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
 from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, StallOutline, Subject
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.driving.layout_garage import numbered_squares
-from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.specs import Spec
@@ -17,6 +15,8 @@ from garage2usd.layout.tiles import TileGrid
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = ["layout_subject", "unlaid_subject"]
 

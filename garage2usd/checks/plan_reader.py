@@ -11,12 +11,12 @@ from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, UnreachableStallError
-from garage2usd.grid import Cell, Structure, cells_from_text, sides_mm
-from garage2usd.lanes import build_lane_graph, unproven_lane_graph
 from garage2usd.layout import Layout, lay_out
 from garage2usd.planning import dimension
 from garage2usd.profiles import Profile
 from garage2usd.site.given import check_structure
+from garage2usd.structure.grid import Cell, Structure, cells_from_text, sides_mm
+from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
 
 __all__ = ["plan_subject"]
 

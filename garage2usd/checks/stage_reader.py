@@ -11,11 +11,11 @@ from garage2usd.checks.lane_reader import DrivenGround, read_lanes
 from garage2usd.checks.scene import RectLight, read_scene
 from garage2usd.checks.subject import Point, Subject
 from garage2usd.errors import ConfigError, StageError
-from garage2usd.grid import Structure, cells_from_text
 from garage2usd.layout import ObjectKind, Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.stage.reading import open_stage
+from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
 

@@ -13,9 +13,9 @@ from pxr import Usd
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
-from garage2usd.grid import Structure
 from garage2usd.layout import StallUse
 from garage2usd.planning import MeasuredCirculation, measured_circulation
+from garage2usd.structure.grid import Structure
 
 __all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
 

@@ -4,16 +4,16 @@ from collections import defaultdict
 from itertools import pairwise
 
 from garage2usd.config import GarageConfig
-from garage2usd.dead_ends import dead_ends
 from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import DrivenGarage, DrivenStall, StallProof, prove_garage
 from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, LaneSquare, SquareUse
 from garage2usd.driving.proof import Limits
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Stall, lay_out
 from garage2usd.progress import Progress, silent
+from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = ["layout_garage", "numbered_squares", "prove_stalls", "square_directions", "without_unreachable"]
 

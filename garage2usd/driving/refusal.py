@@ -6,10 +6,10 @@ from garage2usd.config import GarageConfig
 from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.errors import ConfigError
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout, Stall
 from garage2usd.layout.tight import clear_aisle_m
 from garage2usd.progress import Progress, silent
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["refuse_undrivable"]
 

@@ -8,10 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
-from garage2usd.dead_ends import dead_ends
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
 from garage2usd.layout.building import columns, ground_inside, outer_walls
 from garage2usd.layout.ceiling import beams, ceiling_levels
@@ -33,6 +30,9 @@ from garage2usd.layout.stall_table import StallTable
 from garage2usd.layout.table import KINDS, ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
+from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = [
     "Illuminance",

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
-from garage2usd.doors import door_edges
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ColumnSpec, PortalSpec, WallPostSpec, WallSpec
 from garage2usd.layout.tiles import Tile, TileGrid
-from garage2usd.stalls import Edge
+from garage2usd.structure.doors import door_edges
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["DOOR_FRAME_M", "columns", "ground_inside", "outer_walls"]
 

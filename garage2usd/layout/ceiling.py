@@ -8,10 +8,10 @@ from itertools import product
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import Square
 from garage2usd.layout.placement import ObjectKind, Placement
 from garage2usd.layout.specs import BeamNodeSpec, BeamSpec, Box, Point
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import Square
 
 __all__ = [
     "DUCT_HEIGHT_M",

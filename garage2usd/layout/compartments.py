@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from garage2usd.grid import Cell, Mask, Structure
 from garage2usd.profiles import Area
+from garage2usd.structure.grid import Cell, Mask, Structure
 
 __all__ = ["compartment_name", "compartments_of"]
 

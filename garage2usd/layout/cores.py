@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import GarageConfig
-from garage2usd.grid import Cell, Structure, outside_squares
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad, stall_name, to_world
 from garage2usd.layout.specs import Box, ObstacleSpec, Point
 from garage2usd.layout.tiles import Tile, neighbour
 from garage2usd.profiles import Profile
-from garage2usd.stalls import Edge, StallRow
+from garage2usd.structure.grid import Cell, Structure, outside_squares
+from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = ["Core", "core_candidates", "core_placements", "obstacle_cores"]
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.lanes import Square
 from garage2usd.randomness import Step, generator
+from garage2usd.structure.lane_graph import Square
 
 __all__ = ["SquareDraws"]
 

@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig
-from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.compartments import compartments_of
 from garage2usd.layout.cores import Core, core_candidates, obstacle_cores
 from garage2usd.profiles import Length
-from garage2usd.stalls import Edge, StallRow
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = ["Egress", "plan_egress"]
 

@@ -5,8 +5,6 @@ from collections.abc import Collection, Container, Iterable, Mapping
 import numpy as np
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.lanes import LaneGraph, LaneKind, Square
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
@@ -15,6 +13,8 @@ from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.specs import ConeSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step, generator
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import Cell
 from garage2usd.layout.placement import Placement, Stall
 from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.structure.grid import Cell
 
 __all__ = ["Illuminance", "Lux", "direct_lux", "lane_points_of", "light_up"]
 

@@ -5,7 +5,7 @@ from functools import lru_cache
 import shapely
 
 from garage2usd.layout.specs import Marking, Polygon, Surface, rectangle
-from garage2usd.stalls import Edge
+from garage2usd.structure.stalls import Edge
 
 __all__ = [
     "LINE_WIDTH_M",

@@ -5,16 +5,16 @@ from collections.abc import Collection, Iterable
 import numpy as np
 
 from garage2usd.config import FittingsConfig
-from garage2usd.doors import door_edges
-from garage2usd.grid import Cell
-from garage2usd.lanes import Square
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.cores import Core
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad, to_world
 from garage2usd.layout.specs import NoParkingSignSpec, Point, PortalSpec
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.randomness import Step, generator
-from garage2usd.stalls import Edge
+from garage2usd.structure.doors import door_edges
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["no_parking_signs"]
 

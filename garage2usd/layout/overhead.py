@@ -6,14 +6,14 @@ from collections.abc import Iterable
 import networkx as nx
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.lanes import LaneGraph, LaneKind
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
 from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, Turn
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.lane_graph import LaneGraph, LaneKind
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["exit_signs", "mirrors"]
 

@@ -10,9 +10,7 @@ from scipy.spatial import KDTree
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
-from garage2usd.dead_ends import DeadEnd
 from garage2usd.errors import ConfigError
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
@@ -20,6 +18,8 @@ from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, 
 from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.randomness import Step
+from garage2usd.structure.dead_ends import DeadEnd
+from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
 

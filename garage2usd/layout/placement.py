@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from garage2usd.grid import NEIGHBOUR_STEPS
-from garage2usd.lanes import Square, StallType
 from garage2usd.layout.specs import Spec
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import NEIGHBOUR_STEPS
+from garage2usd.structure.lane_graph import Square, StallType
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "stall_name", "to_world"]
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.grid import Cell, Structure
 from garage2usd.layout.ceiling import (
     DUCT_HEIGHT_M,
     DUCT_WIDTH_M,
@@ -18,7 +17,8 @@ from garage2usd.layout.ceiling import (
 from garage2usd.layout.placement import ObjectKind, Placement
 from garage2usd.layout.specs import CableTraySpec, DuctSpec, Point, Spec, SprinklerSpec
 from garage2usd.layout.tiles import Tile, TileGrid
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
 

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.lanes import Square
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
 from garage2usd.layout.specs import PanelSpec, Point, Spec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.randomness import Step
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["floor_stains"]
 

@@ -6,10 +6,10 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.grid import NEIGHBOUR_STEPS
-from garage2usd.lanes import StallType
 from garage2usd.layout.placement import Stall, StallUse, stall_name
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import NEIGHBOUR_STEPS
+from garage2usd.structure.lane_graph import StallType
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["EDGES", "STALL_TYPES", "STALL_USES", "StallTable"]
 

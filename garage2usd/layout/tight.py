@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import Structure
 from garage2usd.layout.placement import Stall
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["clear_aisle_m", "tight_stalls"]
 

@@ -8,8 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout.markings import (
     LINE_WIDTH_M,
     arrow,
@@ -23,7 +21,9 @@ from garage2usd.layout.markings import (
 )
 from garage2usd.layout.placement import ObjectKind, Placement, stall_name
 from garage2usd.layout.specs import Box, CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
-from garage2usd.stalls import Edge, StallRow
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = [
     "StallPlace",

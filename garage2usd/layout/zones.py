@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config import FittingsConfig
-from garage2usd.grid import Structure
-from garage2usd.lanes import Square
 from garage2usd.layout.placement import ObjectKind, Placement, Stall, to_world
 from garage2usd.layout.specs import GLYPH_PITCH, NumberSpec, ZonePlateSpec
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import Square
 
 __all__ = ["Zone", "Zones", "stall_numbers", "with_numbers", "zone_plates"]
 

@@ -3,9 +3,9 @@
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.grid import Structure
 from garage2usd.planning.ground import ground_of
 from garage2usd.planning.optimum import free_hops
+from garage2usd.structure.grid import Structure
 
 __all__ = ["counting_bound"]
 

@@ -38,7 +38,7 @@ class Sheet(NamedTuple):
     depth
         R1: deepest stub; -1 where no rule is asked for.
     kinds
-        int8, shape (rows * cols,): values of `garage2usd.grid.Cell`.
+        int8, shape (rows * cols,): values of `garage2usd.structure.grid.Cell`.
     portals
         int64, shape (rows * cols,): portals beside the square.
     worth

@@ -10,8 +10,8 @@ from scipy import ndimage
 
 from garage2usd.config import PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.grid import Cell, Mask, Structure
-from garage2usd.lanes import Square
+from garage2usd.structure.grid import Cell, Mask, Structure
+from garage2usd.structure.lane_graph import Square
 
 __all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
 

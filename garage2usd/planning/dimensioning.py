@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
-from garage2usd.doors import door_edges
-from garage2usd.grid import Cell, CellArray, Mask, Structure
-from garage2usd.stalls import Edge, capacity_table, square_capacity
+from garage2usd.structure.doors import door_edges
+from garage2usd.structure.grid import Cell, CellArray, Mask, Structure
+from garage2usd.structure.stalls import Edge, capacity_table, square_capacity
 
 __all__ = ["aisle_side_mm", "area_per_stall_m2", "dimension", "dimensioned", "free_sides_mm"]
 

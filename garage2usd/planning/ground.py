@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.dead_ends import DEAD_END_LIMIT_MM
-from garage2usd.grid import Cell, CellArray, Structure
 from garage2usd.planning.circulation import CirculationRules, rules_of
-from garage2usd.stalls import capacity_table
+from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
+from garage2usd.structure.grid import Cell, CellArray, Structure
+from garage2usd.structure.stalls import capacity_table
 
 __all__ = ["PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
 

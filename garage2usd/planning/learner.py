@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
-from garage2usd.grid import Cell, Structure
 from garage2usd.planning.ground import Ground, Lanes, ground_of
 from garage2usd.progress import Progress, silent
+from garage2usd.structure.grid import Cell, Structure
 
 if TYPE_CHECKING:
     from garage2usd.planning.board import Board

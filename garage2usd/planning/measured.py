@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.lanes import Square
 from garage2usd.planning.circulation import Circulation, circulation
-from garage2usd.stalls import square_capacity
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import square_capacity
 
 __all__ = ["MeasuredCirculation", "Run", "measured_circulation", "neither_share"]
 

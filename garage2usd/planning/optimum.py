@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Cell, CellArray, Structure
 from garage2usd.planning.circulation import CirculationRules, circulation
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
+from garage2usd.structure.grid import Cell, CellArray, Structure
 
 if TYPE_CHECKING:
     from garage2usd.planning.broken_profile import Sheet

@@ -7,7 +7,6 @@ import numpy as np
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Structure
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
@@ -26,6 +25,7 @@ from garage2usd.planning.ranking import (
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.progress import Progress, silent
 from garage2usd.randomness import Step, generator
+from garage2usd.structure.grid import Structure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

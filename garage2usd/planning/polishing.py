@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.grid import Structure
 from garage2usd.planning.ground import Ground, Lanes
 from garage2usd.planning.learner import uses_aisles
 from garage2usd.planning.ranking import (
@@ -21,6 +20,7 @@ from garage2usd.planning.ranking import (
     put_lanes,
     ranked_plans,
 )
+from garage2usd.structure.grid import Structure
 
 if TYPE_CHECKING:
     from collections.abc import Callable

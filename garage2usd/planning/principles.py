@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import BayConfig
-from garage2usd.dead_ends import DeadEnd, dead_ends
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure, edge_neighbour_count
-from garage2usd.stalls import square_capacity
+from garage2usd.structure.dead_ends import DeadEnd, dead_ends
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure, edge_neighbour_count
+from garage2usd.structure.stalls import square_capacity
 
 __all__ = ["Principles", "principles"]
 

@@ -3,10 +3,10 @@
 from typing import TYPE_CHECKING
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import Cell, Structure
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of
+from garage2usd.structure.grid import Cell, Structure
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -16,7 +16,7 @@ __all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory"]
 
 STAY = 4
 ACTIONS = 5
-"""Up, down, left, right, stay; the first four as `garage2usd.grid.NEIGHBOUR_STEPS`."""
+"""Up, down, left, right, stay; the first four as `garage2usd.structure.grid.NEIGHBOUR_STEPS`."""
 
 _UNTOUCHED = 3
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.stalls import square_capacity
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.stalls import square_capacity
 
 __all__ = ["Score", "evaluate", "is_feasible"]
 

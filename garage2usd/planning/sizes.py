@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.config import BayConfig
-from garage2usd.grid import Cell
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
 from garage2usd.planning.ground import Ground
+from garage2usd.structure.grid import Cell
 
 __all__ = [
     "ALONG_X",
@@ -134,7 +134,7 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
 
 @compiled
 def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
-    """Stalls on a square by its sides and the edges that are open to lanes, as `garage2usd.stalls` counts them."""
+    """Stalls on a square by its sides and its edges open to lanes, as `garage2usd.structure.stalls` counts them."""
     stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
     x, z = edges & 3, edges >> 2
     along_x, along_z = 0, 0

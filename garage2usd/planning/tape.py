@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from garage2usd.errors import ConfigError
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
 __all__ = ["ACTIONS", "play", "rank_of", "tape_at", "tape_of"]
 

@@ -5,7 +5,8 @@ from scipy import ndimage
 
 from garage2usd.config import SiteConfig
 from garage2usd.errors import ConfigError
-from garage2usd.grid import (
+from garage2usd.site.portals import free_squares_connected, outer_squares
+from garage2usd.structure.grid import (
     NEIGHBOUR_STEPS,
     Cell,
     CellArray,
@@ -14,7 +15,6 @@ from garage2usd.grid import (
     cells_to_text,
     edge_neighbour_count,
 )
-from garage2usd.site.portals import free_squares_connected, outer_squares
 
 __all__ = ["check_structure", "given_contour", "place_obstacles", "place_portals"]
 

@@ -6,9 +6,9 @@ from scipy import ndimage
 
 from garage2usd.config import SiteConfig
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
 from garage2usd.randomness import Step, generator
 from garage2usd.site.ramps import are_apart, with_room_for_ramps
+from garage2usd.structure.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
 
 __all__ = ["draw_portals", "free_squares_connected", "outer_squares", "straight_frontier"]
 

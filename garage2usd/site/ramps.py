@@ -6,9 +6,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
-from garage2usd.doors import door_edges
 from garage2usd.errors import ConfigError
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, outside_squares
+from garage2usd.structure.doors import door_edges
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, outside_squares
 
 __all__ = ["are_apart", "check_ramps", "ramp_squares", "with_room_for_ramps"]
 

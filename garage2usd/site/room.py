@@ -2,8 +2,8 @@
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell, Structure
-from garage2usd.stalls import capacity_table
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.stalls import capacity_table
 
 __all__ = ["check_room"]
 

@@ -8,8 +8,6 @@ from pathlib import Path
 
 from garage2usd.assets import MATERIALS, texture_folder
 from garage2usd.config.stage import StageConfig, StageForm
-from garage2usd.grid import Cell
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
 from garage2usd.stage.arrangement import arrange
@@ -21,6 +19,8 @@ from garage2usd.stage.looks import TEXTURE_FOLDER
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.usdz import write_usdz
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["StageFormat", "asset_folder_name", "write_labels", "write_stage"]
 

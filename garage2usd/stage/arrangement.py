@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.grid import Cell
-from garage2usd.lanes import Square
 from garage2usd.layout import Layout, ObjectKind
 from garage2usd.layout.table import KINDS, compact
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
 
 __all__ = ["ROOT_NAME", "SCATTERED", "Arrangement", "arrange", "row_name", "tile_name"]
 

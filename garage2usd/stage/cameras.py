@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
-from garage2usd.grid import Cell
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
 

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout
 from garage2usd.layout.specs import Spec
 from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
@@ -25,6 +24,7 @@ from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
 from garage2usd.stage.variants import SWITCHES, variant_texts
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["write_garage_layer"]
 

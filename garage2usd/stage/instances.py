@@ -6,7 +6,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.lanes import Square
 from garage2usd.layout import Layout, ObjectKind, Stall
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.table import KINDS
@@ -14,6 +13,7 @@ from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.prim_text import header_text, instance_text, place_text, rounded_deg, rounded_m
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.variants import SWITCHES, Switch
+from garage2usd.structure.lane_graph import Square
 
 __all__ = ["InstanceWriter"]
 

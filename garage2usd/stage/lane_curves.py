@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
-from garage2usd.grid import Structure
-from garage2usd.lanes import LaneGraph
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.stage.authoring import attribute, define, save, set_units
 from garage2usd.stage.curves import author_curves
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
 

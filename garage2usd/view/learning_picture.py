@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from garage2usd.grid import Cell, Structure
+from garage2usd.structure.grid import Cell, Structure
 
 __all__ = ["draw_learning_curve", "draw_structures"]
 

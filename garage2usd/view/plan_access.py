@@ -3,10 +3,10 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from garage2usd.lanes import LaneKind
 from garage2usd.layout import Layout, ObjectKind, Placement
 from garage2usd.layout.placement import to_world
 from garage2usd.layout.specs import PortalSpec, RampSpec, rectangle
+from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.drawing import Area, Colour, Line, Point, Text, text_width
 from garage2usd.view.plan_lanes import LANE_COLOUR, LINE_M
 from garage2usd.view.plan_sheet import ARROW_END_M, GREY, INK, PAPER, Sheet

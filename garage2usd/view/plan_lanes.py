@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterator
 
-from garage2usd.grid import Cell
-from garage2usd.lanes import LaneGraph, LaneKind
 from garage2usd.layout import Layout
 from garage2usd.layout.specs import rectangle
 from garage2usd.planning import MeasuredCirculation
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import LaneGraph, LaneKind
 from garage2usd.view.drawing import Area, Colour, Line, Point
 
 __all__ = ["FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.lanes import LaneGraph, Square
 from garage2usd.layout import Layout, ObjectKind, Placement, Stall, StallUse
 from garage2usd.layout.placement import to_world
 from garage2usd.layout.specs import CarSpec, ColumnSpec, ObstacleSpec, WallPostSpec, WallSpec, rectangle
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.stalls import Edge
+from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.stalls import Edge
 from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps, turned
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from garage2usd.grid import Structure
 from garage2usd.layout import Layout
+from garage2usd.structure.grid import Structure
 from garage2usd.view.drawing import Area, Colour, Disc, Line, Point, Text, text_width
 
 __all__ = ["ARROW_END_M", "GREY", "INK", "MARK_COLOUR", "PAPER", "Mark", "Sheet"]

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import networkx as nx
 
 from garage2usd.errors import ConfigError
-from garage2usd.lanes import LaneGraph, LaneKind, Square
 from garage2usd.layout import Layout, Stall
+from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["Route", "find_stall", "route_of"]
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from garage2usd.checks import read_subject
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.errors import Garage2UsdError
-from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.planning import play
 from garage2usd.profiles import DEFAULT_PROFILE, load_profile, read_profile
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 
 scalars = (
     st.none()

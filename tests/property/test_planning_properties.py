@@ -6,9 +6,9 @@ import pytest
 from planning_reference import BAY, feasible, random_site, score
 
 from garage2usd.config import PlanConfig
-from garage2usd.grid import Cell, Structure
-from garage2usd.lanes import build_lane_graph
 from garage2usd.planning import evaluate, is_feasible, plan_lanes, play, principles, rank_of, tape_at, tape_of
+from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.lane_graph import build_lane_graph
 
 SEEDS, BLOCK = 1000, 50
 LARGE_EVERY = 25

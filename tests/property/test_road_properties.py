@@ -7,8 +7,8 @@ from overlaps import assert_solid_objects_keep_apart
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M
-from garage2usd.grid import Cell
 from garage2usd.pipeline import generate
+from garage2usd.structure.grid import Cell
 
 
 def settings(seed):

@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garage2usd.config import BayConfig, SiteConfig
-from garage2usd.grid import Cell
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Cell
 
 sites = st.builds(
     dict,

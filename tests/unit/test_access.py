@@ -7,11 +7,11 @@ from footprints import footprint
 from sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.grid import Cell, Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 OPEN = ".......\nE=====X\n......."
 # the ground behind the exit is the garage's own, two squares on

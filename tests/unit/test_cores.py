@@ -7,13 +7,13 @@ from footprints import footprint
 from scipy import ndimage
 
 from garage2usd.config import GarageConfig
-from garage2usd.grid import Cell, Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.layout.compartments import compartments_of
 from garage2usd.layout.cores import obstacle_cores
 from garage2usd.planning import dimension
 from garage2usd.profiles import load_profile
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 CN = load_profile("cn-jgj100")
 LADDER = "\n".join(

@@ -5,11 +5,11 @@ from footprints import footprint
 
 from garage2usd import assets
 from garage2usd.config import GarageConfig
-from garage2usd.grid import Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.markings import zebra
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 CORE = """
 .........

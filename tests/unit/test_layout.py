@@ -10,15 +10,15 @@ from sample_files import each_sample
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.dead_ends import dead_ends
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell, Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stalls import square_capacity
+from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
+from garage2usd.structure.stalls import square_capacity
 
 
 def laid_out(text, config=None, R=8.1, C=8.1):

@@ -7,12 +7,12 @@ from sample_files import each_sample
 from scipy.spatial.distance import pdist
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.grid import Cell, Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.layout.specs import Turn
 from garage2usd.pipeline import generate
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
+from garage2usd.structure.stalls import Edge
 
 
 @each_sample

@@ -3,10 +3,10 @@ import pytest
 
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.planning import evaluate, given_plan, plan_lanes
 from garage2usd.randomness import Step
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 
 BAY = BayConfig(dimensioned=False)
 GATES = {"G1": ((6, 2), (6, 6)), "G2": ((6, 4), (0, 4)), "G3": ((3, 0), (3, 8))}

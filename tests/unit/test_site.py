@@ -3,10 +3,10 @@ import pytest
 
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Cell
 from garage2usd.site import make_site
 from garage2usd.site.obstacles import inner_squares
 from garage2usd.site.portals import straight_frontier
+from garage2usd.structure.grid import Cell
 
 BAY = BayConfig()
 

@@ -12,12 +12,12 @@ from sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
-from garage2usd.grid import Cell, Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.pipeline import build
 from garage2usd.stage.cameras import write_drive
 from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 CONFIG = GarageConfig(
     seed=3,

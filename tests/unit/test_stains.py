@@ -11,12 +11,12 @@ from sample_files import each_sample
 
 from garage2usd.assets.lettering import PAINT_LIFT_M
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.grid import Cell
 from garage2usd.layout import ObjectKind, StallUse
 from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.bounds import world_bounds_m
+from garage2usd.structure.grid import Cell
 
 SITE = {"width_cells": 14, "height_cells": 10, "obstacles": 2, "min_portal_distance_cells": 4}
 DRAWN = """

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 
 from garage2usd.config import GarageConfig
-from garage2usd.grid import Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import ObjectKind, lay_out
 from garage2usd.layout.zones import Zones
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 PLAN = """
 .........

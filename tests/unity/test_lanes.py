@@ -9,7 +9,7 @@ from layer import from_usd
 from reader import PACKAGE
 from sample_files import SAMPLES
 
-from garage2usd.stalls import Edge
+from garage2usd.structure.stalls import Edge
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "irregular")
 FORMS = [("usda", None), ("usdz", "nested"), ("usdc", "flat")]

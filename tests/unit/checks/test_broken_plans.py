@@ -9,10 +9,10 @@ from garage2usd import GarageConfig, build
 from garage2usd.checks import Severity, check, check_file
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.errors import ConfigError, StageError
-from garage2usd.grid import Structure, cells_from_text
-from garage2usd.lanes import build_lane_graph
 from garage2usd.layout import lay_out
 from garage2usd.profiles import load_profile, read_profile
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
 
 FOUND_IN_GOOD_ONE = {"personnel-exits"}
 CN = load_profile("cn-jgj100")

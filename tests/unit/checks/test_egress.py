@@ -11,8 +11,8 @@ from garage2usd.checks import egress
 from garage2usd.checks.core_reader import core_doors
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.checks.stage_reader import subject_of_stage
-from garage2usd.grid import Cell
 from garage2usd.profiles import load_profile
+from garage2usd.structure.grid import Cell
 
 CN = load_profile("cn-jgj100")
 PLAN = "\n".join(

@@ -19,9 +19,9 @@ from garage2usd.driving.layout_garage import layout_garage, numbered_squares, sq
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
-from garage2usd.grid import Cell
 from garage2usd.layout import ObjectKind, StallUse, lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
+from garage2usd.structure.grid import Cell
 
 DRAWN = """
 ##########

@@ -6,10 +6,10 @@ import pytest
 
 from garage2usd.config import GarageConfig, PlanConfig
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.planning import plan_lanes
 from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.site import make_site
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 
 
 def structure(text):

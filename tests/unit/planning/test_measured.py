@@ -8,8 +8,8 @@ import pytest
 from numpy.random import default_rng
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import Cell, Structure, cells_from_text
 from garage2usd.planning import measured_circulation, neither_share
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 
 SIDE_M = 8.1
 

@@ -7,11 +7,11 @@ from planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.site import DEFAULT_SIDE_M
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.grid import Structure
 from garage2usd.planning import evaluate
 from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.planning.optimum import find_optimum
-from garage2usd.stalls import capacity_table
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.stalls import capacity_table
 
 BAYS = [BAY, BayConfig(column_widths_m=5.5, row_depths_m=8.1), BayConfig(column_widths_m=8.1, row_depths_m=16.2)]
 

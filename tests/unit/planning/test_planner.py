@@ -11,8 +11,8 @@ from planning_reference import BAY, G1, G2, G3, OPTIMUM, OPTIMUM_WITH_LOOPS, dra
 
 from garage2usd.config import PlanConfig
 from garage2usd.errors import GenerationError
-from garage2usd.grid import Cell
 from garage2usd.planning import evaluate, given_plan, plan_lanes
+from garage2usd.structure.grid import Cell
 
 GATES = {"G1": G1, "G2": G2, "G3": G3}
 

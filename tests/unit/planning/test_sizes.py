@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.grid import Cell, Structure
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
 from garage2usd.planning.board import FAULTS, measure, new_board
 from garage2usd.planning.circuit import anneal_labels
@@ -13,6 +12,7 @@ from garage2usd.planning.draft import new_draft
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
 from garage2usd.planning.polish import settled_worth
 from garage2usd.planning.sizes import resize, settle, sizes_of, sync, weigh
+from garage2usd.structure.grid import Cell, Structure
 
 BAY = BayConfig()
 PLAN = PlanConfig(longest_stretch_cells=0)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
-from garage2usd.grid import Cell, Mask, Structure
+from garage2usd.structure.grid import Cell, Mask, Structure
 
 __all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "square_capacity", "stall_rows"]
 
@@ -19,7 +19,7 @@ _MM_PER_M = 1000
 
 
 class Edge(IntEnum):
-    """The edges of a square in the order of `garage2usd.grid.NEIGHBOUR_STEPS`."""
+    """The edges of a square in the order of `garage2usd.structure.grid.NEIGHBOUR_STEPS`."""
 
     UP = 0
     DOWN = 1

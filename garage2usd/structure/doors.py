@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, CellArray, outside_squares
-from garage2usd.stalls import Edge
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, outside_squares
+from garage2usd.structure.stalls import Edge
 
 __all__ = ["door_edges"]
 

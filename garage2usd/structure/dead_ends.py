@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
 __all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends"]
 

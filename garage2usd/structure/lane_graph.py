@@ -9,8 +9,8 @@ import numpy as np
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import UnreachableStallError
-from garage2usd.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.stalls import StallRow, stall_rows
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.stalls import StallRow, stall_rows
 
 __all__ = ["LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 

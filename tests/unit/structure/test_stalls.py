@@ -1,8 +1,8 @@
 import pytest
 
 from garage2usd.config import BayConfig
-from garage2usd.grid import Structure, cells_from_text
-from garage2usd.stalls import Edge, square_capacity, stall_rows
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.stalls import Edge, square_capacity, stall_rows
 
 BAY = BayConfig()
 
