@@ -29,7 +29,7 @@ from garage2usd.documents import is_file
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
-from garage2usd.stage.reading import STAGE_SUFFIXES
+from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = [

@@ -4,9 +4,10 @@ import math
 from collections.abc import Iterator
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK"]
 

@@ -8,9 +8,10 @@ import shapely
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import LaneEdge, Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import LaneEdge, Point
 
 __all__ = ["BOOK", "dead_end_of", "edge_name"]
 

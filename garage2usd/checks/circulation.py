@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import LaneNode, Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import LaneNode, Point
 from garage2usd.structure.lane_graph import Square
 
 __all__ = ["BOOK"]

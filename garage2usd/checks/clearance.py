@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Length, Profile
+from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK"]
 

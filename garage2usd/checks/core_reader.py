@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 
 from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
+from garage2usd.reading.ground import Point
 
 __all__ = ["CoreDoor", "core_doors"]
 

@@ -10,9 +10,10 @@ import shapely
 
 from garage2usd.checks.aisle import dead_end_of
 from garage2usd.checks.openings import section_of
-from garage2usd.checks.subject import Point, StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
 from garage2usd.limits import allow_seconds
+from garage2usd.reading.ground import Point, StallOutline
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage"]

@@ -8,9 +8,10 @@ import numpy as np
 
 from garage2usd.checks.core_reader import core_doors
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.layout.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
+from garage2usd.reading.ground import Point
 from garage2usd.structure.grid import Cell
 
 __all__ = ["BOOK"]

@@ -4,8 +4,9 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.checks.subject import StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK", "way_in", "way_out"]
 

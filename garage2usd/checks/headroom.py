@@ -6,9 +6,10 @@ import shapely
 
 from garage2usd.checks.feasibility import way_in, way_out
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import Point
 
 __all__ = ["BOOK"]
 

@@ -5,13 +5,14 @@ from functools import lru_cache
 import numpy as np
 
 from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
-from garage2usd.checks.subject import Fault, LaneEdge, LaneNode, StallOutline, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.config import BayConfig, GarageConfig
 from garage2usd.driving.layout_garage import numbered_squares
 from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.specs import Spec
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
-from garage2usd.checks.subject import Fault, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
@@ -14,6 +14,7 @@ from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.layout import Layout, lay_out
 from garage2usd.planning import dimension
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import Fault
 from garage2usd.site.given import check_structure
 from garage2usd.structure.grid import Cell, Structure, cells_from_text, sides_mm
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph

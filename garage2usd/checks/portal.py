@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
+from garage2usd.reading.ground import Point
 from garage2usd.site.portals import outer_squares
 
 __all__ = ["BOOK"]

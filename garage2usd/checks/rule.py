@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from garage2usd.checks.finding import Finding, Severity
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Clause, Length, LengthRange, Profile
+from garage2usd.reading.ground import Point
 
 __all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook"]
 

@@ -7,14 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.lane_reader import DrivenGround, read_lanes
 from garage2usd.checks.scene import RectLight, read_scene
-from garage2usd.checks.subject import Point, Subject
+from garage2usd.checks.subject import Subject
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.layout import ObjectKind, Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.layout.specs import TubeLightSpec
-from garage2usd.stage.reading import open_stage
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.ground import Point
+from garage2usd.reading.lanes import Lanes, read_lanes
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
@@ -94,7 +95,7 @@ def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.i
 
 
 def _illuminances(
-    ground: DrivenGround, lights: Iterable[RectLight], structure: Structure | None
+    ground: Lanes, lights: Iterable[RectLight], structure: Structure | None
 ) -> tuple[float | None, float | None]:
     """Mean direct light on lanes and stalls, by the method of the layout."""
     tubes = [

@@ -1,9 +1,7 @@
 """What is checked: a garage as far as a stage, a report or a plan tells it, in metres, Y up."""
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -13,141 +11,14 @@ from pxr import Usd
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
-from garage2usd.layout import StallUse
 from garage2usd.planning import MeasuredCirculation, measured_circulation
+from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
 
-__all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
+__all__ = ["Subject"]
 
-Point = tuple[float, float]
-"""(x, z) in metres."""
 _LINE_M = 0.02
 _AT_HOME = 0.5
-
-
-class Fault(NamedTuple):
-    """What a file says of its lanes and stalls that contradicts itself.
-
-    Attributes
-    ----------
-    rule
-        Id of the rule that reports it.
-    place, position
-        Where; the position is None where it has none.
-    message
-        What is wrong.
-    """
-
-    rule: str
-    place: str
-    position: Point | None
-    message: str
-
-
-@dataclass(frozen=True)
-class StallOutline:
-    """A stall.
-
-    Attributes
-    ----------
-    name
-        Its id.
-    corners
-        Mouth left, mouth right, rear right, rear left as a driver sees them.
-    use
-        What it is for.
-    access
-        Number of the lane node that its mouth opens onto.
-    """
-
-    name: str
-    corners: tuple[Point, Point, Point, Point]
-    use: StallUse
-    access: int
-
-    @property
-    def takes_cars(self) -> bool:
-        """Whether cars park there."""
-        return self.use.takes_cars
-
-    @property
-    def width_m(self) -> float:
-        """From line to line."""
-        left, right, rear_right, rear_left = self.corners
-        return min(math.dist(left, right), math.dist(rear_left, rear_right))
-
-    @property
-    def length_m(self) -> float:
-        """From mouth to rear."""
-        left, right, rear_right, rear_left = self.corners
-        return min(math.dist(left, rear_left), math.dist(right, rear_right))
-
-    @property
-    def centre(self) -> Point:
-        """Its middle."""
-        return _middle(*self.corners)
-
-    @property
-    def mouth(self) -> Point:
-        """Middle of its mouth."""
-        return _middle(*self.corners[:2])
-
-    @property
-    def outwards(self) -> Point:
-        """Unit vector from its rear to its mouth."""
-        rear, mouth = _middle(*self.corners[2:]), self.mouth
-        length = math.dist(rear, mouth) or 1.0
-        return (mouth[0] - rear[0]) / length, (mouth[1] - rear[1]) / length
-
-    @cached_property
-    def polygon(self) -> shapely.Polygon:
-        """Its ground."""
-        return shapely.Polygon(self.corners)
-
-
-@dataclass(frozen=True)
-class LaneNode:
-    """A lane square or a portal.
-
-    Attributes
-    ----------
-    kind
-        ``crossroads``, ``t_junction``, ``straight``, ``entrance`` or ``exit``.
-    position
-        Its middle.
-    widths_m
-        Metres between the columns across X and Z.
-    name
-        Its square.
-    """
-
-    kind: str
-    position: Point
-    widths_m: tuple[float, float]
-    name: str
-
-    @property
-    def is_portal(self) -> bool:
-        """Whether cars enter or leave the garage here."""
-        return self.kind in {"entrance", "exit"}
-
-
-@dataclass(frozen=True)
-class LaneEdge:
-    """A way from node to node, by their numbers.
-
-    Attributes
-    ----------
-    width_m
-        Of the carriageway between the columns.
-    one_way
-        Whether it is driven from `start` to `end` only.
-    """
-
-    start: int
-    end: int
-    width_m: float
-    one_way: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,7 +150,3 @@ class Subject:
     def portals(self, *kinds: str) -> list[int]:
         """Numbers of the nodes of some kinds."""
         return [number for number, node in enumerate(self.nodes) if node.kind in kinds]
-
-
-def _middle(*points: Point) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(z for _, z in points) / len(points)

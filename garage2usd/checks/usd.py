@@ -9,8 +9,8 @@ from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
-from garage2usd.stage.reading import usd_text
-from garage2usd.stage.taxonomy import LABELS, LABELS_SCHEMA, labels_of
+from garage2usd.reading.files import usd_text
+from garage2usd.reading.taxonomy import LABELS, LABELS_SCHEMA, labels_of
 
 __all__ = ["BOOK"]
 

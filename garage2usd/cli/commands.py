@@ -29,7 +29,7 @@ class Commands(click.Group):
             # values of a stage are read late, so any step may come upon a damaged one
             if not _is_of_usd(error):
                 raise
-            from garage2usd.stage.reading import usd_reason  # noqa: PLC0415 - it brings USD
+            from garage2usd.reading.files import usd_reason  # noqa: PLC0415 - it brings USD
 
             click.echo(f"Error: USD cannot read the stage ({usd_reason(error)})", err=True)
             ctx.exit(1)

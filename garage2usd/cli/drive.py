@@ -46,7 +46,7 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
       garage2usd drive --seed 7 -o ways.json
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.stage.reading import STAGE_SUFFIXES  # noqa: PLC0415
+    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
     if output is not None:
         if output.suffix not in _FORMATS:

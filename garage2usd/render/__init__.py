@@ -14,6 +14,7 @@ from garage2usd.layout import ObjectKind
 from garage2usd.limits import lift
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
+from garage2usd.reading.files import open_stage
 from garage2usd.render.blender_process import check_blender, run_blender
 from garage2usd.render.cameras import View, find_views
 from garage2usd.render.frames_file import write_frames
@@ -29,7 +30,6 @@ from garage2usd.render.pictures import (
 )
 from garage2usd.render.scene import SHAPE_PROPERTY, read_scene, write_shapes
 from garage2usd.stage.labels import OBJECT_LABELS
-from garage2usd.stage.reading import open_stage
 from garage2usd.stage.variants import SWITCHES
 
 __all__ = ["Picture", "Rendering", "render_stage"]

@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from pxr import Usd, UsdGeom
+import numpy as np
+from pxr import Usd
 from pydantic import BaseModel, Field, ValidationError
 
 from garage2usd.documents import is_file, read_bytes
 from garage2usd.errors import StageError
+from garage2usd.reading.walk import placed_objects
 from garage2usd.stage.labels import CITYSCAPES
-from garage2usd.stage.taxonomy import label_of
 
 __all__ = ["LARGEST_ID", "Labels", "SemanticClass", "read_labels"]
 
@@ -108,7 +109,7 @@ def _labels_from(table: _Table, path: Path) -> Labels:
 
 def _labels_of(stage: Usd.Stage) -> Labels:
     """Classes of this program keep their ids; others follow by name."""
-    found = list(_labelled(stage))
+    found = [(placed.path, placed.label) for placed in placed_objects(stage, np.eye(4)) if placed.label]
     others = sorted({name for _, name in found} - CITYSCAPES.keys())
     names = [*CITYSCAPES, *others]
     if len(names) > _LARGEST_CLASS_ID or len(found) > LARGEST_ID:
@@ -120,17 +121,3 @@ def _labels_of(stage: Usd.Stage) -> Labels:
     }
     ids = {path: number for number, (path, _) in enumerate(found, 1)}
     return Labels(classes, ids, {number: number_of[name] for number, (_, name) in enumerate(found, 1)})
-
-
-def _labelled(stage: Usd.Stage) -> Iterator[tuple[str, str]]:
-    """Path and class of each labelled prim, and of each point of a labelled instancer."""
-    prims = iter(Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
-    for prim in prims:
-        label = label_of(prim)
-        if prim.IsA(UsdGeom.PointInstancer):
-            prims.PruneChildren()
-            if label:
-                indices = UsdGeom.PointInstancer(prim).GetProtoIndicesAttr().Get(Usd.TimeCode.EarliestTime()) or []
-                yield from ((f"{prim.GetPath()}[{point}]", label) for point in range(len(indices)))
-        elif label:
-            yield prim.GetPath().pathString, label

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
-from garage2usd.stage.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
+from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
 __all__ = ["attribute", "define", "operation", "order_operations", "save", "set_units"]
 

@@ -8,9 +8,9 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
 from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch
+from garage2usd.reading.taxonomy import OBJECT_TAXONOMY
 from garage2usd.stage.looks import define_material, set_varying
 from garage2usd.stage.prototypes import PAINT_SET
-from garage2usd.stage.taxonomy import OBJECT_TAXONOMY
 from garage2usd.stage.variants import POWER_SET
 
 __all__ = ["NITS_PER_INTENSITY", "write_prototype"]

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Usd, UsdLux
 
-from garage2usd.stage.reading import number_of, numbers_of
+from garage2usd.reading.values import number_of, numbers_of
 from garage2usd.view.viewer.scene import Light
 
 __all__ = ["LIGHT_TYPES", "light_of"]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
-from garage2usd.stage.reading import numbers_of
+from garage2usd.reading.values import numbers_of
 from garage2usd.view.viewer.solids import solid_faces
 
 __all__ = ["DRAWN_TYPES", "FaceSet", "Triangles", "display_colour", "face_sets", "triangles_of"]

@@ -9,10 +9,10 @@ from pxr import Usd
 
 from garage2usd.documents import is_file, read_json
 from garage2usd.errors import StageError
-from garage2usd.stage.reading import metres_y_up
-from garage2usd.view.viewer.guides import lane_curves
-from garage2usd.view.viewer.scene import Placed, Scene, Shape, moved
-from garage2usd.view.viewer.walk import StageWalk
+from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.values import metres_y_up
+from garage2usd.view.viewer.looks import Looks
+from garage2usd.view.viewer.scene import LaneCurves, Placed, Scene, Shape, StallCorners, moved
 
 __all__ = ["read_scene"]
 
@@ -35,22 +35,21 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     StageError
         If nothing in the stage can be drawn, or the table of labels is none.
     """
-    to_metres = metres_y_up(stage)
-    walk = StageWalk(stage)
-    objects = walk.objects(to_metres)
+    looks = Looks()
+    objects = looks.objects(stage, metres_y_up(stage))
     if not objects:
         raise StageError(path, "nothing in it can be drawn")
-    remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(walk.undrawn.items())]
+    remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(looks.undrawn.items())]
     return Scene(
         name=path.name,
         facts=_facts(stage),
         objects=objects,
-        shapes=walk.shapes,
-        palettes=walk.palettes,
-        surfaces=walk.surfaces,
-        lanes=lane_curves(walk.hidden, to_metres),
+        shapes=looks.shapes,
+        palettes=looks.palettes,
+        surfaces=looks.surfaces,
+        lanes=_lanes(stage),
         ids=_ids(path),
-        bounds_m=_bounds_m(objects, walk.shapes),
+        bounds_m=_bounds_m(objects, looks.shapes),
         remarks=remarks,
     )
 
@@ -59,6 +58,27 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
     root = stage.GetDefaultPrim()
     data = root.GetCustomData() if root else {}
     return {name: str(data[name]) for name in _FACTS if name in data}
+
+
+def _lanes(stage: Usd.Stage) -> LaneCurves | None:
+    """The lane graph and the stalls, as far as they are sound; None where there are none."""
+    lanes = read_lanes(stage)
+    if not lanes.nodes and not lanes.stalls:
+        return None
+    middles = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
+    return LaneCurves(
+        nodes_m=np.array(middles, dtype=np.float32).reshape(-1, 3),
+        kinds=[node.kind for node in lanes.nodes],
+        edges=np.array([(edge.start, edge.end) for edge in lanes.edges], dtype=np.int32).reshape(-1, 2),
+        forward=[edge.one_way for edge in lanes.edges],
+        stalls=[
+            StallCorners(
+                {"id": stall.name, "use": str(stall.use), "accessNode": stall.access, **dict(stall.facts)},
+                np.array(stall.corners, dtype=np.float32),
+            )
+            for stall in lanes.stalls
+        ],
+    )
 
 
 def _ids(path: Path) -> dict[str, int]:

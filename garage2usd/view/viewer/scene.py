@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from garage2usd.view.viewer.meshes import Triangles
 from garage2usd.view.viewer.surfaces import Surface
 
-__all__ = ["UNLABELLED", "Collider", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallOutline", "moved"]
+__all__ = ["UNLABELLED", "Collider", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallCorners", "moved"]
 
 UNLABELLED = "unlabelled"
 """Class of what the stage gives no semantic label."""
@@ -133,7 +133,7 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
-class StallOutline:
+class StallCorners:
     """A stall as the lane graph describes it: `facts` by name, corners (x, z) in metres from the mouth's left on."""
 
     facts: Mapping[str, str | int]
@@ -162,7 +162,7 @@ class LaneCurves:
     kinds: Sequence[str]
     edges: NDArray[np.int32]
     forward: Sequence[bool]
-    stalls: Sequence[StallOutline]
+    stalls: Sequence[StallCorners]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.stage.reading import number_of
+from garage2usd.reading.values import number_of
 
 __all__ = ["solid_faces"]
 

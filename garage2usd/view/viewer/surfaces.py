@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.stage.reading import number_of, numbers_of
+from garage2usd.reading.values import number_of, numbers_of
 
 __all__ = ["PLAIN", "Surface", "surface_of"]
 

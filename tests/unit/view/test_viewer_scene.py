@@ -11,9 +11,9 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 import garage2usd
 from garage2usd.errors import StageError
 from garage2usd.layout import ObjectKind
+from garage2usd.reading.files import open_stage
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.reading import open_stage
 from garage2usd.view.viewer import read_scene
 from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import moved

@@ -8,8 +8,9 @@ from pxr import Sdf, Usd
 
 from garage2usd.cli.commands import Commands
 from garage2usd.errors import StageError
-from garage2usd.stage.reading import number_of, numbers_of, open_stage, usd_text
-from garage2usd.stage.taxonomy import label_of, labels_of
+from garage2usd.reading.files import open_stage, usd_text
+from garage2usd.reading.taxonomy import label_of, labels_of
+from garage2usd.reading.values import number_of, numbers_of
 
 TEXT = '#usda 1.0\n(\n    defaultPrim = "Garage"\n)\ndef Xform "Garage" (\n    references = @./asset.usdc@\n)\n{\n}\n'
 

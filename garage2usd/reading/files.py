@@ -1,23 +1,18 @@
-"""Stages that anybody may have written, opened after a look at their files."""
+"""Files of stages that anybody may have written, looked at before USD opens them."""
 
 import re
 import stat
 import zipfile
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
-from typing import TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-from pxr import Sdf, Tf, Usd, UsdGeom
+from pxr import Sdf, Tf, Usd
 
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
 
-__all__ = ["STAGE_SUFFIXES", "lacks", "metres_y_up", "number_of", "numbers_of", "open_stage", "usd_reason", "usd_text"]
+__all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason", "usd_text"]
 
-_Scalar = TypeVar("_Scalar", bound=np.generic)
-_DEFAULT_TIME = Usd.TimeCode.Default()
 STAGE_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MAX_FILE_BYTES = 2 * 1024**3
 _MAX_PACKAGE_FILES = 100_000
@@ -25,7 +20,6 @@ _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 """Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
 _REASON_CHARACTERS = 300
 _NO_TEXT = "it holds bytes that are no text"
-_Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
 
 
@@ -50,55 +44,6 @@ def open_stage(path: Path) -> Usd.Stage:
     files = {used.realPath.partition("[")[0] for used in stage.GetUsedLayers()} - {""}
     allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
     return stage
-
-
-def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
-    """The matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
-    matrix = np.eye(4)
-    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
-        matrix = _Z_UP_TO_Y_UP.copy()
-    scale = UsdGeom.GetStageMetersPerUnit(stage)
-    matrix[:3, :3] *= scale if scale > 0 else 1.0
-    return matrix
-
-
-def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = _DEFAULT_TIME) -> float:
-    """The number that an attribute holds; 0 for none.
-
-    Raises
-    ------
-    StageError
-        If it holds something else: USD gives whatever a file has, not what the schema says.
-    """
-    value = attribute.Get(time)
-    try:
-        return float(0.0 if value is None else value)
-    except (TypeError, ValueError, OverflowError):
-        raise lacks(attribute, "numbers") from None
-
-
-def numbers_of(
-    attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1, time: Usd.TimeCode = _DEFAULT_TIME
-) -> NDArray[_Scalar]:
-    """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
-
-    Raises
-    ------
-    StageError
-        If it holds something else.
-    """
-    value = attribute.Get(time)
-    try:
-        numbers = np.asarray(() if value is None else value, dtype=dtype)
-        return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
-    except (TypeError, ValueError, OverflowError):
-        raise lacks(attribute, "numbers") from None
-
-
-def lacks(attribute: Usd.Attribute, what: str) -> StageError:
-    """The error of an attribute that holds something else than it should."""
-    file = attribute.GetStage().GetRootLayer().realPath
-    return StageError(file, f"{attribute.GetPath()} holds no {what}")
 
 
 def _open_layers(path: Path) -> list[Sdf.Layer]:

@@ -2,7 +2,7 @@
 
 from pxr import Usd, Vt
 
-from garage2usd.stage.reading import lacks
+from garage2usd.reading.values import READ_AT, lacks
 
 __all__ = ["LABELS", "LABELS_SCHEMA", "OBJECT_TAXONOMY", "SQUARE_TAXONOMY", "label_of", "labels_name", "labels_of"]
 
@@ -36,7 +36,7 @@ def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
         If the attribute holds something else: USD gives whatever a file has, not what the schema says.
     """
     attribute = prim.GetAttribute(labels_name(taxonomy))
-    labels = attribute.Get(Usd.TimeCode.EarliestTime()) if attribute else None
+    labels = attribute.Get(READ_AT) if attribute else None
     if labels is None:
         return ()
     if not isinstance(labels, Vt.TokenArray | Vt.StringArray):

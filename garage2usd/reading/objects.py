@@ -1,0 +1,60 @@
+"""The objects of a composed stage: what each is, where it stands, and which prims draw it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+__all__ = ["Matrix", "Part", "PlacedObject"]
+
+Matrix = NDArray[np.float64]
+"""A transform for points as rows; float64, shape (4, 4)."""
+
+
+class Part(NamedTuple):
+    """A prim that draws a piece of an object, or lights from it.
+
+    Attributes
+    ----------
+    prim
+        A `UsdGeom.Gprim` or a light. Instances of one prototype share it.
+    path
+        From the object's path to the prim; empty where the object is the prim.
+    matrix
+        From the prim's space to the object's.
+    """
+
+    prim: Usd.Prim
+    path: str
+    matrix: Matrix
+
+
+@dataclass(eq=False, slots=True)
+class PlacedObject:
+    """An object of a stage.
+
+    Attributes
+    ----------
+    path
+        Of its prim; ``instancer[index]`` for a point of an instancer, with what follows for an object within one.
+    twin
+        Path of a prim on the stage that looks like it: `path` itself but for points of instancers.
+    label
+        Its semantic class; empty where the stage gives none.
+    square
+        What the labels say of the square that it stands on; empty where they say nothing.
+    matrix
+        From its space to the world.
+    parts
+        What is drawn. Objects that are instances of one prototype share the same tuple.
+    """
+
+    path: str
+    twin: str
+    label: str
+    square: str
+    matrix: Matrix
+    parts: Sequence[Part] = field(default_factory=list)

@@ -1,0 +1,65 @@
+"""Values of a stage: its units and axes, and numbers, which may be of another type than their schema says."""
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.errors import StageError
+
+__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of"]
+
+_Scalar = TypeVar("_Scalar", bound=np.generic)
+READ_AT = Usd.TimeCode.EarliestTime()
+"""When stages are read: at the first time sample of what has samples."""
+_Z_UP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
+
+
+def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
+    """The matrix for row vectors from a stage's coordinates to metres, Y up; float64, shape (4, 4)."""
+    matrix = np.eye(4)
+    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
+        matrix = _Z_UP_TO_Y_UP.copy()
+    scale = UsdGeom.GetStageMetersPerUnit(stage)
+    matrix[:3, :3] *= scale if scale > 0 else 1.0
+    return matrix
+
+
+def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = READ_AT) -> float:
+    """The number that an attribute holds; 0 for none.
+
+    Raises
+    ------
+    StageError
+        If it holds something else: USD gives whatever a file has, not what the schema says.
+    """
+    value = attribute.Get(time)
+    try:
+        return float(0.0 if value is None else value)
+    except (TypeError, ValueError, OverflowError):
+        raise lacks(attribute, "numbers") from None
+
+
+def numbers_of(
+    attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1, time: Usd.TimeCode = READ_AT
+) -> NDArray[_Scalar]:
+    """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
+
+    Raises
+    ------
+    StageError
+        If it holds something else.
+    """
+    value = attribute.Get(time)
+    try:
+        numbers = np.asarray(() if value is None else value, dtype=dtype)
+        return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
+    except (TypeError, ValueError, OverflowError):
+        raise lacks(attribute, "numbers") from None
+
+
+def lacks(attribute: Usd.Attribute, what: str) -> StageError:
+    """The error of an attribute that holds something else than it should."""
+    file = attribute.GetStage().GetRootLayer().realPath
+    return StageError(file, f"{attribute.GetPath()} holds no {what}")

@@ -1,0 +1,294 @@
+"""The walk through a composed stage, by UsdGeom's own computations, each prototype once."""
+
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from pxr import Kind, Usd, UsdGeom, UsdLux
+
+from garage2usd.reading.objects import Matrix, Part, PlacedObject
+from garage2usd.reading.taxonomy import SQUARE_TAXONOMY, label_of
+from garage2usd.reading.values import READ_AT, numbers_of
+
+__all__ = ["placed_objects"]
+
+_DRAWN_PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
+_POINT_PROTOTYPES = Usd.PrimIsActive & Usd.PrimIsLoaded
+"""Prototypes of point instancers may be overs or classes, so that they are not drawn where they stand."""
+_IDENTITY = np.eye(4)
+_IDENTITY.setflags(write=False)
+
+
+def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
+    """Find every object that a stage draws, in the order of its prims.
+
+    Parameters
+    ----------
+    stage
+        The stage as it is composed now; instances and point instancers are followed.
+    to_world
+        From the stage's space to that of the results, for example `garage2usd.reading.values.metres_y_up`.
+
+    Raises
+    ------
+    StageError
+        If a label or a number of a point instancer is of another type than its schema says.
+
+    Notes
+    -----
+    An object is a prim with a label of the taxonomy ``class``, less what is labelled below it; a point of an
+    instancer, with the nearest label; and where there is no label, a component, an instance, or a single prim. Places,
+    visibility and purpose are those that UsdGeom computes at `READ_AT`: what is invisible is left out with all below
+    it, and so are guides and proxies. A transform that is not finite counts as the identity.
+    """
+    walk = _Walk(stage)
+    at = _At("", "", to_world, to_world)
+    for prim in stage.GetPseudoRoot().GetChildren():
+        walk.visit(prim, at)
+    return [found for found in at.found if found.parts]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _At:
+    """A prim that is being visited.
+
+    Attributes
+    ----------
+    path, twin
+        Paths of the prim, from the root of the walk on.
+    matrix
+        From its space to that of the walk's root.
+    square, purpose
+        As it inherits them.
+    stage_matrix
+        From the stage's space to that of the walk's root: where a transform stack begins that is reset.
+    holder
+        The object that it is part of, if it is part of one.
+    within
+        From its space to the holder's.
+    predicate
+        Which children are visited.
+    found
+        The objects of the walk so far.
+    """
+
+    path: str
+    twin: str
+    matrix: Matrix
+    stage_matrix: Matrix
+    square: str = ""
+    purpose: str = UsdGeom.Tokens.default_
+    holder: PlacedObject | None = None
+    within: Matrix = field(default_factory=lambda: _IDENTITY)
+    predicate: "Usd._PrimFlagsPredicate" = Usd.PrimDefaultPredicate
+    found: list[PlacedObject] = field(default_factory=list)
+
+
+class _Prototype(NamedTuple):
+    """What a prototype holds, in its own space: objects with paths from its root on, and what belongs to none."""
+
+    objects: list[PlacedObject]
+    parts: tuple[Part, ...]
+
+
+class _Walk:
+    """Visits the prims of a stage, those of each prototype once."""
+
+    def __init__(self, stage: Usd.Stage) -> None:
+        self._stage = stage
+        self._places = UsdGeom.XformCache(READ_AT)
+        self._prototypes: dict[tuple[str, str, bool], _Prototype] = {}
+        self._is_drawn_type: dict[str, bool] = {}
+        self._is_labelled: dict[str, bool] = {}
+        self._is_reset: dict[str, bool] = {}
+
+    def visit(self, prim: Usd.Prim, above: _At) -> None:
+        """Find what is at and below a prim; `above` is its parent."""
+        if not _is_visible(prim):
+            return
+        place, is_reset = self._place(prim)
+        matrix = place @ (above.stage_matrix if is_reset else above.matrix)
+        within = above.within
+        if above.holder is not None:
+            within = matrix @ np.linalg.pinv(above.holder.matrix) if is_reset else place @ above.within
+        name = f"/{prim.GetName()}"
+        at = replace(
+            above,
+            path=above.path + name,
+            twin=above.twin + name,
+            matrix=matrix,
+            within=within,
+            square=label_of(prim, SQUARE_TAXONOMY) or above.square,
+            purpose=_purpose(prim, above.purpose),
+        )
+        label = label_of(prim)
+        if prim.IsA(UsdGeom.PointInstancer):
+            self._visit_points(prim, at, label)
+            return
+        if label or (at.holder is None and self._is_whole(prim)):
+            holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix)
+            at.found.append(holder)
+            at = replace(at, holder=holder, within=_IDENTITY)
+        self._visit_contents(prim, at)
+
+    def _visit_contents(self, prim: Usd.Prim, at: _At) -> None:
+        """Find what a prim draws itself, and what is below it."""
+        if self._draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
+            source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+            _append(at.holder, [Part(source, at.path.removeprefix(at.holder.path), at.within)])
+        if prim.IsInstance() and not self._resets(prim.GetPrototype()):
+            self._take(self._prototype(prim.GetPrototype(), at), at)
+            return
+        is_proxied = prim.IsInstance() or prim.IsInstanceProxy()
+        below = Usd.TraverseInstanceProxies(at.predicate) if is_proxied else at.predicate
+        for child in prim.GetFilteredChildren(below):
+            self.visit(child, at)
+
+    def _visit_points(self, prim: Usd.Prim, at: _At, label: str) -> None:
+        """Find what a point instancer draws."""
+        instancer = UsdGeom.PointInstancer(prim)
+        roots = [self._stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
+        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64, time=READ_AT)
+        places = instancer.ComputeInstanceTransformsAtTime(
+            READ_AT, READ_AT, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
+        )
+        if len(places) != len(indices):
+            return
+        mask = instancer.ComputeMaskAtTime(READ_AT) or [True] * len(indices)
+        above = at.holder.label if at.holder else ""
+        for point, (index, place, is_shown) in enumerate(zip(indices.tolist(), places, mask, strict=True)):
+            if is_shown and 0 <= index < len(roots) and roots[index]:
+                root, path = roots[index], f"{at.path}[{point}]"
+                matrix = np.array(place) @ at.matrix
+                holder = PlacedObject(path, _twin(root), label_of(root) or label or above, at.square, matrix)
+                at.found.append(holder)
+                here = replace(at, path=path, twin=holder.twin, matrix=matrix, holder=holder, within=_IDENTITY)
+                self._take(self._point_prototype(root), here)
+
+    def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
+        """What a prototype of instances holds, for an instance that inherits what `at` says."""
+        key = str(prototype.GetPath()), at.purpose, at.holder is not None
+        if key not in self._prototypes:
+            inside = _inside(at.purpose, is_held=at.holder is not None)
+            for child in prototype.GetChildren():
+                self.visit(child, inside)
+            self._prototypes[key] = _held(inside)
+        return self._prototypes[key]
+
+    def _point_prototype(self, root: Usd.Prim) -> _Prototype:
+        """What a prototype of a point instancer holds; its own transform is the points'."""
+        key = str(root.GetPath()), "", True
+        if key not in self._prototypes:
+            purpose = UsdGeom.Imageable(root).ComputePurpose() if _is_imageable(root) else UsdGeom.Tokens.default_
+            inside = _inside(str(purpose), is_held=True)
+            if _is_visible(root) and root.IsA(UsdGeom.PointInstancer):
+                self._visit_points(root, inside, "")
+            elif _is_visible(root):
+                self._visit_contents(root, replace(inside, predicate=_POINT_PROTOTYPES))
+            self._prototypes[key] = _held(inside)
+        return self._prototypes[key]
+
+    @staticmethod
+    def _take(prototype: _Prototype, at: _At) -> None:
+        """Add what a prototype holds to what is found at an instance of it."""
+        above = at.holder.label if at.holder else ""
+        for inner in prototype.objects:
+            at.found.append(
+                PlacedObject(
+                    at.path + inner.path,
+                    at.twin + inner.twin,
+                    inner.label or above,
+                    inner.square or at.square,
+                    inner.matrix @ at.matrix,
+                    inner.parts,
+                )
+            )
+        if at.holder is None:
+            return
+        if at.holder.path == at.path and not at.holder.parts:
+            at.holder.parts = prototype.parts
+            return
+        after = at.path.removeprefix(at.holder.path)
+        _append(at.holder, [Part(prim, after + path, matrix @ at.within) for prim, path, matrix in prototype.parts])
+
+    def _place(self, prim: Usd.Prim) -> tuple[Matrix, bool]:
+        """From a prim's space to its parent's, or to the stage's where its transform stack is reset."""
+        matrix, is_reset = self._places.GetLocalTransformation(prim)
+        place = np.array(matrix)
+        return (place if np.isfinite(place).all() else _IDENTITY), is_reset
+
+    def _draws(self, prim: Usd.Prim) -> bool:
+        kind = prim.GetTypeName()
+        if kind not in self._is_drawn_type:  # a stage has many prims of few types
+            self._is_drawn_type[kind] = prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdLux.BoundableLightBase)
+            self._is_drawn_type[kind] |= prim.IsA(UsdLux.NonboundableLightBase)
+        return self._is_drawn_type[kind] or prim.HasAPI(UsdLux.LightAPI)
+
+    def _is_whole(self, prim: Usd.Prim) -> bool:
+        """Whether a prim without a label is an object nevertheless."""
+        if prim.IsInstance():
+            return not self._has_labels(prim.GetPrototype())
+        if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
+            return not _has_labels(prim)
+        return self._draws(prim)
+
+    def _has_labels(self, prototype: Usd.Prim) -> bool:
+        path = str(prototype.GetPath())
+        if path not in self._is_labelled:
+            self._is_labelled[path] = _has_labels(prototype)
+        return self._is_labelled[path]
+
+    def _resets(self, prototype: Usd.Prim) -> bool:
+        """Whether a place in a prototype does not follow that of the instance, so that instances differ."""
+        path = str(prototype.GetPath())
+        if path not in self._is_reset:
+            below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
+            self._is_reset[path] = any(UsdGeom.Xformable(each).GetResetXformStack() for each in below)
+        return self._is_reset[path]
+
+
+def _inside(purpose: str, *, is_held: bool) -> _At:
+    """The root of a prototype; what is in it is part of the object that holds an instance, if one does."""
+    holder = PlacedObject("", "", "", "", _IDENTITY) if is_held else None
+    return _At("", "", _IDENTITY, _IDENTITY, purpose=purpose, holder=holder)
+
+
+def _held(inside: _At) -> _Prototype:
+    objects = [found for found in inside.found if found.parts]
+    return _Prototype(objects, tuple(inside.holder.parts) if inside.holder else ())
+
+
+def _twin(root: Usd.Prim) -> str:
+    """Path of a prototype of a point instancer, from the prototype of instances that it stands in if it does."""
+    path = root.GetPath()
+    return str(path).removeprefix(str(path.GetPrefixes()[0])) if root.IsInPrototype() else str(path)
+
+
+def _append(holder: PlacedObject, parts: list[Part]) -> None:
+    if not isinstance(holder.parts, list):
+        holder.parts = list(holder.parts)
+    holder.parts += parts
+
+
+def _has_labels(root: Usd.Prim) -> bool:
+    return any(label_of(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
+
+
+def _is_imageable(prim: Usd.Prim) -> bool:
+    return bool(prim.IsA(UsdGeom.Imageable))
+
+
+def _is_visible(prim: Usd.Prim) -> bool:
+    """Whether a prim whose parents are visible is."""
+    if not _is_imageable(prim):
+        return True
+    return bool(UsdGeom.Imageable(prim).GetVisibilityAttr().Get(READ_AT) != UsdGeom.Tokens.invisible)
+
+
+def _purpose(prim: Usd.Prim, inherited: str) -> str:
+    """A prim's purpose: its own where it has one, else its parent's."""
+    if _is_imageable(prim):
+        own = UsdGeom.Imageable(prim).GetPurposeAttr()
+        if own.HasAuthoredValue():
+            return str(own.Get())
+    return inherited
