@@ -46,7 +46,7 @@ def main() -> int:
     planned, left, plan_m2, layout_m2 = 0, 0, 0.0, 0.0
     for seed in range(asked.first, asked.first + asked.seeds):
         garage = generate(GarageConfig(seed=seed, profile=asked.profile, site=site))
-        subject = layout_subject(garage.layout, garage.graph, garage.config, source=f"seed {seed}", kind="report")
+        subject = layout_subject(garage.layout, garage.graph, source=f"seed {seed}", kind="report")
         findings = check(subject, garage.config.standard)
         grave = [finding for finding in findings if finding.severity is not Severity.INFO]
         found.update(f"{finding.severity.value} {finding.rule}" for finding in findings)
@@ -55,9 +55,8 @@ def main() -> int:
         plan_m2 += area_per_stall_m2(garage.plan.structure, garage.config.bay) / asked.seeds
         layout_m2 += garage.layout.area_per_stall_m2 / asked.seeds
         if seed < asked.first + asked.drive:
-            setback_m = garage.config.bay.carriageway_setback_m
             limits = Limits(gear_changes=_GEAR_CHANGES)
-            proofs = prove_stalls(garage.layout, garage.graph, setback_m=setback_m, limits=limits)
+            proofs = prove_stalls(garage.layout, garage.graph, limits=limits)
             driven["proven"] += sum(proof.is_proven for proof in proofs)
             driven["stalls"] += len(proofs)
         for rule, reason in garage.plan.gave_way.items():

@@ -18,7 +18,7 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
 from garage2usd.layout import Layout, lay_out
-from garage2usd.stage import write_stage
+from garage2usd.stage import arrangement_of, write_stage
 from garage2usd.stage.arrangement import SCATTERED, arrange
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
@@ -154,7 +154,8 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     layout, graph, config = _garage(rows, cols, form)
     figures = {"seconds": time.perf_counter() - start, "peak_mb": peak_mb(), "objects": len(layout.placements)}
     (path.parent / _LAYOUT_FILE).write_bytes(pickle.dumps((layout, graph, config)))
-    write_stage(layout, graph, path, metadata={}, setback_m=config.bay.carriageway_setback_m, config=config.stage)
+    arrangement = arrangement_of(layout, config.stage)
+    write_stage(layout, graph, path, arrangement=arrangement, metadata={}, config=config.stage)
     return figures
 
 
@@ -184,7 +185,6 @@ def _author(path: Path) -> dict[str, float]:
         prototypes=prototypes,
         asset_folder=ASSETS,
         metadata={},
-        setback_m=config.bay.carriageway_setback_m,
         last_frame=0,
         path=path,
     )

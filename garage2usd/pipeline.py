@@ -19,7 +19,7 @@ from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
 from garage2usd.site.room import check_room
-from garage2usd.stage import StageFormat, write_labels, write_stage
+from garage2usd.stage import StageFormat, arrangement_of, write_labels, write_stage
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 from garage2usd.version import VERSION
@@ -164,17 +164,18 @@ def build(
         start = time.perf_counter()
         folder = staging / "stage"
         folder.mkdir()
-        *assets, stage = write_stage(
+        arrangement = arrangement_of(garage.layout, garage.config.stage)
+        made = write_stage(
             garage.layout,
             garage.graph,
             folder / path.name,
+            arrangement=arrangement,
             metadata=_metadata(garage),
-            setback_m=garage.config.bay.carriageway_setback_m,
             config=garage.config.stage,
             progress=progress,
         )
         labels = staging / f"{path.stem}_labels.json"
-        write_labels(garage.layout, labels, garage.config.stage)
+        write_labels(garage.layout, labels, arrangement=arrangement)
         pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
         drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
         for picture, image in zip(drawn, pictures.values(), strict=True):
@@ -190,13 +191,21 @@ def build(
             seconds=seconds,
         )
         # the stage comes last: where it stands, all of it does
-        places = publish([*assets, *drawn, labels, report, stage], path.parent)
-    *_, labels, report, stage = places
-    shown = places[len(assets) : len(assets) + len(drawn)]
+        files = [*filter(None, [made.assets]), *drawn, labels, report, made.stage]
+        place_of = dict(zip(files, publish(files, path.parent), strict=True))
     start = time.perf_counter()
     findings = _findings(garage)
     seconds["check"] = time.perf_counter() - start
-    return Build(garage, stage, report, labels, shown, places[0] if assets else None, seconds, findings)
+    return Build(
+        garage=garage,
+        stage=place_of[made.stage],
+        report=place_of[report],
+        labels=place_of[labels],
+        pictures=tuple(place_of[picture] for picture in drawn),
+        asset_folder=place_of[made.assets] if made.assets else None,
+        seconds=seconds,
+        findings=findings,
+    )
 
 
 def _generate(
@@ -244,7 +253,7 @@ def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Pr
         from garage2usd.driving import without_unreachable  # noqa: PLC0415
 
         return without_unreachable(layout, graph, config, progress=progress)
-    tight = tight_stalls(layout.structure, layout.stalls, config.bay) if choice is UnreachableStalls.REFUSE else ()
+    tight = tight_stalls(graph, layout.stalls) if choice is UnreachableStalls.REFUSE else ()
     if tight:
         from garage2usd.driving.refusal import refuse_undrivable  # noqa: PLC0415
 

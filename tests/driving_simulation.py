@@ -213,8 +213,7 @@ def drive_stalls(count, seed):
     while driven < count:
         garage = garage2usd.generate(seed=seed)
         world = World(garage)
-        setback_m = garage.config.bay.carriageway_setback_m
-        proofs = prove_stalls(garage.layout, garage.graph, setback_m=setback_m)
+        proofs = prove_stalls(garage.layout, garage.graph)
         stalls = {stall.name: stall for stall in garage.layout.stalls}
         for proof in proofs[: count - driven]:
             driven += 1

@@ -83,7 +83,7 @@ def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list
     -----
     Without what takes a stage or long: the rules of USD, and the proof that a car gets into each stall.
     """
-    subject = layout_subject(layout, graph, config, source="", kind="report")
+    subject = layout_subject(layout, graph, source="", kind="report")
     findings = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(subject, config.standard))
     return sorted(findings, key=Finding.sort_key)
 

@@ -6,8 +6,7 @@ import numpy as np
 
 from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
 from garage2usd.checks.subject import Subject
-from garage2usd.config import BayConfig, GarageConfig
-from garage2usd.driving.layout_garage import numbered_squares
+from garage2usd.config import BayConfig
 from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.specs import Spec
@@ -17,7 +16,7 @@ from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["layout_subject", "unlaid_subject"]
 
@@ -25,17 +24,16 @@ _FLAT = {ObjectKind.FLOOR, ObjectKind.STALL, ObjectKind.STALL_NUMBER, ObjectKind
 
 
 def layout_subject(
-    layout: Layout, graph: LaneGraph, config: GarageConfig, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
+    layout: Layout, graph: LaneGraph, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
 ) -> Subject:
     """Everything that a layout tells; what only lies on the floor is left out."""
-    number = numbered_squares(graph)
     lux = layout.illuminance
     return Subject(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, number) for stall in layout.stalls),
-        nodes=_nodes(layout.structure, graph, number, config.bay),
-        edges=_edges(layout.structure, graph, number, config.bay),
+        stalls=tuple(_outline(stall, graph) for stall in layout.stalls),
+        nodes=_nodes(graph),
+        edges=_edges(graph),
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -49,47 +47,34 @@ def unlaid_subject(
     structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
 ) -> Subject:
     """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
-    number = numbered_squares(graph)
     return Subject(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, number) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
-        nodes=_nodes(structure, graph, number, bay),
-        edges=_edges(structure, graph, number, bay),
+        stalls=tuple(_outline(stall, graph) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
+        nodes=_nodes(graph),
+        edges=_edges(graph),
         structure=structure,
         faults=faults,
     )
 
 
-def _outline(stall: Stall, number: dict[Square, int]) -> StallOutline:
+def _outline(stall: Stall, graph: LaneGraph) -> StallOutline:
     left, right, rear_right, rear_left = stall.corners_m()
     corners = (left, right, rear_right, rear_left)
-    return StallOutline(stall.name, corners, StallUse(stall.use), number[stall.access_square])
+    return StallOutline(stall.name, corners, StallUse(stall.use), graph.number_of[stall.access_square])
 
 
-def _nodes(structure: Structure, graph: LaneGraph, number: dict[Square, int], bay: BayConfig) -> tuple[LaneNode, ...]:
-    nodes = []
-    for row, col in number:
-        at = graph.graph.nodes[row, col]
-        sides = _clear_m(structure, (row, col), bay)
-        nodes.append(LaneNode(graph.kind((row, col)).value, (at["x_m"], at["z_m"]), sides, f"[{row}, {col}]"))
-    return tuple(nodes)
+def _nodes(graph: LaneGraph) -> tuple[LaneNode, ...]:
+    rows = zip(graph.number_of, graph.middles_m.tolist(), graph.clear_m.tolist(), strict=True)
+    return tuple(
+        LaneNode(graph.kind((row, col)).value, (x, z), (across_x, across_z), f"[{row}, {col}]")
+        for (row, col), (x, z), (across_x, across_z) in rows
+    )
 
 
-def _edges(structure: Structure, graph: LaneGraph, number: dict[Square, int], bay: BayConfig) -> tuple[LaneEdge, ...]:
-    edges = []
-    for first, second, one_way in graph.directed_edges():
-        across = 0 if first[1] == second[1] else 1
-        width = min(_clear_m(structure, square, bay)[across] for square in (first, second))
-        edges.append(LaneEdge(number[first], number[second], width, one_way))
-    return tuple(edges)
-
-
-def _clear_m(structure: Structure, square: Square, bay: BayConfig) -> tuple[float, float]:
-    """Metres between the columns across X and Z."""
-    sides = structure.column_widths_mm[square[1]], structure.row_depths_mm[square[0]]
-    width, depth = (float(side) / 1000 - 2 * bay.carriageway_setback_m for side in sides)
-    return width, depth
+def _edges(graph: LaneGraph) -> tuple[LaneEdge, ...]:
+    rows = zip(*(column.tolist() for column in graph.edges), strict=True)
+    return tuple(LaneEdge(start, end, width_m, is_one_way) for (start, end), is_one_way, width_m in rows)
 
 
 def _things(layout: Layout) -> tuple[Thing, ...]:

@@ -132,7 +132,7 @@ def _subject(
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
         return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
     differences = () if listed is None else tuple(_differences(layout, listed))
-    return layout_subject(layout, graph, config, source=str(path), kind=kind, faults=differences)
+    return layout_subject(layout, graph, source=str(path), kind=kind, faults=differences)
 
 
 def _laid_out(

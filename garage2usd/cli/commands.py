@@ -1,6 +1,5 @@
 """A group of commands that share their errors and exit codes."""
 
-import signal
 import sys
 
 import click
@@ -18,7 +17,7 @@ class Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""
-        signal.signal(signal.SIGTERM, TERMINATION)
+        TERMINATION.install()
         try:
             return super().invoke(ctx)
         except Garage2UsdError as error:

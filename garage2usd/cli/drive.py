@@ -72,8 +72,7 @@ def _proofs_of_config(path: Path | None, seed: int | None, progress: "Progress")
     from garage2usd.pipeline import generate  # noqa: PLC0415
 
     garage = generate(load_config(path) if path else None, seed=seed, progress=progress)
-    setback_m = garage.config.bay.carriageway_setback_m
-    return prove_stalls(garage.layout, garage.graph, setback_m=setback_m, progress=progress)
+    return prove_stalls(garage.layout, garage.graph, progress=progress)
 
 
 def _proofs_of_file(path: Path, progress: "Progress") -> "tuple[StallProof, ...]":

@@ -8,6 +8,7 @@ from contextlib import suppress
 from types import FrameType
 from typing import NoReturn
 
+from garage2usd.cli.termination import ENDING
 from garage2usd.limits import enforce
 
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
@@ -37,8 +38,9 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
         with suppress(ProcessLookupError):
             os.kill(child, number)
 
-    for asked in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(asked, pass_on)
+    for asked in (*ENDING, signal.SIGINT):
+        if signal.getsignal(asked) is not signal.SIG_IGN:
+            signal.signal(asked, pass_on)
     _, status = os.waitpid(child, 0)
     if not os.WIFSIGNALED(status):
         sys.exit(os.waitstatus_to_exitcode(status))

@@ -4,26 +4,33 @@ import signal
 import sys
 from types import FrameType
 
-__all__ = ["TERMINATION"]
+__all__ = ["ENDING", "TERMINATION"]
 
-_TERMINATED = 128 + signal.SIGTERM
+ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""Signals that ask a process to end: `kill` sends the first, a terminal that closes the second."""
 
 
 class Termination:
-    """SIGTERM unwinds like an exception, so that temporary files go."""
+    """The signals in `ENDING` unwind like an exception, so that temporary files go."""
 
     def __init__(self) -> None:
-        self._asked = False
+        self._asked = 0
 
-    def __call__(self, _signal: int, _frame: FrameType | None) -> None:
-        """Handle the signal."""
-        self._asked = True
-        sys.exit(_TERMINATED)
+    def install(self) -> None:
+        """Handle the signals, but for those that the caller of this process has it ignore, as `nohup` does."""
+        for number in ENDING:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, self)
+
+    def __call__(self, number: int, _frame: FrameType | None) -> None:
+        """Handle a signal."""
+        self._asked = number
+        sys.exit(128 + number)
 
     def insist(self) -> None:
         """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do."""
         if self._asked:
-            sys.exit(_TERMINATED)
+            sys.exit(128 + self._asked)
 
 
 TERMINATION = Termination()

@@ -12,19 +12,17 @@ from garage2usd.driving.surroundings import fixed_objects, object_name, parked_c
 from garage2usd.layout import Layout, ObjectKind, Stall, lay_out
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.dead_ends import dead_ends
-from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneGraph, LaneKind
 
-__all__ = ["layout_garage", "numbered_squares", "prove_stalls", "square_directions", "without_unreachable"]
+__all__ = ["layout_garage", "prove_stalls", "square_directions", "without_unreachable"]
 
-_USES = {Cell.LANE: SquareUse.LANE, Cell.ENTRANCE: SquareUse.ENTRANCE, Cell.EXIT: SquareUse.EXIT}
+_PORTALS = {LaneKind.ENTRANCE: SquareUse.ENTRANCE, LaneKind.EXIT: SquareUse.EXIT}
 
 
 def prove_stalls(
     layout: Layout,
     graph: LaneGraph,
     *,
-    setback_m: float,
     car: DesignCar | None = None,
     limits: Limits | None = None,
     progress: Progress = silent,
@@ -35,8 +33,6 @@ def prove_stalls(
     ----------
     layout, graph
         The garage.
-    setback_m
-        How far the carriageway stays from squares that are no lane.
     car, limits, progress
         As for `garage2usd.driving.prove_garage`.
 
@@ -45,7 +41,7 @@ def prove_stalls(
     tuple of StallProof
         One for each stall that takes cars, in the order of the stalls.
     """
-    return prove_garage(layout_garage(layout, graph, setback_m), car=car, limits=limits, progress=progress)
+    return prove_garage(layout_garage(layout, graph), car=car, limits=limits, progress=progress)
 
 
 def without_unreachable(
@@ -67,7 +63,7 @@ def without_unreachable(
     """
     unreachable: set[str] = set()
     while True:
-        proofs = prove_stalls(layout, graph, setback_m=config.bay.carriageway_setback_m, progress=progress)
+        proofs = prove_stalls(layout, graph, progress=progress)
         found = {proof.stall for proof in proofs if not proof.is_proven}
         if not found:
             return layout
@@ -76,9 +72,8 @@ def without_unreachable(
         layout = lay_out(layout.structure, graph, config, unreachable=unreachable)
 
 
-def layout_garage(layout: Layout, graph: LaneGraph, setback_m: float) -> DrivenGarage:
+def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:
     """The stalls that take cars, the lanes, and what stands on the floor, each by its `object_name`."""
-    number = numbered_squares(graph)
     present = {object_name(place) for place in layout.of_kind(ObjectKind.CAR)}
     cones = defaultdict(list)
     for place in layout.of_kind(ObjectKind.CONE):
@@ -89,41 +84,31 @@ def layout_garage(layout: Layout, graph: LaneGraph, setback_m: float) -> DrivenG
             car = _on_square("Car", stall)
             own = (car, _on_square("WheelStop", stall), *cones[_on_square("Cone", stall)])
             absent = None if car in present else car
-            access = number[stall.access_square]
+            access = graph.number_of[stall.access_square]
             stalls.append(DrivenStall(stall.name, stall.centre_m, stall.yaw_rad, access, absent, own))
     standing = fixed_objects(layout).joined(parked_cars(layout))
-    return DrivenGarage(tuple(stalls), square_directions(layout.structure, graph, setback_m), standing)
+    return DrivenGarage(tuple(stalls), square_directions(graph), standing)
 
 
-def numbered_squares(graph: LaneGraph) -> dict[Square, int]:
-    """The number of each lane and portal, in reading order."""
-    return {square: number for number, square in enumerate(sorted(graph.graph.nodes))}
-
-
-def square_directions(structure: Structure, graph: LaneGraph, setback_m: float) -> LaneDirections:
-    """The lanes of a structure by direction; both directions of each edge."""
-    number = numbered_squares(graph)
-    widths_m, depths_m = structure.column_widths_mm / 1000, structure.row_depths_mm / 1000
+def square_directions(graph: LaneGraph) -> LaneDirections:
+    """The lanes of a graph by direction; both directions of each edge."""
     squares = tuple(
-        LaneSquare(
-            (graph.graph.nodes[row, col]["x_m"], graph.graph.nodes[row, col]["z_m"]),
-            (float(widths_m[col]), float(depths_m[row])),
-            _USES[Cell(structure.cells[row, col])],
+        LaneSquare((x, z), (width, depth), _PORTALS.get(graph.kind(square), SquareUse.LANE))
+        for square, (x, z), (width, depth) in zip(
+            graph.number_of, graph.middles_m.tolist(), graph.sides_m.tolist(), strict=True
         )
-        for row, col in number
     )
     carriageways: dict[DirectedEdge, float] = {}
-    for one in number:
-        for other in sorted(graph.graph[one]):
-            side_m = float(depths_m[one[0]] if one[0] == other[0] else widths_m[one[1]])
-            carriageways[number[one], number[other]] = side_m - 2 * setback_m
+    for (one, other), width_m in zip(graph.edges.ends.tolist(), graph.edges.width_m.tolist(), strict=True):
+        carriageways[one, other] = carriageways[other, one] = width_m
+    carriageways = dict(sorted(carriageways.items()))
     backing: set[DirectedEdge] = set()
-    for end in dead_ends(structure):
+    for end in dead_ends(graph.structure):
         if not end.needs_turning_stall:
             towards = [*reversed(end.squares)]
             outside = [square for square in graph.graph[towards[0]] if square not in end.squares]
             ways = [(square, towards[0]) for square in outside] + list(pairwise(towards))
-            backing.update((number[one], number[other]) for one, other in ways)
+            backing.update((graph.number_of[one], graph.number_of[other]) for one, other in ways)
     return LaneDirections(squares, carriageways, frozenset(backing))
 
 

@@ -7,7 +7,6 @@ from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
-from garage2usd.layout.tight import clear_aisle_m
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneGraph
 
@@ -36,7 +35,7 @@ def refuse_undrivable(
         With the setting of the aisle's width and the stalls without ways.
     """
     every = max(1, -(-len(tight) // _MOST_TRIED))
-    garage = layout_garage(layout, graph, config.bay.carriageway_setback_m)
+    garage = layout_garage(layout, graph)
     names = {stall.name for stall in tight[::every]}
     tried = [at for at in garage.stalls if at.name in names]
     proofs = prove_garage(garage, tried, most_explained=0, progress=progress)
@@ -44,7 +43,7 @@ def refuse_undrivable(
     if not without:
         return
     found = [stall for stall in tight if stall.name in without]
-    narrowest_m = min(clear_aisle_m(layout.structure, stall, config.bay) for stall in found)
+    narrowest_m = min(graph.clear_aisle_m(stall.access_square, stall.edge) for stall in found)
     named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
     field, value = _setting(config, found[0])
     raise ConfigError(

@@ -5,12 +5,13 @@ import shutil
 from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
+from typing import NamedTuple
 
 from garage2usd.assets import MATERIALS, texture_folder
 from garage2usd.config.stage import StageConfig, StageForm
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
-from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
 from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import write_garage_layer
@@ -22,7 +23,7 @@ from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["StageFormat", "asset_folder_name", "write_labels", "write_stage"]
+__all__ = ["StageFiles", "StageFormat", "arrangement_of", "asset_folder_name", "write_labels", "write_stage"]
 
 
 class StageFormat(StrEnum):
@@ -38,9 +39,20 @@ def asset_folder_name(stage_path: Path) -> str:
     return f"{stage_path.stem}_assets"
 
 
-def write_labels(layout: Layout, path: Path, config: StageConfig | None = None) -> None:
+class StageFiles(NamedTuple):
+    """What a stage consists of: its file, and the folder of its assets where it does not hold them itself."""
+
+    stage: Path
+    assets: Path | None
+
+
+def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
+    """Which prim each object of a layout is in a stage of the form that the settings ask for."""
+    return arrange(layout, nested=config.is_nested(int((layout.structure.cells != Cell.OBSTACLE).sum())))
+
+
+def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.stage.labels.label_table`)."""
-    arrangement = arrange(layout, nested=_is_nested(layout, config))
     table = label_table(layout, arrangement.paths())
     lists = (f' "{name}": [\n  ' + ",\n  ".join(map(json.dumps, entries)) + "\n ]" for name, entries in table.items())
     path.write_text("{\n" + ",\n".join(lists) + "\n}\n", encoding="utf-8")
@@ -51,11 +63,11 @@ def write_stage(
     graph: LaneGraph,
     path: Path,
     *,
+    arrangement: Arrangement,
     metadata: Mapping[str, str | int],
-    setback_m: float,
-    config: StageConfig | None = None,
+    config: StageConfig,
     progress: Progress = silent,
-) -> tuple[Path, ...]:
+) -> StageFiles:
     """Write a stage into a folder of its own.
 
     Parameters
@@ -64,21 +76,20 @@ def write_stage(
         What to write.
     path
         The stage's file in an existing, empty folder; its extension decides the format.
+    arrangement
+        Which prim each object is, by `arrangement_of`.
     metadata
         Written into the root's customData.
-    setback_m
-        How far the carriageway stays from squares that are no lane.
     config
-        Texture quality and form; the defaults if left out.
+        Texture quality and form.
     progress
         Told of each prototype.
 
     Returns
     -------
-    tuple of Path
-        What now stands in the folder: the asset folder, if the format has one, then the stage.
+    StageFiles
+        What now stands in the folder.
     """
-    config = config or StageConfig()
     packed = path.suffix == StageFormat.USDZ
     folder = path.parent / ("assets" if packed else asset_folder_name(path))
     textures = folder / TEXTURE_FOLDER
@@ -100,27 +111,22 @@ def write_stage(
     write_garage_layer(
         layout,
         graph,
-        arrangement=arrange(layout, nested=_is_nested(layout, config)),
+        arrangement=arrangement,
         prototypes=prototypes,
         asset_folder=folder.name,
         metadata=metadata,
-        setback_m=setback_m,
         last_frame=write_drive(folder / f"{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
     )
     if config.form is StageForm.FLAT:
         _make_flat(layer_path, folder)
     if not packed:
-        return folder, path
+        return StageFiles(path, folder)
     inner = sorted(file for file in folder.rglob("*") if file.is_file())
     write_usdz(path, [(file.relative_to(path.parent).as_posix(), file) for file in (layer_path, *inner)])
     shutil.rmtree(folder)
     layer_path.unlink()
-    return (path,)
-
-
-def _is_nested(layout: Layout, config: StageConfig | None) -> bool:
-    return (config or StageConfig()).is_nested(int((layout.structure.cells != Cell.OBSTACLE).sum()))
+    return StageFiles(path, None)
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:

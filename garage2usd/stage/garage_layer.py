@@ -40,7 +40,6 @@ def write_garage_layer(
     prototypes: Mapping[Spec, Prototype],
     asset_folder: str,
     metadata: Mapping[str, str | int],
-    setback_m: float,
     last_frame: int,
     path: Path,
 ) -> None:
@@ -59,8 +58,6 @@ def write_garage_layer(
         objects where those are shared.
     metadata
         Written into the root's customData beside S, R and C.
-    setback_m
-        How far the carriageway stays from squares that are no lane.
     last_frame
         Last frame of the driving camera, whose asset stands beside the others.
     path
@@ -81,7 +78,7 @@ def write_garage_layer(
     save(layer, path)
     # of a large garage each layer is a hundred megabytes while it is written
     del layer
-    write_lane_graph(path.parent / asset_folder / LANE_GRAPH_FILE, layout, graph, setback_m=setback_m)
+    write_lane_graph(path.parent / asset_folder / LANE_GRAPH_FILE, layout, graph)
     for name, rows in arrangement.scattered.items():
         write_instancer(path.parent / asset_folder / f"{name}.usdc", layout.placements, rows, prototypes)
 

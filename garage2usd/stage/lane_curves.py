@@ -13,7 +13,6 @@ from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.stage.authoring import attribute, define, save, set_units
 from garage2usd.stage.curves import author_curves
-from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
@@ -28,7 +27,7 @@ _LINE_WIDTH_M = 0.1
 _TYPES = Sdf.ValueTypeNames
 
 
-def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m: float) -> None:
+def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
     """Write a layer of its own, as text is slow with long arrays, with the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
@@ -48,57 +47,34 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph, *, setback_m:
         layer.defaultPrim = path.stem
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
-        squares = np.array(sorted(graph.graph.nodes), dtype=np.int32)
-        number_of = np.full(layout.structure.shape, -1, dtype=np.int32)
-        number_of[tuple(squares.T)] = np.arange(len(squares))
-        _author_nodes(layer, root.AppendChild("Nodes"), layout.structure, graph, squares, setback_m)
-        _author_edges(layer, root.AppendChild("Edges"), layout.structure, graph, number_of, setback_m)
-        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, number_of)
+        _author_nodes(layer, root.AppendChild("Nodes"), graph)
+        _author_edges(layer, root.AppendChild("Edges"), graph)
+        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, graph)
     save(layer, path)
 
 
-def _author_nodes(
-    layer: Sdf.Layer,
-    path: Sdf.Path,
-    structure: Structure,
-    graph: LaneGraph,
-    squares: NDArray[np.int32],
-    setback_m: float,
-) -> None:
+def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    prim = _author_curves(layer, path, _middles_m(structure, squares)[:, None] + ring, closed=True)
-    _author_words(prim, "garage:lane:kind", (graph.kind((row, col)).value for row, col in squares.tolist()))
-    _author_squares(prim, "garage:lane", squares)
-    widths = (_sides_m(structure, squares) - 2 * setback_m).astype(np.float32)
-    attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths))
+    prim = _author_curves(layer, path, graph.middles_m[:, None] + ring, closed=True)
+    _author_words(prim, "garage:lane:kind", (graph.kind(square).value for square in graph.number_of))
+    _author_squares(prim, "garage:lane", graph.squares)
+    attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(graph.clear_m.astype(np.float32)))
 
 
-def _author_edges(
-    layer: Sdf.Layer,
-    path: Sdf.Path,
-    structure: Structure,
-    graph: LaneGraph,
-    number_of: NDArray[np.int32],
-    setback_m: float,
-) -> None:
-    edges = graph.directed_edges()
-    ends = np.array([(first, second) for first, second, _ in edges], dtype=np.int32)
-    ways = np.stack([_middles_m(structure, squares) for squares in (ends[:, 0], ends[:, 1])], axis=1)
-    prim = _author_curves(layer, path, ways, closed=False)
-    for name, squares in (("from", ends[:, 0]), ("to", ends[:, 1])):
-        _author_numbers(prim, f"garage:lane:{name}", number_of[tuple(squares.T)])
-    directions = ("forward" if one_way else "both" for _, _, one_way in edges)
-    _author_words(prim, "garage:lane:direction", directions)
-    lengths = np.linalg.norm(ways[:, 1] - ways[:, 0], axis=1).astype(np.float32)
+def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
+    ends, is_one_way, width_m = graph.edges
+    lines = graph.middles_m[ends]
+    prim = _author_curves(layer, path, lines, closed=False)
+    for name, numbers in (("from", ends[:, 0]), ("to", ends[:, 1])):
+        _author_numbers(prim, f"garage:lane:{name}", numbers)
+    _author_words(prim, "garage:lane:direction", np.where(is_one_way, "forward", "both").tolist())
+    lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).astype(np.float32)
     attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
-    along_z = ends[:, 0, 1] == ends[:, 1, 1]
-    sides = np.minimum(_sides_m(structure, ends[:, 0]), _sides_m(structure, ends[:, 1]))
-    widths = (np.where(along_z, sides[:, 0], sides[:, 1]) - 2 * setback_m).astype(np.float32)
-    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(widths))
+    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(width_m.astype(np.float32)))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, number_of: NDArray[np.int32]) -> None:
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: LaneGraph) -> None:
     prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
     _author_words(prim, "garage:stall:id", stalls.names())
     _author_words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
@@ -109,7 +85,8 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, number_
     ):
         _author_words(prim, f"garage:stall:{name}", (str(words[number]) for number in numbers.tolist()))
     _author_squares(prim, "garage:stall", stalls.square)
-    _author_numbers(prim, "garage:stall:accessNode", number_of[tuple(stalls.access_square.T)])
+    access = [graph.number_of[row, col] for row, col in stalls.access_square.tolist()]
+    _author_numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
 
 
 def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
@@ -120,22 +97,6 @@ def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
     across, along = np.array([-1, 1, 1, -1]) * half_width, np.array([1, 1, -1, -1]) * half_length
     cos, sin = np.cos(yaw), np.sin(yaw)
     return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
-
-
-def _middles_m(structure: Structure, squares: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Middles (x, z) of squares; float64, shape (n, 2)."""
-    rows, cols = squares.T
-    x, z = ((edges[:-1] + edges[1:]) / 2 for edges in (structure.column_edges_m, structure.row_edges_m))
-    return np.stack([x[cols], z[rows]], axis=1)
-
-
-def _sides_m(structure: Structure, squares: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Extent of squares along X and Z; float64, shape (n, 2)."""
-    rows, cols = squares.T
-    sides: NDArray[np.float64] = (
-        np.stack([structure.column_widths_mm[cols], structure.row_depths_mm[rows]], axis=1) / 1000
-    )
-    return sides
 
 
 def _author_words(prim: Sdf.PrimSpec, name: str, words: Iterable[str]) -> None:

@@ -3,16 +3,19 @@
 from collections import Counter
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import UnreachableStallError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.structure.stalls import StallRow, stall_rows
+from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
-__all__ = ["LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
+__all__ = ["LaneEdges", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
 
@@ -36,12 +39,34 @@ class StallType(StrEnum):
     TYPE_4 = "type_4"
 
 
-@dataclass(frozen=True, eq=False)
-class LaneGraph:
-    """Lanes and portals as a frozen graph, with what they serve.
+class LaneEdges(NamedTuple):
+    """Pairs of squares that join, one a row.
 
     Attributes
     ----------
+    ends
+        int32, shape (edges, 2): numbers of the nodes; from the first to the second where it is one-way.
+    is_one_way
+        bool, shape (edges,).
+    width_m
+        float64, shape (edges,): between the columns on both sides.
+    """
+
+    ends: NDArray[np.int32]
+    is_one_way: NDArray[np.bool_]
+    width_m: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LaneGraph:
+    """Lanes and portals as a frozen graph, with what they serve. Nodes are numbered in reading order.
+
+    Attributes
+    ----------
+    structure
+        The matrices that it was built from.
+    setback_m
+        How far the carriageway stays from squares that are not lanes.
     graph
         `networkx.Graph`; a node is a (row, col) with ``kind`` (`LaneKind`), ``x_m`` and ``z_m`` of its centre; an edge
         joins squares that share a side, with ``length_m`` between their centres.
@@ -51,29 +76,72 @@ class LaneGraph:
         The rows of stalls, each with the lane beyond its edge reached from an entrance and leading to an exit.
     """
 
+    structure: Structure
+    setback_m: float
     graph: "nx.Graph[Square]"
     stall_types: dict[Square, StallType]
     stall_rows: tuple[StallRow, ...]
+
+    @cached_property
+    def squares(self) -> NDArray[np.int32]:
+        """(row, col) of each node; int32, shape (nodes, 2)."""
+        return np.array(sorted(self.graph.nodes), dtype=np.int32).reshape(-1, 2)
+
+    @cached_property
+    def number_of(self) -> dict[Square, int]:
+        """Number of the node on each square that has one."""
+        return {(row, col): number for number, (row, col) in enumerate(self.squares.tolist())}
+
+    @cached_property
+    def middles_m(self) -> NDArray[np.float64]:
+        """(x, z) of the middle of each node's square; float64, shape (nodes, 2)."""
+        x, z = ((edges[:-1] + edges[1:]) / 2 for edges in (self.structure.column_edges_m, self.structure.row_edges_m))
+        rows, cols = self.squares.T
+        return np.stack([x[cols], z[rows]], axis=1)
+
+    @cached_property
+    def sides_m(self) -> NDArray[np.float64]:
+        """Extent of each node's square along X and Z; float64, shape (nodes, 2)."""
+        rows, cols = self.squares.T
+        sides: NDArray[np.float64] = (
+            np.stack([self.structure.column_widths_mm[cols], self.structure.row_depths_mm[rows]], axis=1) / 1000
+        )
+        return sides
+
+    @cached_property
+    def clear_m(self) -> NDArray[np.float64]:
+        """Metres between the columns across X and Z on each node's square; float64, shape (nodes, 2)."""
+        clear: NDArray[np.float64] = self.sides_m - 2 * self.setback_m
+        return clear
+
+    @cached_property
+    def edges(self) -> LaneEdges:
+        """All edges, in reading order.
+
+        Notes
+        -----
+        One-way are those at portals: one comes from an entrance and goes into an exit.
+        """
+        ends, one_way = [], []
+        for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
+            kinds = self.kind(first), self.kind(second)
+            if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
+                first, second = second, first  # noqa: PLW2901
+            ends.append((self.number_of[first], self.number_of[second]))
+            one_way.append(LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds)
+        pairs = np.array(ends, dtype=np.int32).reshape(-1, 2)
+        across = np.where(self.squares[pairs[:, 0], 1] == self.squares[pairs[:, 1], 1], 0, 1)
+        # squares that join in a line have the same side across it: R and C are constant along lines
+        return LaneEdges(pairs, np.array(one_way, dtype=np.bool_), self.clear_m[pairs[:, 0], across])
+
+    def clear_aisle_m(self, square: Square, edge: Edge) -> float:
+        """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
+        return float(self.clear_m[self.number_of[square], 1 if edge in {Edge.UP, Edge.DOWN} else 0])
 
     def kind(self, square: Square) -> LaneKind:
         """Kind of one lane or portal."""
         kind: LaneKind = self.graph.nodes[square]["kind"]
         return kind
-
-    def directed_edges(self) -> list[tuple[Square, Square, bool]]:
-        """Each pair of squares that join, in order, and whether one drives only from the first to the second.
-
-        Notes
-        -----
-        That is so at portals: one comes from an entrance and goes into an exit.
-        """
-        edges = []
-        for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
-            kinds = self.kind(first), self.kind(second)
-            if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
-                first, second = second, first  # noqa: PLW2901
-            edges.append((first, second, LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds))
-        return edges
 
     def kind_counts(self) -> dict[str, int]:
         """How many squares there are of each kind of lane and portal, and of each stall type."""
@@ -105,7 +173,9 @@ def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
     entrance as two lanes, so lane and portal neighbours are counted instead.
     """
     graph = _typed_graph(structure)
-    return LaneGraph(nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay))
+    return LaneGraph(
+        structure, bay.carriageway_setback_m, nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay)
+    )
 
 
 def _typed_graph(structure: Structure) -> "nx.Graph[Square]":

@@ -8,7 +8,7 @@ from garage2usd.checks import RULES, check, check_layout
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError
-from garage2usd.layout.tight import clear_aisle_m, tight_stalls
+from garage2usd.layout.tight import tight_stalls
 from garage2usd.pipeline import generate
 
 QUICK = {"episodes": 30, "starts": 1}
@@ -52,10 +52,10 @@ def test_stalls_are_in_doubt_beside_narrow_aisles_alone():
     wide, narrow = (
         generate(GarageConfig(seed=1, plan=QUICK, bay={**UNIFORM, "square_side_m": side})) for side in (6.2, 6.19)
     )
-    assert not tight_stalls(wide.layout.structure, wide.layout.stalls, wide.config.bay)
-    found = tight_stalls(narrow.layout.structure, narrow.layout.stalls, narrow.config.bay)
+    assert not tight_stalls(wide.graph, wide.layout.stalls)
+    found = tight_stalls(narrow.graph, narrow.layout.stalls)
     assert found == tuple(stall for stall in narrow.layout.stalls if stall.use.takes_cars)
-    aisles = [clear_aisle_m(narrow.layout.structure, stall, narrow.config.bay) for stall in found]
+    aisles = [narrow.graph.clear_aisle_m(stall.access_square, stall.edge) for stall in found]
     assert aisles == pytest.approx([5.49] * len(found))
 
 
@@ -105,7 +105,7 @@ def test_the_check_of_a_build_is_that_of_its_report_without_the_long_rules(tmp_p
     config = GarageConfig(site={"structure": DRAWING}, bay={"square_side_m": 5.4, "dimensioned": False})
     made = build(config, tmp_path / "g.usda")
     garage = made.garage
-    subject = layout_subject(garage.layout, garage.graph, config, source="", kind="report")
+    subject = layout_subject(garage.layout, garage.graph, source="", kind="report")
     assert list(made.findings) == check(subject, config.standard) == check_layout(garage.layout, garage.graph, config)
     assert (
         {"aisle-width", "portal-width"} <= {finding.rule for finding in made.findings} < {rule.name for rule in RULES}

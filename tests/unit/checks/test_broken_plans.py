@@ -51,7 +51,7 @@ def found_in(settings, profile=CN):
     depths = side if config.bay.row_depths_m is None else config.bay.row_depths_m
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
     graph = build_lane_graph(structure, config.bay)
-    subject = layout_subject(lay_out(structure, graph, config), graph, config, source="", kind="plan")
+    subject = layout_subject(lay_out(structure, graph, config), graph, source="", kind="plan")
     return {finding.rule for finding in check(subject, profile)}
 
 

@@ -35,7 +35,7 @@ confidence = "high"
 
 def errors_of(config):
     garage = generate(config)
-    subject = layout_subject(garage.layout, garage.graph, config, source="", kind="report")
+    subject = layout_subject(garage.layout, garage.graph, source="", kind="report")
     return [f for f in check(subject, config.standard) if f.severity is Severity.ERROR], garage
 
 

@@ -54,7 +54,7 @@ def test_the_doors_of_a_stage_are_those_of_its_layout(made, stage):
     assert len(placed) >= 2
     for subject in (
         subject_of_stage(stage, source="stage"),
-        layout_subject(garage.layout, garage.graph, garage.config, source="layout", kind="plan"),
+        layout_subject(garage.layout, garage.graph, source="layout", kind="plan"),
     ):
         found = sorted(door.position for door in core_doors(subject))
         assert len(found) == len(placed)

@@ -15,7 +15,7 @@ from sample_files import REPOSITORY
 import garage2usd
 from garage2usd.checks import check_file
 from garage2usd.driving import DesignCar, DrivenGarage, Manoeuvre, Obstacles, prove_garage, prove_stalls
-from garage2usd.driving.layout_garage import layout_garage, numbered_squares, square_directions
+from garage2usd.driving.layout_garage import layout_garage, square_directions
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
@@ -40,14 +40,12 @@ def drawn(*, structure=DRAWN, **sections):
 
 
 def proofs_of(garage, **settings):
-    setback_m = garage.config.bay.carriageway_setback_m
-    return prove_stalls(garage.layout, garage.graph, setback_m=setback_m, **settings)
+    return prove_stalls(garage.layout, garage.graph, **settings)
 
 
 def directions_of(garage):
     """The lanes by direction, and (row, col) of each."""
-    directions = square_directions(garage.plan.structure, garage.graph, garage.config.bay.carriageway_setback_m)
-    return directions, list(numbered_squares(garage.graph))
+    return square_directions(garage.graph), list(garage.graph.number_of)
 
 
 def named(edges, squares):
@@ -258,7 +256,7 @@ def test_a_single_cause_is_named():
     stall = next(s for s in garage.layout.stalls if s.name == proofs[4].stall)
     x, z = np.mean(stall.corners_m()[:2], axis=0)
     pillar = Obstacles.of([("new pillar", shapely.box(x - 0.3, z - 0.3, x + 0.3, z + 0.3))])
-    made = layout_garage(garage.layout, garage.graph, garage.config.bay.carriageway_setback_m)
+    made = layout_garage(garage.layout, garage.graph)
     made = replace(made, standing=made.standing.joined(pillar))
     (proof,) = prove_garage(made, [s for s in made.stalls if s.name == stall.name])
     assert (proof.is_proven, proof.touched, proof.is_single_cause) == (False, ("new pillar",), True)
@@ -281,7 +279,7 @@ def turned(garage, yaw_rad):
 @pytest.mark.parametrize("yaw_rad", [1e-6, 0.5])
 def test_a_garage_that_is_turned_is_driven_alike(garage, proofs, yaw_rad):
     """Squares keep their sides, which only matter where they are shorter than a car."""
-    made = turned(layout_garage(garage.layout, garage.graph, garage.config.bay.carriageway_setback_m), yaw_rad)
+    made = turned(layout_garage(garage.layout, garage.graph), yaw_rad)
     for proof, other in zip(proofs, prove_garage(made), strict=True):
         assert (other.stall, other.is_proven, other.is_full) == (proof.stall, True, True)
         assert other.way_out.clearance_m >= 0.05
