@@ -11,7 +11,7 @@ namespace Garage.Usd
         {
             Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes,
             VariantSetNames, VariantSelection, ApiSchemas, PrimChildren, PrimOrder, PropertyOrder, Default, Samples,
-            Custom, Variability, Targets, SubLayers, SubLayerOffsets, Relocates, Ignored,
+            Custom, Variability, Targets, SubLayers, SubLayerOffsets, Relocates, Spline, Ignored,
         }
 
         static readonly Dictionary<string, Field> Fields = new Dictionary<string, Field>
@@ -28,7 +28,7 @@ namespace Garage.Usd
             { "subLayerOffsets", Field.SubLayerOffsets }, { "layerRelocates", Field.Relocates },
             { "relocates", Field.Relocates }, { "properties", Field.Ignored }, { "variantSetChildren", Field.Ignored },
             { "variantChildren", Field.Ignored }, { "targetChildren", Field.Ignored },
-            { "connectionChildren", Field.Ignored }, { "spline", Field.Ignored },
+            { "connectionChildren", Field.Ignored }, { "spline", Field.Spline },
         };
 
         readonly CrateBytes bytes;
@@ -83,7 +83,7 @@ namespace Garage.Usd
             ReadStrings();
             ReadFields();
             paths = new CratePaths(bytes, file, Section("PATHS"), tokens);
-            values = new CrateValues(bytes, version, tokens, strings, paths.Text);
+            values = new CrateValues(bytes, version, tokens, strings, paths.Text, layer);
             ReadSpecs();
             return layer;
         }
@@ -291,6 +291,8 @@ namespace Garage.Usd
             return variant;
         }
 
+        readonly Dictionary<string, UsdType> declaredTypes = new Dictionary<string, UsdType>();
+
         // the last property that was made of a set of fields: others of the same name share it
         PropertySpec[] propertyOfSet;
 
@@ -422,9 +424,32 @@ namespace Garage.Usd
                     case Field.Custom: property.IsCustom = NumberOf(field) != 0; break;
                     case Field.Variability: property.IsUniform = NumberOf(field) == 1 && !isRelationship; break;
                     case Field.Targets: property.Targets = NamesOf(field); break;
+                    case Field.Spline: layer.SkipSpline(name); break;
                     case Field.Other: property.AddField(fieldNames[field], FieldValue(field)); break;
                 }
             }
+            if (property.Default != null) { property.Default = OfType(property.Default, property.TypeName); }
+            TimeSamples samples = property.Samples;
+            if (samples != null && samples.Values.Length > 0 && OfType(samples.Values[0], property.TypeName) == null)
+            {
+                property.Samples = null;
+            }
+        }
+
+        // as what the attribute is declared to be; null where that is no type of this reader
+        UsdValue OfType(UsdValue value, string typeName)
+        {
+            UsdType type;
+            if (!declaredTypes.TryGetValue(typeName, out type))
+            {
+                bool isArray = typeName.EndsWith("[]", StringComparison.Ordinal);
+                type = UsdTypes.OfName(isArray ? typeName.Substring(0, typeName.Length - 2) : typeName);
+                declaredTypes.Add(typeName, type);
+            }
+            if (type == value.Type || ReferenceEquals(value, UsdValue.Blocked)) { return value; }
+            if (type != UsdType.None) { return value.AsFloating(type); }
+            layer.SkipType(typeName);
+            return null;
         }
     }
 }
