@@ -44,6 +44,7 @@ namespace Garage.Usd
         int[] fieldSets;
         object[] fieldValues;
         bool[] fieldIsRead;
+        readonly DeclaredTypes declared;
         CratePaths paths;
         CrateValues values;
 
@@ -52,6 +53,7 @@ namespace Garage.Usd
             bytes = new CrateBytes(data, identifier);
             file = identifier;
             layer = new Layer(identifier);
+            declared = new DeclaredTypes(bytes, layer);
         }
 
         public static bool Knows(byte[] data)
@@ -291,8 +293,6 @@ namespace Garage.Usd
             return variant;
         }
 
-        readonly Dictionary<string, UsdType> declaredTypes = new Dictionary<string, UsdType>();
-
         // the last property that was made of a set of fields: others of the same name share it
         PropertySpec[] propertyOfSet;
 
@@ -428,28 +428,7 @@ namespace Garage.Usd
                     case Field.Other: property.AddField(fieldNames[field], FieldValue(field)); break;
                 }
             }
-            if (property.Default != null) { property.Default = OfType(property.Default, property.TypeName); }
-            TimeSamples samples = property.Samples;
-            if (samples != null && samples.Values.Length > 0 && OfType(samples.Values[0], property.TypeName) == null)
-            {
-                property.Samples = null;
-            }
-        }
-
-        // as what the attribute is declared to be; null where that is no type of this reader
-        UsdValue OfType(UsdValue value, string typeName)
-        {
-            UsdType type;
-            if (!declaredTypes.TryGetValue(typeName, out type))
-            {
-                bool isArray = typeName.EndsWith("[]", StringComparison.Ordinal);
-                type = UsdTypes.OfName(isArray ? typeName.Substring(0, typeName.Length - 2) : typeName);
-                declaredTypes.Add(typeName, type);
-            }
-            if (type == value.Type || ReferenceEquals(value, UsdValue.Blocked)) { return value; }
-            if (type != UsdType.None) { return value.AsFloating(type); }
-            layer.SkipType(typeName);
-            return null;
+            declared.Apply(property);
         }
     }
 }
