@@ -1,8 +1,8 @@
 """Compare what the C# readers make of every stage of a folder with what ``pxr`` makes of it.
 
-``python tests/unity/foreign_stages.py FOLDER [--list]``: how many stages ``pxr`` opens, how many of these are equal to the
-last value, how many differ and say by name what was skipped, and how many differ in silence. The exit status is 1 where any
-stage is refused, differs in silence, or fewer than 97 % are equal.
+``python tests/unity/foreign_stages.py FOLDER [--list]``: how many stages ``pxr`` opens, how many of these are equal to
+the last value, how many differ and name what was skipped, and how many differ in silence. The exit status is 1 where a
+stage is refused or differs in silence, or where fewer than 97 % are equal.
 """
 
 import argparse
@@ -22,7 +22,8 @@ from pxr import Tf, Usd
 ENDINGS = {".usd", ".usda", ".usdc", ".usdz"}
 LEAST_EQUAL = 0.97
 PXR_LIMIT_S = 120
-LFS = b"version https://git-lfs"
+MOST_LINES = 20
+POINTER = b"version https://git-lfs"
 ABSENT = ("does not exist", "is not in the package")
 """What a warning ends with that ``pxr`` shares, as neither has the file: it is no reason to differ."""
 
@@ -71,39 +72,41 @@ def verdict(wanted: dict, found: dict) -> tuple[str, list[str]]:
     if not lines:
         return "equal", warnings
     skipped = [warning for warning in warnings if not warning.endswith(ABSENT)]
-    return ("named" if skipped else "silent"), [*warnings, *(f"  {line}" for line in lines)]
+    return ("named" if skipped else "silent"), [*warnings, *lines]
+
+
+def compared(folder: Path, *, lists_equal: bool) -> Counter:
+    """How many stages of the folder end in which way; prints all but the equal ones, and these too if asked."""
+    counts = Counter()
+    pxr = Pxr()
+    with tempfile.TemporaryDirectory() as scratch:
+        usd_dump = reader.Reader(reader.compile_program(Path(scratch)))
+        for path in sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file()):
+            if path.read_bytes().startswith(POINTER):
+                counts["pointer"] += 1
+                continue
+            wanted = pxr.ask(path)
+            if isinstance(wanted, str):
+                kind, lines = "unread", [" ".join(wanted.split())[:300]]
+            else:
+                kind, lines = verdict(wanted, usd_dump.ask("stage", path, folder))
+            counts[kind] += 1
+            if kind != "equal" or (lists_equal and lines):
+                print(f"{kind} {path.relative_to(folder)}", *lines[:MOST_LINES], sep="\n  ", flush=True)  # noqa: T201
+        usd_dump.close()
+    return counts
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="all stages in it and below; it is the root of what they refer to")
-    parser.add_argument("--list", action="store_true", help="name the warnings of equal stages too")
+    parser.add_argument("--list", action="store_true", help="print the warnings of equal stages too")
     arguments = parser.parse_args()
-    folder = arguments.folder.resolve()
-    paths = sorted(path for path in folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
-    counts = Counter()
-    pxr = Pxr()
-    with tempfile.TemporaryDirectory() as scratch:
-        usd_dump = reader.Reader(reader.compile_program(Path(scratch)))
-        for path in paths:
-            name = path.relative_to(folder)
-            if path.read_bytes().startswith(LFS):
-                counts["pointer"] += 1
-                continue
-            wanted = pxr.ask(path)
-            if isinstance(wanted, str):
-                counts["unread"] += 1
-                print(f"unread {name}\n  {' '.join(wanted.split())[:300]}", flush=True)
-                continue
-            kind, lines = verdict(wanted, usd_dump.ask("stage", path, folder))
-            counts[kind] += 1
-            if kind != "equal" or (arguments.list and lines):
-                print(f"{kind} {name}", *(f"  {line}" for line in lines[:20]), sep="\n", flush=True)
-        usd_dump.close()
+    counts = compared(arguments.folder.resolve(), lists_equal=arguments.list)
     opened = sum(counts[kind] for kind in ("equal", "named", "silent", "refused"))
     share = counts["equal"] / max(opened, 1)
-    print(
-        f"{len(paths)} stages, {counts['pointer']} of them pointers without the file; pxr opens {opened}: "
+    print(  # noqa: T201
+        f"{counts.total()} stages, {counts['pointer']} of them pointers without the file; pxr opens {opened}: "
         f"{counts['equal']} equal ({share:.1%}), {counts['named']} that name what they skipped, "
         f"{counts['silent']} different in silence, {counts['refused']} refused"
     )

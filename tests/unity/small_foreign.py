@@ -1,4 +1,4 @@
-"""Small stages of kinds that other people make: file names and texts, the first file the root layer, and what is warned of."""
+"""Small stages of kinds that others make: file names and texts, the first file the root, and what is warned of."""
 
 OF_MANY_FOLDERS = {
     "scenes/shots/shot.usd": """(

@@ -1,5 +1,6 @@
 """Stages that others made: several folders below one root, formats and values that are not read, links."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -74,15 +75,15 @@ def test_without_a_root_the_folder_of_the_stage_is_it(usd_dump, tmp_path):
     assert set(found["prims"]) == {"/Chair", "/Lamp", "/Set"}
     beyond = ["../../common/axis.usd", "./../look.usd", "../../assets/chair/chair.usd"]
     beyond += ["../../assets/./lamp//../lamp/lamp.usd", "../set.usd"]
-    assert found["warnings"] == [
-        f"shot.usd: @{path}@ is not a relative path within the root folder" for path in beyond
-    ]
+    assert found["warnings"] == [f"shot.usd: @{path}@ is not a relative path within the root folder" for path in beyond]
     assert found == usd_dump.ask("stage", root, root.parent)
 
 
-@pytest.mark.parametrize("path", ["../../outside.usd", "../project/../../outside.usd", "{absolute}", "a/../../../outside.usd"])
+@pytest.mark.parametrize(
+    "path", ["../../outside.usd", "../project/../../outside.usd", "{absolute}", "a/../../../outside.usd"]
+)
 def test_the_root_folder_is_not_left(usd_dump, tmp_path, path):
-    (outside,) = [written(tmp_path, {"outside.usd": OUTSIDE}, "usda")]
+    outside = written(tmp_path, {"outside.usd": OUTSIDE}, "usda")
     path = path.format(absolute=outside)
     text = f"""
 def "A" ( references = @{path}@</Outside> ) {{ float kept = 1 }}
@@ -116,7 +117,9 @@ def "C" ( references = @../../outside.usd@</Outside> ) { float kept = 1 }
     package.parent.mkdir()
     with Sdf.ZipFileWriter.CreateNew(str(package)) as archive:
         archive.AddFile(str(inner), "inner.usda")
-    outer = written(tmp_path, {"scenes/shot.usd": '\ndef "S" ( references = @../packages/package.usdz@</C> ) {}\n'}, "usda")
+    outer = written(
+        tmp_path, {"scenes/shot.usd": '\ndef "S" ( references = @../packages/package.usdz@</C> ) {}\n'}, "usda"
+    )
     for stage in package, outer:
         found = usd_dump.ask("stage", stage, tmp_path)
         assert found["warnings"]
@@ -152,7 +155,10 @@ def "Near" ( references = @../near.usd@</Near> ) {}
 
 def test_a_link_that_the_caller_names_is_followed(usd_dump, tmp_path):
     """Projects have linked folders; what lies beside the stage in one of these is as near as the stage."""
-    files = {"scene.usd": '\ndef "A" ( references = @near.usd@</Near> ) {}\n', "near.usd": 'def "Near" { float near = 1 }\n'}
+    files = {
+        "scene.usd": '\ndef "A" ( references = @near.usd@</Near> ) {}\n',
+        "near.usd": 'def "Near" { float near = 1 }\n',
+    }
     written(tmp_path / "elsewhere", files, "usda")
     (tmp_path / "project").mkdir()
     (tmp_path / "project" / "Assets").symlink_to(tmp_path / "elsewhere")
@@ -169,11 +175,14 @@ def test_the_command_counts(tmp_path):
     (tmp_path / "pointer.usdc").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
     command = [sys.executable, foreign_stages.__file__, tmp_path]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
-    lines = done.stdout.splitlines()
-    opened = sum(len([name for name in files if name.endswith(".usd")]) for files, _ in (NAMED | FOREIGN).values())
-    assert lines[-1] == (
-        f"{opened + 2} stages, 1 of them pointers without the file; pxr opens {opened}: {opened - len(NAMED)} equal "
-        f"({(opened - len(NAMED)) / opened:.1%}), {len(NAMED)} that name what they skipped, 0 different in silence, 0 refused"
-    )
+    *lines, counts = done.stdout.splitlines()
+    opened = sum(name.endswith(".usd") for files, _ in (NAMED | FOREIGN).values() for name in files)
+    named = len(NAMED)
+    assert [int(number) for number in re.findall(r"(\d+) ", counts)] == [opened + 2, 1, opened - named, named, 0, 0]
+    assert f"pxr opens {opened}: " in counts
+    assert f"equal ({(opened - named) / opened:.1%})" in counts
+    assert [line.split("/")[0] for line in lines if line.startswith("named")] == [
+        f"named {name.replace(' ', '_')}" for name in sorted(NAMED)
+    ]
     assert "unread broken.usda" in lines
     assert done.returncode == 1  # fewer than 97 %

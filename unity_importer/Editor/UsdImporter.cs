@@ -107,7 +107,8 @@ namespace Garage.Unity.Editor
         static bool IsAsset(string path, string other)
         {
             string top = other.Substring(0, other.IndexOf('/') + 1);
-            return path.StartsWith(top, StringComparison.Ordinal) || path.StartsWith(Packages, StringComparison.Ordinal);
+            return path.StartsWith(top, StringComparison.Ordinal)
+                || path.StartsWith(Packages, StringComparison.Ordinal);
         }
 
         static void Look(string name, string what, float progress)

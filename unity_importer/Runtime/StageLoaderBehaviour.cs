@@ -12,8 +12,8 @@ namespace Garage.Unity
         [Tooltip("A file, seen from the StreamingAssets folder unless it is absolute.")]
         [SerializeField] string path = "garage.usdz";
 
-        [Tooltip("The folder in which the stage may refer to files, seen from the StreamingAssets folder; the stage's own "
-            + "where it is empty.")]
+        [Tooltip("The folder in which the stage may refer to files, seen from the StreamingAssets folder; that of the "
+            + "stage where this is empty.")]
         [SerializeField] string root = "";
 
         [SerializeField] ImportSettings settings = new ImportSettings();

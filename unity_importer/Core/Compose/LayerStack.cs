@@ -92,7 +92,8 @@ namespace Garage.Usd
             double rate = layer.Number("timeCodesPerSecond", 1);
             if (!(rate > 0))
             {
-                Warn(layer.Identifier + ": timeCodesPerSecond of " + rate + " is taken for " + layer.TimeCodesPerSecond);
+                Warn(layer.Identifier + ": timeCodesPerSecond of " + rate + " is taken for "
+                    + layer.TimeCodesPerSecond);
             }
         }
 

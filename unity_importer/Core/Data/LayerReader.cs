@@ -7,7 +7,7 @@ namespace Garage.Usd
     {
         static readonly string[] Endings = { ".usd", ".usda", ".usdc" };
 
-        /// <summary>Whether a name is that of a layer rather than of a format that is not read, such as .mtlx.</summary>
+        /// <summary>Whether a name is that of a layer, and not of a format that is not read, such as .mtlx.</summary>
         public static bool Knows(string identifier)
         {
             string name = identifier.TrimEnd(']');

@@ -119,7 +119,8 @@ namespace Garage.Usd
         {
             Storage storage = UsdTypes.StorageOf(type);
             bool isFloat = storage == Storage.Floats, isNumber = isFloat || storage == Storage.Doubles;
-            if (!isNumber || Data is string[] || UsdTypes.Components(type) != UsdTypes.Components(Type)) { return this; }
+            bool isAlike = !(Data is string[]) && UsdTypes.Components(type) == UsdTypes.Components(Type);
+            if (!isNumber || !isAlike) { return this; }
             if (!isFloat) { return new UsdValue(type, IsArray, Doubles()); }
             float[] floats = Floats();
             if (UsdTypes.IsHalf(type)) { floats = Array.ConvertAll(floats, HalfNumber.Nearest); }

@@ -87,7 +87,7 @@ namespace Garage.Usd
             this.root = root;
         }
 
-        /// <summary>The name under which the folder has a file: its path from there; null where it is not in it.</summary>
+        /// <summary>The name by which the folder knows a file, its path from there; null where it is not in it.</summary>
         public string NameOf(string path)
         {
             StringComparison rule = Path.DirectorySeparatorChar == '\\' ? StringComparison.OrdinalIgnoreCase

@@ -20,7 +20,7 @@ namespace Garage.Usd
             this.layer = layer;
         }
 
-        /// <summary>Makes the values of a property what its type says; takes away those of a type that is not known.</summary>
+        /// <summary>Makes the values of a property what its type says; of a type that is not known it has none.</summary>
         public void Apply(PropertySpec property)
         {
             if (property.Default == null && property.Samples == null) { return; }

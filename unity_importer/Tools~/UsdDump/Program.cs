@@ -9,8 +9,8 @@ namespace Garage.Usd.Dump
 {
     /// <summary>
     /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
-    /// <c>stage FILE [ROOT]</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time SECONDS FILE...</c> how
-    /// long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
+    /// <c>stage FILE [ROOT]</c> the composed prims, <c>scene FILE</c> what is to be shown;
+    /// <c>time SECONDS FILE...</c> how long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
     /// takes a quaternion and its vector to the axes of Unity; <c>batch</c> takes such commands from lines of the
     /// standard input, parts separated by tabs.
     /// </summary>
