@@ -50,7 +50,8 @@ namespace Garage.Unity.Editor
             ctx.DependsOnCustomDependency(PipelineDependency);
             string root = RootOf(ctx.assetPath), stage = ctx.assetPath.Substring(root.Length);
             string name = Path.GetFileNameWithoutExtension(stage);
-            var files = new RecordingResolver(new FolderResolver(Path.GetFullPath("./" + root)));
+            string folder = Path.GetFullPath(root.Length == 0 ? "." : root.TrimEnd('/'));
+            var files = new RecordingResolver(new FolderResolver(folder));
             SceneBuilder builder = null;
             try
             {
