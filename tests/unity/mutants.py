@@ -181,6 +181,48 @@ MUTANTS = (
         "if (parts.Count == 0) { return null; }",
         "if (parts.Count == 0) { continue; }",
     ),
+    Mutant(
+        "escape-over-a-link",
+        PACKAGE + "AssetResolver.cs",
+        "if (areLinks[part]) { return true; }",
+        "",
+    ),
+    Mutant(
+        "links-of-the-last-element-alone",
+        PACKAGE + "AssetResolver.cs",
+        "slash = file.IndexOf('/', slash + 1);",
+        "slash = -1;",
+    ),
+    Mutant(
+        "folder-with-the-root-s-name-as-its-beginning",
+        PACKAGE + "AssetResolver.cs",
+        "TrimEnd('/') + \"/\";",
+        "TrimEnd('/');",
+    ),
+    Mutant(
+        "formats-that-are-not-read",
+        DATA + "LayerReader.cs",
+        "one => name.EndsWith(one, StringComparison.OrdinalIgnoreCase)",
+        "one => true",
+    ),
+    Mutant(
+        "types-as-written",
+        USDC + "DeclaredTypes.cs",
+        "return value.AsFloating(type);",
+        "return value;",
+    ),
+    Mutant(
+        "brackets-in-strings",
+        USDA + "UsdaValueReader.cs",
+        "case '\"': case '\\'': QuotedString(); break;\n                    case '@': AssetPath(); break;",
+        "case '@': AssetPath(); break;",
+    ),
+    Mutant(
+        "type-that-is-left-open",
+        COMPOSE + "UsdPrim.cs",
+        "if (TypeName.Length == 0 && spec.TypeName != AnyType)",
+        "if (TypeName.Length == 0)",
+    ),
     # ---- composition
     Mutant(
         "list-edit-prepend",

@@ -18,7 +18,7 @@ import reader
 from mutants import MUTANTS, Mutant
 
 HERE = Path(__file__).parent
-CORE_TESTS = ("test_layers", "test_stages", "test_scenes", "test_scene_parts", "test_fuzz")
+CORE_TESTS = ("test_layers", "test_stages", "test_scenes", "test_scene_parts", "test_fuzz", "test_foreign_stages")
 LAYER_TESTS = ("test_handedness", "test_lights", "test_materials", "test_lanes", "test_imports", "test_prefabs")
 NOTHING_SELECTED = 5
 SLOW = "sample or installed_packages or damaged"

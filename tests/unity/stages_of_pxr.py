@@ -25,7 +25,8 @@ def stage_dump(stage: Usd.Stage) -> dict:
             if material:
                 prims[str(prim.GetPath())][key] = str(material.GetPath())
     return {
-        "metersPerUnit": UsdGeom.GetStageMetersPerUnit(stage),
+        # of which UsdGeom raises where a layer has it in another type
+        "metersPerUnit": float(stage.GetMetadata("metersPerUnit")),
         "isZUp": UsdGeom.GetStageUpAxis(stage) == "Z",
         "prims": prims,
     }

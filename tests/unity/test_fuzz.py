@@ -100,7 +100,7 @@ def test_paths_out_of_the_folder_are_not_followed(usd_dump, tmp_path, asset):
     root.write_text(f'#usda 1.0\ndef "B" ( references = @{asset}@</A> ) {{}}\n')
     found = usd_dump.ask("stage", root)
     assert list(found["prims"]) == ["/B"]
-    assert "is not a relative path within the folder" in found["warnings"][0]
+    assert "is not a relative path within the root folder" in found["warnings"][0]
 
 
 def test_references_that_double(usd_dump, tmp_path):

@@ -266,6 +266,56 @@ def Xform "Nothing" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
     assert prefab.named("Patch")
 
 
+SHOT = """#usda 1.0
+def Xform "Chair" ( references = @../assets/chair.usda@</Chair> ) {}
+def Xform "Later" ( references = @../assets/later.usda@</Later> ) {}
+def Xform "Settings" ( references = @../../ProjectSettings/one.usda@</Chair> ) {}
+def Xform "Beyond" ( references = @../../../../beyond.usda@</Ball> ) {}
+def Xform "Neighbour" ( references = @../../com.other/other.usda@</Ball> ) {}
+def Xform "Kept" {}
+"""
+BALL = '#usda 1.0\ndef Sphere "Ball" {\n}\ndef "Chair" {\n def Sphere "Ball" {\n }\n}\n'
+
+
+@pytest.mark.parametrize("top", ["Assets", "Packages/com.some.kit"])
+def test_a_stage_refers_to_files_of_its_project_or_package(prefabs, tmp_path, top):
+    project = tmp_path / "project"
+    files = (f"{top}/assets/chair.usda", "ProjectSettings/one.usda", "Packages/com.other/other.usda", "../beyond.usda")
+    for name in files:
+        (project / name).parent.mkdir(parents=True, exist_ok=True)
+        (project / name).write_text(BALL)
+    stage = project / top / "shots" / "shot.usda"
+    stage.parent.mkdir()
+    stage.write_text(SHOT)
+    (stage.parent / "shot_labels.json").write_text("{}")
+    prefab = prefabs(stage)
+    assert prefab.named("Kept")
+    text = "\n".join(prefab.found["warnings"])
+    assert "beyond.usda@ is not a relative path within the root folder" in text
+    assert "later.usda@ does not exist" in text
+    # the files of a project's settings may be read, but are no assets that an import waits for
+    sources = {f"{top}/assets/chair.usda", f"{top}/assets/later.usda", f"{top}/shots/shot_labels.json"}
+    assert set(prefab.found["sources"]) == sources
+    others = {
+        "Assets": (2, "other.usda@ does not exist"),
+        "Packages/com.some.kit": (1, "other.usda@ is not a relative path within the root folder"),
+    }
+    balls, warning = others[top]
+    assert len([item for item in prefab.objects if item["path"].endswith("/Ball") and "mesh" in item]) == balls
+    assert warning in text
+
+
+def test_players_name_a_root_folder(prefab_dump, tmp_path):
+    stage = tmp_path / "shots" / "shot.usda"
+    stage.parent.mkdir()
+    stage.write_text('#usda 1.0\ndef Sphere "Ball" ( references = @../ball.usda@</Ball> ) {}\n')
+    (tmp_path / "ball.usda").write_text('#usda 1.0\ndef "Ball" {\n def Sphere "Second" {\n }\n}\n')
+    assert prefab_dump.ask("load", stage)["renderers"] == 1
+    assert prefab_dump.ask("load", stage, f"root={tmp_path}")["renderers"] == 2
+    failed = prefab_dump.ask("load", stage, f"root={tmp_path / 'others'}")
+    assert failed["failure"] == f"UsdFormatException: {stage}: file: is not in the root folder {tmp_path / 'others'}"
+
+
 def test_an_import_that_is_cancelled_leaves_nothing(prefab_dump, builds):
     found = prefab_dump.ask("prefab", builds(SAMPLE, "usdc").stage, "cancel=1")
     assert ["cancelled" in error for error in found["errors"]] == [True]

@@ -5,7 +5,7 @@ import zlib
 from functools import cache
 
 import numpy as np
-from pxr import Gf, Sdf, Vt
+from pxr import Gf, Sdf, Tf, Vt
 
 SCALARS = {
     "bool": ("Bool", "B"), "uchar": ("UChar", "B"), "int": ("Int", "i"), "uint": ("UInt", "I"), "int64": ("Int64", "q"),
@@ -23,6 +23,8 @@ LETTERS = {"d": ("Double", "d"), "f": ("Float", "f"), "h": ("Half", "f"), "i": (
 @cache
 def type_of(name: Sdf.ValueTypeName) -> tuple[str, str | None] | None:
     """Name of the type in C#, and the struct letter of its numbers (None for texts)."""
+    if name.type == Tf.Type.Unknown:
+        return None  # pxr too has such a value as a text alone
     scalar = name.scalarType
     if str(scalar) in SCALARS:
         return SCALARS[str(scalar)]

@@ -22,6 +22,7 @@ namespace Garage.Unity.Editor
     {
         const int Version = 1;
         const int MillisecondsPerLook = 100;
+        const string Packages = "Packages/";
 
         /// <summary>Changes with the project's render pipeline, whose shaders the materials need.</summary>
         public const string PipelineDependency = "Garage.Unity/RenderPipeline";
@@ -47,15 +48,17 @@ namespace Garage.Unity.Editor
         public override void OnImportAsset(AssetImportContext ctx)
         {
             ctx.DependsOnCustomDependency(PipelineDependency);
-            string folder = Path.GetDirectoryName(ctx.assetPath).Replace('\\', '/');
-            string name = Path.GetFileNameWithoutExtension(ctx.assetPath);
-            var files = new RecordingResolver(new FolderResolver(Path.GetFullPath(folder)));
+            string root = RootOf(ctx.assetPath), stage = ctx.assetPath.Substring(root.Length);
+            string name = Path.GetFileNameWithoutExtension(stage);
+            string folder = Path.GetFullPath(root.Length == 0 ? "." : root.TrimEnd('/'));
+            var files = new RecordingResolver(new FolderResolver(folder));
             SceneBuilder builder = null;
             try
             {
                 Look(name, "Reading", 0);
-                SceneModel scene = StageReader.Read(files, Path.GetFileName(ctx.assetPath));
-                builder = new SceneBuilder(scene, StageReader.Labels(files, name), settings, name, true);
+                SceneModel scene = StageReader.Read(files, stage);
+                LabelTable labels = StageReader.Labels(files, Path.ChangeExtension(stage, null));
+                builder = new SceneBuilder(scene, labels, settings, name, true);
                 var clock = Stopwatch.StartNew();
                 while (builder.Step())
                 {
@@ -89,9 +92,24 @@ namespace Garage.Unity.Editor
             }
             foreach (string file in files.Files)
             {
-                string path = folder.Length > 0 ? folder + "/" + file : file;
-                if (path != ctx.assetPath) { ctx.DependsOnSourceAsset(path); }
+                string path = root + file;
+                if (path != ctx.assetPath && IsAsset(path, ctx.assetPath)) { ctx.DependsOnSourceAsset(path); }
             }
+        }
+
+        // what stages may refer to files in: the project's folder, or their package's, which may lie anywhere
+        static string RootOf(string assetPath)
+        {
+            if (!assetPath.StartsWith(Packages, StringComparison.Ordinal)) { return ""; }
+            return assetPath.Substring(0, assetPath.IndexOf('/', Packages.Length) + 1);
+        }
+
+        // the project has folders whose files are no assets, on which an import cannot depend
+        static bool IsAsset(string path, string other)
+        {
+            string top = other.Substring(0, other.IndexOf('/') + 1);
+            return path.StartsWith(top, StringComparison.Ordinal)
+                || path.StartsWith(Packages, StringComparison.Ordinal);
         }
 
         static void Look(string name, string what, float progress)

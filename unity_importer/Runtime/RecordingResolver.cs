@@ -3,7 +3,7 @@ using Garage.Usd;
 
 namespace Garage.Unity
 {
-    /// <summary>Remembers which files of a folder were read, or would have been had they been there.</summary>
+    /// <summary>Remembers which files of a root folder were read, or would have been had they been there.</summary>
     sealed class RecordingResolver : IAssetResolver
     {
         readonly IAssetResolver inner;

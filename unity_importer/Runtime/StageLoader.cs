@@ -50,14 +50,23 @@ namespace Garage.Unity
         public static Task<LoadedStage> LoadAsync(string path, ImportSettings settings, Transform parent,
             IProgress<float> progress, CancellationToken cancel)
         {
-            string full = Path.GetFullPath(path), name = Path.GetFileNameWithoutExtension(full);
-            var files = new FolderResolver(Path.GetDirectoryName(full));
+            string root = Path.GetDirectoryName(Path.GetFullPath(path));
+            return LoadAsync(path, root, settings, parent, progress, cancel);
+        }
+
+        /// <summary>The same for a stage of a root folder, which may refer to files anywhere in that folder.</summary>
+        public static Task<LoadedStage> LoadAsync(string path, string root, ImportSettings settings, Transform parent,
+            IProgress<float> progress, CancellationToken cancel)
+        {
+            var files = new FolderResolver(root);
+            string stage = files.NameOf(path);
             LabelTable table = null;
             return MakeAsync(() =>
             {
-                table = StageReader.Labels(files, name);
-                return StageReader.Read(files, Path.GetFileName(full));
-            }, () => table, name, settings, parent, progress, cancel);
+                if (stage == null) { throw new UsdFormatException(path, "file", "is not in the root folder " + root); }
+                table = StageReader.Labels(files, Path.ChangeExtension(stage, null));
+                return StageReader.Read(files, stage);
+            }, () => table, Path.GetFileNameWithoutExtension(path), settings, parent, progress, cancel);
         }
 
         /// <summary>The same for a .usdz that is in memory, such as one that was downloaded.</summary>

@@ -12,6 +12,10 @@ namespace Garage.Unity
         [Tooltip("A file, seen from the StreamingAssets folder unless it is absolute.")]
         [SerializeField] string path = "garage.usdz";
 
+        [Tooltip("The folder in which the stage may refer to files, seen from the StreamingAssets folder; that of the "
+            + "stage where this is empty.")]
+        [SerializeField] string root = "";
+
         [SerializeField] ImportSettings settings = new ImportSettings();
 
         readonly CancellationTokenSource cancel = new CancellationTokenSource();
@@ -31,7 +35,9 @@ namespace Garage.Unity
             try
             {
                 string full = Path.Combine(Application.streamingAssetsPath, path);
-                loaded = await StageLoader.LoadAsync(full, settings, transform, null, cancel.Token);
+                string folder = string.IsNullOrEmpty(root) ? Path.GetDirectoryName(full)
+                    : Path.Combine(Application.streamingAssetsPath, root);
+                loaded = await StageLoader.LoadAsync(full, folder, settings, transform, null, cancel.Token);
                 if (Finished != null) { Finished(loaded); }
             }
             catch (OperationCanceledException)

@@ -88,6 +88,13 @@ namespace Garage.Usd
         {
             layers.Add(layer.Identifier, layer);
             SpecCount += layer.SpecCount;
+            foreach (string one in layer.Skipped) { Warn(layer.Identifier + ": " + one); }
+            double rate = layer.Number("timeCodesPerSecond", 1);
+            if (!(rate > 0))
+            {
+                Warn(layer.Identifier + ": timeCodesPerSecond of " + rate + " is taken for "
+                    + layer.TimeCodesPerSecond);
+            }
         }
 
         Layer LayerOf(string identifier)
@@ -124,6 +131,11 @@ namespace Garage.Usd
             string identifier, reason;
             if (known.TryGetValue(asset, out identifier)) { return identifier; }
             identifier = resolver.Resolve(anchor.Identifier, asset, out reason);
+            if (identifier != null && !LayerReader.Knows(identifier))
+            {
+                identifier = null;
+                reason = "is of a format that is not read";
+            }
             if (identifier == null) { Warn(anchor.Identifier + ": @" + asset + "@ " + reason); }
             known.Add(asset, identifier);
             return identifier;

@@ -47,6 +47,9 @@ namespace Garage.Usd
     {
         const int Deepest = 600;
 
+        // what a layer calls the type of a prim that it leaves open
+        const string AnyType = "__AnyType__";
+
         static readonly List<UsdPrim> NoPrims = new List<UsdPrim>();
 
         readonly string prototypeSource, prototypePath;
@@ -107,7 +110,7 @@ namespace Garage.Usd
             foreach (Opinion opinion in opinions)
             {
                 PrimSpec spec = opinion.Spec.Spec;
-                if (TypeName.Length == 0) { TypeName = spec.TypeName; }
+                if (TypeName.Length == 0 && spec.TypeName != AnyType) { TypeName = spec.TypeName; }
                 if (isFound || spec.Specifier == Specifier.Over) { continue; }
                 if (spec.Specifier == Specifier.Class && opinion.Node.IsInheritedDirectly)
                 {

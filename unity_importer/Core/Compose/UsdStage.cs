@@ -34,10 +34,18 @@ namespace Garage.Usd
         /// </summary>
         public static UsdStage Open(string path)
         {
-            string full = Path.GetFullPath(path);
-            var resolver = new FolderResolver(Path.GetDirectoryName(full));
-            string reason;
-            string identifier = resolver.Resolve("", Path.GetFileName(full), out reason);
+            return Open(path, Path.GetDirectoryName(Path.GetFullPath(path)));
+        }
+
+        /// <summary>
+        /// Opens a .usda, .usdc or .usdz of a root folder; it may refer to files anywhere in that folder. Throws
+        /// UsdFormatException.
+        /// </summary>
+        public static UsdStage Open(string path, string root)
+        {
+            var resolver = new FolderResolver(root);
+            string name = resolver.NameOf(path), reason = "is not in the root folder " + root;
+            string identifier = name == null ? null : resolver.Resolve("", name, out reason);
             if (identifier == null) { throw new UsdFormatException(path, "file", reason); }
             return Open(resolver.Read(identifier), identifier, resolver);
         }

@@ -99,6 +99,8 @@ namespace Garage.Usd
     /// <summary>One file's opinions.</summary>
     public sealed class Layer
     {
+        const int MostSkipped = 100;
+
         /// <summary>A path, with the entry of a package in brackets: "a/b.usdz[c.usdc]".</summary>
         public readonly string Identifier;
 
@@ -107,6 +109,39 @@ namespace Garage.Usd
 
         /// <summary>The strongest first.</summary>
         public readonly List<SubLayer> SubLayers = new List<SubLayer>();
+
+        /// <summary>What the file has and this does not, each with its name; in the order of the file.</summary>
+        public IList<string> Skipped
+        {
+            get { return skipped; }
+        }
+
+        readonly List<string> skipped = new List<string>();
+
+        void Skip(string what)
+        {
+            if (skipped.Count < MostSkipped && !skipped.Contains(what)) { skipped.Add(what); }
+        }
+
+        internal void SkipType(string name)
+        {
+            Skip("values of the type '" + name + "', which is not known, are left out");
+        }
+
+        internal void SkipSpline(string property)
+        {
+            Skip("the spline of '" + property + "' is left out");
+        }
+
+        internal void SkipEdits()
+        {
+            Skip("edits of arrays are left out");
+        }
+
+        internal void SkipRelocates()
+        {
+            Skip("relocates are left out: prims stay where they were");
+        }
 
         /// <summary>Specs of prims, variants included.</summary>
         public int SpecCount;

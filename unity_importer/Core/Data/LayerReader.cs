@@ -5,6 +5,15 @@ namespace Garage.Usd
     /// <summary>One layer from its bytes, in whichever format these are.</summary>
     public static class LayerReader
     {
+        static readonly string[] Endings = { ".usd", ".usda", ".usdc" };
+
+        /// <summary>Whether a name is that of a layer, and not of a format that is not read, such as .mtlx.</summary>
+        public static bool Knows(string identifier)
+        {
+            string name = identifier.TrimEnd(']');
+            return Array.Exists(Endings, one => name.EndsWith(one, StringComparison.OrdinalIgnoreCase));
+        }
+
         /// <summary>Throws UsdFormatException, and nothing else, where the bytes are no layer.</summary>
         public static Layer Read(byte[] bytes, string identifier)
         {

@@ -111,6 +111,22 @@ namespace Garage.Usd
             return converted;
         }
 
+        /// <summary>
+        /// The same numbers as a type of floating point numbers; this itself where the type or what is here is none of
+        /// as many numbers an element.
+        /// </summary>
+        public UsdValue AsFloating(UsdType type)
+        {
+            Storage storage = UsdTypes.StorageOf(type);
+            bool isFloat = storage == Storage.Floats, isNumber = isFloat || storage == Storage.Doubles;
+            bool isAlike = !(Data is string[]) && UsdTypes.Components(type) == UsdTypes.Components(Type);
+            if (!isNumber || !isAlike) { return this; }
+            if (!isFloat) { return new UsdValue(type, IsArray, Doubles()); }
+            float[] floats = Floats();
+            if (UsdTypes.IsHalf(type)) { floats = Array.ConvertAll(floats, HalfNumber.Nearest); }
+            return new UsdValue(type, IsArray, floats);
+        }
+
         double NumberAt(int i)
         {
             switch (UsdTypes.StorageOf(Type))

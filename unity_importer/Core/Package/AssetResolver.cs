@@ -71,18 +71,30 @@ namespace Garage.Usd
     }
 
     /// <summary>
-    /// The files of one folder and what is below it; absolute paths and such as lead out of the folder are refused.
-    /// Identifiers are relative to the folder.
+    /// The files of a root folder and what is below it; absolute paths are refused, and so are such as lead out of the
+    /// folder by ".." or over a link. Identifiers are relative to the folder.
     /// </summary>
     public sealed class FolderResolver : IAssetResolver
     {
         readonly string root;
         readonly Dictionary<string, UsdzPackage> packages = new Dictionary<string, UsdzPackage>();
+        // whether files and folders are links, which C# cannot tell the targets of on all of Unity's platforms
+        readonly Dictionary<string, bool> areLinks = new Dictionary<string, bool>();
 
         /// <summary>Of a folder of the file system.</summary>
         public FolderResolver(string root)
         {
             this.root = root;
+        }
+
+        /// <summary>The name by which the folder knows a file, its path from there; null where it is not in it.</summary>
+        public string NameOf(string path)
+        {
+            StringComparison rule = Path.DirectorySeparatorChar == '\\' ? StringComparison.OrdinalIgnoreCase
+                : StringComparison.Ordinal;
+            string above = Path.GetFullPath(root).Replace('\\', '/').TrimEnd('/') + "/";
+            string full = Path.GetFullPath(path).Replace('\\', '/');
+            return full.StartsWith(above, rule) && full.Length > above.Length ? full.Substring(above.Length) : null;
         }
 
         /// <summary>Knows a package that is in memory, as if it were a file of the folder.</summary>
@@ -91,7 +103,10 @@ namespace Garage.Usd
             packages.Add(name, package);
         }
 
-        /// <summary>As IAssetResolver. Throws UsdFormatException where a package is damaged.</summary>
+        /// <summary>
+        /// As IAssetResolver; links are followed in what the caller itself asks for, by an empty anchor. Throws
+        /// UsdFormatException where a package is damaged.
+        /// </summary>
         public string Resolve(string anchor, string asset, out string reason)
         {
             reason = null;
@@ -102,7 +117,7 @@ namespace Garage.Usd
             if (normal == null)
             {
                 reason = "is not a relative path within " + (anchorEntry != null ? "the package"
-                    : "the folder of the stage");
+                    : "the root folder");
                 return null;
             }
             if (anchorEntry != null)
@@ -119,6 +134,11 @@ namespace Garage.Usd
                 reason = "does not exist";
                 return null;
             }
+            if (LeadsOverLink(normal, anchor.Length == 0))
+            {
+                reason = "leads over a link, which may lead out of the root folder";
+                return null;
+            }
             if (!AssetPaths.IsPackage(normal)) { return normal; }
             UsdzPackage package = Package(normal);
             string inner = entry == null ? package.First : AssetPaths.Normal("", entry);
@@ -128,6 +148,32 @@ namespace Garage.Usd
                 return null;
             }
             return normal + "[" + inner + "]";
+        }
+
+        bool LeadsOverLink(string file, bool isTrusted)
+        {
+            for (int slash = 0; slash >= 0;)
+            {
+                slash = file.IndexOf('/', slash + 1);
+                string part = slash < 0 ? file : file.Substring(0, slash);
+                if (isTrusted) { areLinks[part] = false; }
+                else if (!areLinks.ContainsKey(part)) { areLinks.Add(part, IsLink(PathOf(part))); }
+                if (areLinks[part]) { return true; }
+            }
+            return false;
+        }
+
+        static bool IsLink(string path)
+        {
+            try
+            {
+                return (File.GetAttributes(path) & FileAttributes.ReparsePoint) != 0;
+            }
+            catch (Exception failure)
+            {
+                if (failure is IOException || failure is UnauthorizedAccessException) { return true; }
+                throw;
+            }
         }
 
         /// <summary>As IAssetResolver. Throws UsdFormatException where the file cannot be read.</summary>

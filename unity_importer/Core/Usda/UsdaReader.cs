@@ -6,13 +6,11 @@ namespace Garage.Usd
     /// <summary>Reads text layers (.usda).</summary>
     sealed class UsdaReader : UsdaListReader
     {
-        readonly Layer layer;
         readonly LineMemo lines;
         int variantDepth;
 
         UsdaReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
-            layer = new Layer(identifier);
             lines = new LineMemo(text, end);
         }
 
@@ -281,7 +279,9 @@ namespace Garage.Usd
             else if (part == "spline")
             {
                 Expect('=');
-                SkipBraces();
+                Expect('{');
+                SkipRest();
+                layer.SkipSpline(name);
             }
             else
             {
@@ -341,24 +341,6 @@ namespace Garage.Usd
                 if (!Take(',') && Next() != '}') { throw Unexpected("',' or '}'"); }
             }
             return new TimeSamples(times.ToArray(), samples.ToArray());
-        }
-
-        void SkipBraces()
-        {
-            Expect('{');
-            for (int depth = 1; depth > 0;)
-            {
-                Skip();
-                byte letter = text[at];
-                if (at >= end) { throw Unexpected("'}'"); }
-                if (letter == '"' || letter == '\'')
-                {
-                    QuotedString();
-                    continue;
-                }
-                depth += letter == '{' ? 1 : letter == '}' ? -1 : 0;
-                at++;
-            }
         }
 
         // ---- metadata
@@ -443,15 +425,17 @@ namespace Garage.Usd
                 case "active": prim.IsActive = Truth(); break;
                 case "variants": ReadVariantSelections(prim); break;
                 case "subLayers": ReadSubLayers(prim); break;
-                case "relocates": RefuseRelocates(); break;
+                case "relocates": PassRelocates(); break;
                 default: prim.AddField(key == "doc" ? "documentation" : key, ReadAnything(0)); break;
             }
         }
 
-        void RefuseRelocates()
+        void PassRelocates()
         {
             Expect('{');
-            if (!Take('}')) { throw Error("relocates are not supported"); }
+            if (Take('}')) { return; }
+            SkipRest();
+            layer.SkipRelocates();
         }
 
         void ReadSubLayers(PrimSpec prim)

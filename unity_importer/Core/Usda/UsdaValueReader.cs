@@ -9,10 +9,14 @@ namespace Garage.Usd
     {
         protected const int DeepestValue = 40;
 
+        /// <summary>What is read.</summary>
+        protected readonly Layer layer;
+
         readonly UsdaValues values = new UsdaValues();
 
         protected UsdaValueReader(byte[] bytes, string identifier) : base(bytes, identifier)
         {
+            layer = new Layer(identifier);
         }
 
         /// <summary>True or false, as a word or a number.</summary>
@@ -55,10 +59,38 @@ namespace Garage.Usd
             {
                 // a type of somebody's plugin: its text is passed
                 ReadAnything(0);
+                layer.SkipType(typeName);
                 return null;
             }
-            if (isArray && text[at] == 'e') { throw Error("edits of arrays are not supported"); }
+            if (isArray && text[at] == 'e' && TryName() == "edit")
+            {
+                Expect('[');
+                SkipRest();
+                layer.SkipEdits();
+                return null;
+            }
             return isArray ? ReadArray(type) : ReadScalar(type);
+        }
+
+        /// <summary>Passes everything up to the bracket that closes the one just read.</summary>
+        protected void SkipRest()
+        {
+            for (int depth = 1; depth > 0;)
+            {
+                byte letter = Next();
+                if (at >= end) { throw Unexpected("a closing bracket"); }
+                switch ((char)letter)
+                {
+                    case '"': case '\'': QuotedString(); break;
+                    case '@': AssetPath(); break;
+                    case '<': PathText(); break;
+                    default:
+                        depth += letter == '{' || letter == '[' || letter == '(' ? 1
+                            : letter == '}' || letter == ']' || letter == ')' ? -1 : 0;
+                        at++;
+                        break;
+                }
+            }
         }
 
         UsdValue ReadScalar(UsdType type)

@@ -11,7 +11,7 @@ namespace Garage.Usd
         {
             Other, Specifier, TypeName, Active, Instanceable, References, Payload, Inherits, Specializes,
             VariantSetNames, VariantSelection, ApiSchemas, PrimChildren, PrimOrder, PropertyOrder, Default, Samples,
-            Custom, Variability, Targets, SubLayers, SubLayerOffsets, Relocates, Ignored,
+            Custom, Variability, Targets, SubLayers, SubLayerOffsets, Relocates, Spline, Ignored,
         }
 
         static readonly Dictionary<string, Field> Fields = new Dictionary<string, Field>
@@ -28,7 +28,7 @@ namespace Garage.Usd
             { "subLayerOffsets", Field.SubLayerOffsets }, { "layerRelocates", Field.Relocates },
             { "relocates", Field.Relocates }, { "properties", Field.Ignored }, { "variantSetChildren", Field.Ignored },
             { "variantChildren", Field.Ignored }, { "targetChildren", Field.Ignored },
-            { "connectionChildren", Field.Ignored }, { "spline", Field.Ignored },
+            { "connectionChildren", Field.Ignored }, { "spline", Field.Spline },
         };
 
         readonly CrateBytes bytes;
@@ -44,6 +44,7 @@ namespace Garage.Usd
         int[] fieldSets;
         object[] fieldValues;
         bool[] fieldIsRead;
+        readonly DeclaredTypes declared;
         CratePaths paths;
         CrateValues values;
 
@@ -52,6 +53,7 @@ namespace Garage.Usd
             bytes = new CrateBytes(data, identifier);
             file = identifier;
             layer = new Layer(identifier);
+            declared = new DeclaredTypes(bytes, layer);
         }
 
         public static bool Knows(byte[] data)
@@ -83,7 +85,7 @@ namespace Garage.Usd
             ReadStrings();
             ReadFields();
             paths = new CratePaths(bytes, file, Section("PATHS"), tokens);
-            values = new CrateValues(bytes, version, tokens, strings, paths.Text);
+            values = new CrateValues(bytes, version, tokens, strings, paths.Text, layer);
             ReadSpecs();
             return layer;
         }
@@ -422,9 +424,11 @@ namespace Garage.Usd
                     case Field.Custom: property.IsCustom = NumberOf(field) != 0; break;
                     case Field.Variability: property.IsUniform = NumberOf(field) == 1 && !isRelationship; break;
                     case Field.Targets: property.Targets = NamesOf(field); break;
+                    case Field.Spline: layer.SkipSpline(name); break;
                     case Field.Other: property.AddField(fieldNames[field], FieldValue(field)); break;
                 }
             }
+            declared.Apply(property);
         }
     }
 }

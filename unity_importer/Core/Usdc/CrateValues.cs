@@ -18,16 +18,19 @@ namespace Garage.Usd
         readonly string[] tokens;
         readonly int[] strings;
         readonly Func<int, string> path;
+        readonly Layer layer;
         readonly Dictionary<ulong, UsdValue> shared = new Dictionary<ulong, UsdValue>();
 
-        /// <summary>path gives the text of the path with an index.</summary>
-        public CrateValues(CrateBytes bytes, int version, string[] tokens, int[] strings, Func<int, string> path)
+        /// <summary>path gives the text of the path with an index; the layer is told what is left out.</summary>
+        public CrateValues(CrateBytes bytes, int version, string[] tokens, int[] strings, Func<int, string> path,
+            Layer layer)
         {
             this.bytes = bytes;
             this.version = version;
             this.tokens = tokens;
             this.strings = strings;
             this.path = path;
+            this.layer = layer;
         }
 
         static UsdType[] MakeTypes()
@@ -72,7 +75,11 @@ namespace Garage.Usd
             int type = (int)(rep >> 48 & 0xFF);
             bool isArray = rep >> 63 != 0, isInlined = (rep >> 62 & 1) != 0;
             long payload = (long)(rep & 0xFFFFFFFFFFFF);
-            if ((rep >> 60 & 1) != 0) { throw bytes.Error(place, "edits of arrays are not supported"); }
+            if ((rep >> 60 & 1) != 0)
+            {
+                layer.SkipEdits();
+                return null;
+            }
             UsdType plain = type < Types.Length ? Types[type] : UsdType.None;
             if (plain != UsdType.None)
             {
@@ -103,9 +110,11 @@ namespace Garage.Usd
                 case 48: return Doubles(payload);
                 case 49: return Offsets(payload);
                 case 51: return UsdValue.Blocked;
-                case 52: case 53: return Read((ulong)bytes.Long(payload), payload, depth + 1);
+                case 52: case 53:
+                    long at = payload + bytes.Long(payload);
+                    return Read((ulong)bytes.Long(at), at, depth + 1);
                 case 58:
-                    if (bytes.Count(payload, 8) > 0) { throw bytes.Error(payload, "relocates are not supported"); }
+                    if (bytes.Count(payload, 8) > 0) { layer.SkipRelocates(); }
                     return null;
                 default: return null;
             }

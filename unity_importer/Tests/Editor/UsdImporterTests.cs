@@ -172,6 +172,18 @@ def Material ""Look""
         }
 
         [Test]
+        public void A_stage_may_refer_to_other_folders_of_the_project()
+        {
+            Directory.CreateDirectory(Folder + "/Shots/First");
+            string shot = Folder + "/Shots/First/shot.usda";
+            File.WriteAllText(shot, "#usda 1.0\n(\n metersPerUnit = 1\n)\n"
+                + "def \"Here\" ( references = @../../room.usda@</Room> ) {}\n");
+            AssetDatabase.ImportAsset(shot);
+            GameObject made = AssetDatabase.LoadAssetAtPath<GameObject>(shot);
+            Assert.IsNotNull(made.transform.Find("Here/Marker"));
+        }
+
+        [Test]
         public void Reference_materials_cover_every_set_of_keywords_once()
         {
             var seen = new System.Collections.Generic.HashSet<string>();

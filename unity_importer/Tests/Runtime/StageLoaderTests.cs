@@ -87,6 +87,27 @@ def Xform ""Hall"" (
         }
 
         [UnityTest]
+        public IEnumerator A_stage_refers_to_files_of_the_root_folder_that_is_named()
+        {
+            string root = Path.GetDirectoryName(path), folder = path + "_shots";
+            Directory.CreateDirectory(folder);
+            string shot = Path.Combine(folder, "shot.usda");
+            File.WriteAllText(shot, "#usda 1.0\ndef \"Here\" ( references = @../" + Path.GetFileName(path)
+                + "@</Hall> ) {}\n");
+            foreach (string named in new[] { root, folder })
+            {
+                Task<LoadedStage> task = StageLoader.LoadAsync(shot, named, new ImportSettings(), null, null,
+                    CancellationToken.None);
+                yield return Until(task);
+                LoadedStage loaded = task.GetAwaiter().GetResult();
+                bool isThere = loaded.Root.GetComponentsInChildren<MeshFilter>(true).Length > 0;
+                Assert.AreEqual(named == root, isThere);
+                loaded.Dispose();
+            }
+            Directory.Delete(folder, true);
+        }
+
+        [UnityTest]
         public IEnumerator A_stage_that_cannot_be_read_fails_with_its_reason()
         {
             File.WriteAllText(path, "#usda 1.0\ndef \"A\" {");

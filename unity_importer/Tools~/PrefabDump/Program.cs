@@ -95,13 +95,14 @@ namespace Garage.Unity.Dump
             }
         }
 
-        // the project is the folder above the file's
+        // the project is the folder around Assets or Packages, else that above the file's
         static AssetImportContext Import(string file, string[] settings, out UsdImporter importer)
         {
-            string folder = Path.GetDirectoryName(file);
-            Directory.SetCurrentDirectory(Path.GetDirectoryName(folder));
-            var context = new AssetImportContext { assetPath = Path.GetFileName(folder) + "/"
-                + Path.GetFileName(file) };
+            int top = Math.Max(file.IndexOf("/Assets/", StringComparison.Ordinal),
+                file.IndexOf("/Packages/", StringComparison.Ordinal));
+            string project = top >= 0 ? file.Substring(0, top) : Path.GetDirectoryName(Path.GetDirectoryName(file));
+            Directory.SetCurrentDirectory(project);
+            var context = new AssetImportContext { assetPath = file.Substring(project.Length).TrimStart('/') };
             importer = new UsdImporter();
             Apply(settings, importer.Settings);
             importer.OnImportAsset(context);
@@ -239,6 +240,12 @@ namespace Garage.Unity.Dump
         static string Load(string file, string[] settings)
         {
             var options = new ImportSettings();
+            string root = Path.GetDirectoryName(file);
+            if (settings.Length > 0 && settings[0].StartsWith("root=", StringComparison.Ordinal))
+            {
+                root = settings[0].Substring(5);
+                settings = new string[0];
+            }
             Apply(settings, options);
             var json = new JsonText();
             json.Open('{');
@@ -254,7 +261,7 @@ namespace Garage.Unity.Dump
                     LoadedStage loaded = file.EndsWith(".usdz", StringComparison.Ordinal)
                         ? StageLoader.LoadAsync(File.ReadAllBytes(file), Path.GetFileNameWithoutExtension(file),
                         options, parent.transform, steps, cancel.Token).GetAwaiter().GetResult()
-                        : StageLoader.LoadAsync(file, options, parent.transform, steps,
+                        : StageLoader.LoadAsync(file, root, options, parent.transform, steps,
                         cancel.Token).GetAwaiter().GetResult();
                     Number(json, "objects", loaded.Root.GetComponentsInChildren<Transform>(true).Length);
                     Number(json, "renderers", parent.GetComponentsInChildren<MeshRenderer>().Length);

@@ -9,8 +9,8 @@ namespace Garage.Usd.Dump
 {
     /// <summary>
     /// Prints what the readers make of a file as one line of JSON: <c>layer FILE</c> one layer,
-    /// <c>stage FILE</c> the composed prims, <c>scene FILE</c> what is to be shown; <c>time SECONDS FILE...</c> how
-    /// long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
+    /// <c>stage FILE [ROOT]</c> the composed prims, <c>scene FILE</c> what is to be shown;
+    /// <c>time SECONDS FILE...</c> how long it takes to read all of them, <c>fuzz FILE</c> tells only whether that ends well; <c>basis FILE W X Y Z</c>
     /// takes a quaternion and its vector to the axes of Unity; <c>batch</c> takes such commands from lines of the
     /// standard input, parts separated by tabs.
     /// </summary>
@@ -49,7 +49,8 @@ namespace Garage.Usd.Dump
                 switch (command[0])
                 {
                     case "layer": return LayerDump.Of(LayerReader.Read(File.ReadAllBytes(command[1]), command[1]));
-                    case "stage": return StageDump.Of(UsdStage.Open(command[1]));
+                    case "stage": return StageDump.Of(command.Length > 2 ? UsdStage.Open(command[1], command[2])
+                        : UsdStage.Open(command[1]));
                     case "scene": return SceneDump.Of(UsdStage.Open(command[1]));
                     case "fuzz": return Survival(command[1]);
                     case "basis": return InUnity(command[1], Number(command[2]), Number(command[3]),
