@@ -2,6 +2,7 @@
 
 import http.client
 import os
+import pty
 import re
 import signal
 import socket
@@ -150,7 +151,7 @@ def test_a_port_that_is_taken_is_named():
             ViewerServer(port)
 
 
-@pytest.mark.parametrize(("stop", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 0)])
+@pytest.mark.parametrize(("stop", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGINT, 0)])
 def test_a_signal_ends_it_and_frees_the_port(stage, stop, code):
     command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
@@ -169,6 +170,46 @@ def test_a_signal_ends_it_and_frees_the_port(stage, stop, code):
     with socket.socket() as again:
         again.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         again.bind(("127.0.0.1", port))
+
+
+def test_it_ends_when_its_terminal_closes(stage):
+    control, terminal = pty.openpty()
+    take_terminal = "os.setsid(); fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
+    code = f"import fcntl, os, sys, termios; {take_terminal}"
+    view = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
+    with subprocess.Popen(
+        [sys.executable, "-c", code, *view],
+        stdin=terminal,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        os.close(terminal)
+        assert "http://" in process.stdout.readline()
+        os.close(control)
+        process.communicate(timeout=20)
+    assert process.returncode == 128 + signal.SIGHUP
+
+
+def test_what_is_ignored_does_not_end_it(stage):
+    """As a shell has it that starts commands in the background, and ``nohup``."""
+    command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
+    code = "import os, signal, sys; [signal.signal(each, signal.SIG_IGN) for each in (signal.SIGINT, signal.SIGHUP)]"
+    with subprocess.Popen(
+        [sys.executable, "-c", f"{code}; os.execv(sys.argv[1], sys.argv[1:])", *command],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        start_new_session=True,
+    ) as process:
+        process.stdout.readline()
+        process.stdout.readline()
+        os.killpg(process.pid, signal.SIGINT)
+        process.send_signal(signal.SIGHUP)
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(1)
+        process.terminate()
+        assert process.wait(20) == 143
 
 
 def test_what_is_no_stage_ends_in_one_line(tmp_path):
