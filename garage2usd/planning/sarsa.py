@@ -61,7 +61,7 @@ def grown(memory: Memory) -> Memory:
     """The same in a table twice the size."""
     size = 2 * len(memory.keys)
     larger = Memory(
-        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), np.float32), memory.used, memory.course, memory.last
+        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), memory.q.dtype), memory.used, memory.course, memory.last
     )
     memory.used[0] = 0
     for row in range(len(memory.keys)):
@@ -197,14 +197,16 @@ def learn(
         done = False
         while step < max_steps and not done:
             if p.masks_actions:
+                ways = 0
                 for way in range(4):
                     kind = cells[position + moves[way]]
                     allowed[way] = kind == 0 or kind == 1
+                    ways += allowed[way]
                 allowed[STAY] = False
+                if ways == 0:  # walled in
+                    break
             row = _row(memory, _observe(ground, board, p, position, previous))
             action = _choose(memory, row, allowed, epsilon, random)
-            if action < 0:
-                break
             if old_row >= 0:
                 target = reward + p.gamma * memory.q[row, action]
                 memory.q[old_row, old_action] += p.alpha * (target - memory.q[old_row, old_action])
