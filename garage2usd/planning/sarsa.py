@@ -12,7 +12,7 @@ from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
 from garage2usd.planning.ground import Ground
 
-__all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory"]
+__all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory", "observe"]
 
 STAY = 4
 ACTIONS = 5
@@ -85,8 +85,14 @@ def _row(memory: Memory, key: np.uint64) -> int:
 
 
 @compiled
-def _observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
-    """Hash of the state S_t = (D, M, A_{t-1})."""
+def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
+    """Hash of the state S_t = (D, M, A_{t-1}).
+
+    Notes
+    -----
+    Deviation: A_{t-1} and the square at the upper right of M enter the hash in the same bits, so that states that
+    differ in both may share their values; plans of a seed depend on it.
+    """
     cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
     prime = np.uint64(0x9E3779B97F4A7C15)
     key = np.uint64(previous + 1)
@@ -205,7 +211,7 @@ def learn(
                 allowed[STAY] = False
                 if ways == 0:  # walled in
                     break
-            row = _row(memory, _observe(ground, board, p, position, previous))
+            row = _row(memory, observe(ground, board, p, position, previous))
             action = _choose(memory, row, allowed, epsilon, random)
             if old_row >= 0:
                 target = reward + p.gamma * memory.q[row, action]
