@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig
-from garage2usd.errors import GenerationError, MissingExtraError
+from garage2usd.errors import MissingExtraError
 from garage2usd.planning.decision import (
     Action,
     DecisionProcess,
@@ -25,6 +25,7 @@ from garage2usd.planning.decision import (
 )
 from garage2usd.planning.score import evaluate, is_feasible
 from garage2usd.site import make_site
+from garage2usd.site.room import check_room
 from garage2usd.structure.grid import Cell, Structure
 
 try:
@@ -57,7 +58,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     Raises
     ------
     ConfigError, GenerationError
-        If the site cannot be made, or has no entrance or no free square.
+        If the site cannot be made, as for `garage2usd.generate`.
 
     Notes
     -----
@@ -88,9 +89,8 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
     def __init__(self, config: GarageConfig | None = None, *, render_mode: str | None = None) -> None:
         config = config or GarageConfig()
         site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+        check_room(site, config.bay)
         self.process = DecisionProcess(site, config.bay, config.plan.resolved())
-        if not self.process.entrances or not self.process.horizon:
-            raise GenerationError("plan", "a site without entrance or free squares", seed=config.seed, attempts=0)
         self.render_mode = render_mode
         self.action_space = spaces.Discrete(len(Action))
         self.observation_space = _observation_space(self.process)

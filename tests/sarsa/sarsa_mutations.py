@@ -21,7 +21,7 @@ import garage2usd.planning
 from garage2usd.planning import sarsa
 
 PLANNING = Path(garage2usd.planning.__file__).parent
-EXAMPLES = 300
+EXAMPLES = 200
 
 
 def planted(mutant: Mutant) -> ModuleType:
