@@ -129,7 +129,7 @@ class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
         truncated = not terminated and self._steps >= self.process.horizon
         return self._observed(following), earned, terminated, truncated, self._info(following)
 
-    def render(self) -> str | None:  # type: ignore[override]
+    def render(self) -> str | None:
         """Draw the plan with the car as ``@``, one line a row; None without a render mode."""
         if self.render_mode is None:
             return None

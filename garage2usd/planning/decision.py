@@ -163,7 +163,7 @@ def observe(process: DecisionProcess, state: State) -> Observation:
     Equation 18, ``S_t = (D, M, A_{t-1})``. Deviation: M has the 25 squares that the paper gives it, a window of 5 x 5,
     and not the 5 squares at a Manhattan distance below 2 that it describes. Deviation: D counts squares that are free
     or lanes, since the paper measures to free space, borders and obstacles alike; portals end a line, too. Deviation:
-    the preset ``tuned`` sees 3 x 3 squares without D, with which it finds better plans in as many episodes.
+    an agent with the preset ``tuned`` sees 3 x 3 squares without D, as it finds better plans so in as many episodes.
     """
     parameters, (row, col) = process.parameters, state.square
     reach = range(-parameters.window_radius_squares, parameters.window_radius_squares + 1)
@@ -181,8 +181,8 @@ def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
 
     Notes
     -----
-    Equation 19, ``A = {UP, DOWN, LEFT, RIGHT, STAY}``. Deviation: with ``masks_actions``, as in the preset ``tuned``,
-    only moves onto free squares and lanes can be chosen, so that no episode fails and none returns to its start.
+    Equation 19, ``A = {UP, DOWN, LEFT, RIGHT, STAY}``. Deviation: only moves onto free squares and lanes
+    can be chosen with ``masks_actions``, as in the preset ``tuned``, so that no episode fails or returns to its start.
     """
     if not process.parameters.masks_actions:
         return tuple(Action)
@@ -191,7 +191,7 @@ def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
 
 
 def transition(process: DecisionProcess, state: State, action: Action) -> State:
-    """S_{t+1} of equation 15; every action leads somewhere, allowed or not, and the same state wherever it is taken.
+    """S_{t+1} of equation 15, for any action, whether `actions` allows it or not.
 
     Notes
     -----
@@ -224,8 +224,8 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
     "Agent receives rewards depending on the increment of the number of parking spaces", N_S(S_{t+1}) - N_S(S_t), less
     the four penalties of "Penalty design", of which the paper prints neither formulas nor weights. Deviation: staying
     costs the step penalty twice, so that an agent does not wait. Deviation: the wheeling penalty is taken for each lane
-    beside a new one other than the one that it continues. Deviation: ``loop_reward``, which is 0 in both presets, pays
-    for a new lane that closes a loop. A failure is R_T, which the return E of equation 16 leaves out.
+    beside a new one other than the one that it continues. Deviation: a new lane that closes a loop earns ``loop_reward``,
+    which is 0 in both presets. A failure is R_T, which the return E of equation 16 leaves out.
     """
     parameters = process.parameters
     if following.ending is Ending.FAILED:

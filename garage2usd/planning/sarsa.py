@@ -90,8 +90,8 @@ def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: i
 
     Notes
     -----
-    Deviation: A_{t-1} and the square at the upper right of M enter the hash in the same bits, so that states that
-    differ in both may share their values; plans of a seed depend on it.
+    Deviation: the last action and the square at the upper right of M enter the hash in the same bits, so that states
+    that differ in both may share their values, which the plans of a seed depend on.
     """
     cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
     prime = np.uint64(0x9E3779B97F4A7C15)

@@ -56,7 +56,7 @@ def test_every_step_is_the_decision_process(preset):
             assert tuple(observation.get("distances", ())) == seen.distances
             assert observation["last_action"] == seen.last_action
             structure = environment.structure
-            assert {square for square in structure.where(Cell.LANE)} == state.lanes
+            assert set(structure.where(Cell.LANE)) == state.lanes
             assert info["structure"] == str(structure)
             assert (cells_from_text(info["structure"], field="test") == structure.cells).all()
             assert info["score"] == evaluate(structure, bay=process.bay).value

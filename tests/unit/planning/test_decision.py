@@ -71,7 +71,8 @@ def test_stalls_gained_less_the_step():
 
 
 def test_turning_back_and_turning_early():
-    mdp = process(turn_back_penalty=7.0, interval_penalty=3.0, min_run_squares=3, step_penalty=0.0, wheeling_penalty=0.0)
+    penalties = {"turn_back_penalty": 7.0, "interval_penalty": 3.0, "step_penalty": 0.0, "wheeling_penalty": 0.0}
+    mdp = process(**penalties, min_run_squares=3)
     assert driven(mdp, (R, R, L))[1][-1] == -7  # onto a lane: nothing gained
     states, rewards = driven(mdp, (R, R, U))
     assert rewards[-1] == stalls(mdp, states[-1]) - stalls(mdp, states[-2]) - 3
