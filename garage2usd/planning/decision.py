@@ -181,8 +181,9 @@ def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
 
     Notes
     -----
-    Equation 19, ``A = {UP, DOWN, LEFT, RIGHT, STAY}``. Deviation: only moves onto free squares and lanes
-    can be chosen with ``masks_actions``, as in the preset ``tuned``, so that no episode fails or returns to its start.
+    Equation 19, ``A = {UP, DOWN, LEFT, RIGHT, STAY}``. Deviation: only moves onto free squares and
+    lanes can be chosen with ``masks_actions``, as in the preset ``tuned``, so that no episode fails or returns to its
+    start.
     """
     if not process.parameters.masks_actions:
         return tuple(Action)
@@ -223,9 +224,9 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
     -----
     "Agent receives rewards depending on the increment of the number of parking spaces", N_S(S_{t+1}) - N_S(S_t), less
     the four penalties of "Penalty design", of which the paper prints neither formulas nor weights. Deviation: staying
-    costs the step penalty twice, so that an agent does not wait. Deviation: the wheeling penalty is taken for each lane
-    beside a new one other than the one that it continues. Deviation: a new lane that closes a loop earns ``loop_reward``,
-    which is 0 in both presets. A failure is R_T, which the return E of equation 16 leaves out.
+    costs the step penalty twice, so that an agent does not wait. Deviation: the wheeling penalty is taken for each
+    lane beside a new one other than the one that it continues. Deviation: a new lane that closes a loop earns
+    ``loop_reward``, which is 0 in both presets. A failure is R_T, which the return E of equation 16 leaves out.
     """
     parameters = process.parameters
     if following.ending is Ending.FAILED:
