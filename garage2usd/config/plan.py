@@ -225,7 +225,7 @@ class PlanConfig(Settings):
     loop_reward: float | None = Field(None, ge=0, le=1000)
     """Reward for a new lane square that closes a loop: one that touches another lane than the one it continues."""
     step_penalty: float | None = Field(None, ge=0, le=1000)
-    """Penalty for every action; staying away from the start costs it twice."""
+    """Penalty for every action; staying costs it twice."""
     failure_penalty: float | None = Field(None, ge=0, le=1000)
     """Penalty R_T for the action that ends an episode in a failure."""
     window_radius_squares: int | None = Field(None, ge=1, le=4)

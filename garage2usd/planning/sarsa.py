@@ -12,7 +12,7 @@ from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
 from garage2usd.planning.ground import Ground
 
-__all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory"]
+__all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory", "observe"]
 
 STAY = 4
 ACTIONS = 5
@@ -61,7 +61,7 @@ def grown(memory: Memory) -> Memory:
     """The same in a table twice the size."""
     size = 2 * len(memory.keys)
     larger = Memory(
-        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), np.float32), memory.used, memory.course, memory.last
+        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), memory.q.dtype), memory.used, memory.course, memory.last
     )
     memory.used[0] = 0
     for row in range(len(memory.keys)):
@@ -85,8 +85,14 @@ def _row(memory: Memory, key: np.uint64) -> int:
 
 
 @compiled
-def _observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
-    """Hash of the state S_t = (D, M, A_{t-1})."""
+def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
+    """Hash of the state S_t = (D, M, A_{t-1}).
+
+    Notes
+    -----
+    Deviation: the last action and the square at the upper right of M enter the hash in the same bits, so that states
+    that differ in both may share their values, which the plans of a seed depend on.
+    """
     cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
     prime = np.uint64(0x9E3779B97F4A7C15)
     key = np.uint64(previous + 1)
@@ -197,14 +203,16 @@ def learn(
         done = False
         while step < max_steps and not done:
             if p.masks_actions:
+                ways = 0
                 for way in range(4):
                     kind = cells[position + moves[way]]
                     allowed[way] = kind == 0 or kind == 1
+                    ways += allowed[way]
                 allowed[STAY] = False
-            row = _row(memory, _observe(ground, board, p, position, previous))
+                if ways == 0:  # walled in
+                    break
+            row = _row(memory, observe(ground, board, p, position, previous))
             action = _choose(memory, row, allowed, epsilon, random)
-            if action < 0:
-                break
             if old_row >= 0:
                 target = reward + p.gamma * memory.q[row, action]
                 memory.q[old_row, old_action] += p.alpha * (target - memory.q[old_row, old_action])

@@ -1,0 +1,191 @@
+"""The decision process as a Gymnasium environment: importing this module registers ``garage2usd/Lanes-v0``.
+
+It needs the extra ``gymnasium``. ``gymnasium.make("garage2usd.environment:garage2usd/Lanes-v0", config=...)`` imports
+the module itself.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import GarageConfig
+from garage2usd.errors import MissingExtraError
+from garage2usd.planning.decision import (
+    Action,
+    DecisionProcess,
+    State,
+    actions,
+    initial,
+    observe,
+    reward,
+    structure_of,
+    terminal,
+    transition,
+)
+from garage2usd.planning.score import evaluate, is_feasible
+from garage2usd.site import make_site
+from garage2usd.site.room import check_room
+from garage2usd.structure.grid import Cell, Structure
+
+try:
+    import gymnasium
+    from gymnasium import spaces
+    from gymnasium.error import InvalidAction, ResetNeeded
+except ModuleNotFoundError as error:
+    raise MissingExtraError("garage2usd.environment", "gymnasium", "Gymnasium") from error
+
+__all__ = ["ENVIRONMENT_ID", "LanesEnvironment"]
+
+ENVIRONMENT_ID = "garage2usd/Lanes-v0"
+
+_CAR = "@"
+
+Observed = dict[str, Any]
+
+
+class LanesEnvironment(gymnasium.Env[Observed, np.int64]):
+    """A car drives over a site and colours squares as lanes: equations 15 to 19 of the paper.
+
+    Parameters
+    ----------
+    config
+        Its `site`, `bay` and `seed` make the site as a build makes it; its `plan` has the preset with the penalties and
+        what the agent sees and may do. The default garage if left out. Lanes of a given structure are taken off.
+    render_mode
+        ``"ansi"``, by which `render` draws the plan, or None.
+
+    Raises
+    ------
+    ConfigError, GenerationError
+        If the site cannot be made, as for `garage2usd.generate`.
+
+    Notes
+    -----
+    **Actions.** ``Discrete(5)``: 0 up, 1 down, 2 left, 3 right, 4 stay. Rows grow downwards.
+
+    **Observations.** A ``Dict`` with the paper's ``S_t = (D, M, A_{t-1})``:
+
+    - ``distances``: int32, shape (4,), squares that the car could drive straight on, up, down, left and right; only
+      where the plan's ``sees_distances`` holds, as in the preset ``paper``.
+    - ``window``: int8, shape (2 r + 1, 2 r + 1) for the plan's ``window_radius_squares`` r, values of
+      `garage2usd.structure.grid.Cell` around the car.
+    - ``last_action``: ``Discrete(5)``, 4 at first.
+
+    **Rewards.** Stalls gained by the action, less the penalties of `garage2usd.config.PlanConfig`.
+
+    **Episodes.** One starts at an entrance that is drawn. It is terminated when the car stays on its start, when it
+    fails (it drives against something, or on after it came back), or where it is walled in; it is truncated after
+    ``max_steps_per_square`` actions for each free square.
+
+    **Info.** ``action_mask``: int8, shape (5,), 1 for actions that the preset allows, as ``action_space.sample`` takes
+    it; an action outside it is carried out all the same and may fail. ``score``: y' of the lanes so far.
+    ``is_feasible``: whether these are a plan, in one piece and beside every portal. ``structure``: the structure
+    matrix as text, which `garage2usd.config.GarageConfig` takes as ``site.structure``.
+    """
+
+    metadata = {"render_modes": ["ansi"], "render_fps": 4}  # noqa: RUF012 - Gymnasium's own form
+
+    def __init__(self, config: GarageConfig | None = None, *, render_mode: str | None = None) -> None:
+        config = config or GarageConfig()
+        site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+        check_room(site, config.bay)
+        self.process = DecisionProcess(site, config.bay, config.plan.resolved())
+        self.render_mode = render_mode
+        self.action_space = spaces.Discrete(len(Action))
+        self.observation_space = _observation_space(self.process)
+        self._plan = config.plan
+        self._state: State | None = None
+        self._steps = 0
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observed, dict[str, Any]]:
+        """Begin an episode on the site without lanes, at an entrance drawn by `seed`; `options` are not used."""
+        super().reset(seed=seed, options=options)
+        entrances = self.process.entrances
+        self._state, self._steps = initial(entrances[int(self.np_random.integers(len(entrances)))]), 0
+        return self._observed(self._state), self._info(self._state)
+
+    def step(self, action: np.int64 | int) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
+        """Carry an action out.
+
+        Raises
+        ------
+        gymnasium.error.InvalidAction
+            If there is no such action.
+        gymnasium.error.ResetNeeded
+            If no episode was begun, or the last one is over.
+        """
+        if not self.action_space.contains(action):
+            raise InvalidAction(f"action: got {action!r}; allowed: whole numbers 0 to {len(Action) - 1}")
+        state = self._current
+        if terminal(self.process, state) or self._steps >= self.process.horizon:
+            raise ResetNeeded("step: the episode is over; call reset first")
+        following = transition(self.process, state, Action(int(action)))
+        earned = reward(self.process, state, Action(int(action)), following)
+        self._state, self._steps = following, self._steps + 1
+        terminated = terminal(self.process, following)
+        truncated = not terminated and self._steps >= self.process.horizon
+        return self._observed(following), earned, terminated, truncated, self._info(following)
+
+    def render(self) -> str | None:
+        """Draw the plan with the car as ``@``, one line a row; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        lines = [list(line) for line in str(self.structure).splitlines()]
+        row, col = self._current.square
+        lines[row][col] = _CAR
+        return "\n".join("".join(line) for line in lines)
+
+    @property
+    def structure(self) -> Structure:
+        """The site with the lanes of the episode, whether it is over or not."""
+        return structure_of(self.process, self._current)
+
+    def action_mask(self) -> NDArray[np.int8]:
+        """Which actions the preset allows now; int8, shape (5,)."""
+        mask = np.zeros(len(Action), np.int8)
+        mask[list(actions(self.process, self._current))] = 1
+        return mask
+
+    @property
+    def _current(self) -> State:
+        if self._state is None:
+            raise ResetNeeded("no episode was begun; call reset first")
+        return self._state
+
+    def _observed(self, state: State) -> Observed:
+        seen = observe(self.process, state)
+        side = 2 * self.process.parameters.window_radius_squares + 1
+        observed: Observed = {
+            "window": np.array(seen.window, np.int8).reshape(side, side),
+            "last_action": np.int64(seen.last_action),
+        }
+        if seen.distances:
+            observed["distances"] = np.array(seen.distances, np.int32)
+        return observed
+
+    def _info(self, state: State) -> dict[str, Any]:
+        structure = structure_of(self.process, state)
+        return {
+            "action_mask": self.action_mask(),
+            "score": evaluate(structure, bay=self.process.bay, plan=self._plan).value,
+            "is_feasible": is_feasible(structure),
+            "structure": str(structure),
+        }
+
+
+def _observation_space(process: DecisionProcess) -> spaces.Dict:
+    side = 2 * process.parameters.window_radius_squares + 1
+    seen: dict[str, spaces.Space[Any]] = {
+        "window": spaces.Box(int(min(Cell)), int(max(Cell)), (side, side), np.int8),
+        "last_action": spaces.Discrete(len(Action)),
+    }
+    if process.parameters.sees_distances:
+        seen["distances"] = spaces.Box(0, max(process.site.shape), (4,), np.int32)
+    return spaces.Dict(seen)
+
+
+if ENVIRONMENT_ID not in gymnasium.registry:
+    gymnasium.register(ENVIRONMENT_ID, entry_point="garage2usd.environment:LanesEnvironment")

@@ -1,0 +1,40 @@
+"""The compiled Sarsa follows the decision process action for action, and faults in it are found."""
+
+import os
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from following import check_states, property_of
+from hypothesis import Phase
+from sample_files import REPOSITORY
+from sarsa_mutants import MUTANTS
+
+from garage2usd.planning import sarsa
+
+test_learn_follows_the_decision_process = property_of(sarsa, number=np.float32, examples=200, phases=tuple(Phase))
+
+
+def test_the_table_tells_states_apart_as_the_decision_process_does():
+    check_states(sarsa)
+
+
+def test_names_of_faults_are_unique():
+    assert max(Counter(mutant.name for mutant in MUTANTS).values()) == 1
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.name)
+def test_each_fault_fits_one_place(mutant):
+    assert (REPOSITORY / "garage2usd" / "planning" / f"{mutant.module}.py").read_text().count(mutant.old) == 1
+    assert mutant.new != mutant.old
+
+
+def test_every_fault_is_found():
+    command = [sys.executable, str(Path(__file__).with_name("sarsa_mutations.py"))]
+    environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert run.stdout.endswith(f"{len(MUTANTS)} of {len(MUTANTS)} caught\n")
