@@ -11,9 +11,9 @@ from garage2usd.checks.lane_reader import DrivenGround, read_lanes
 from garage2usd.checks.scene import RectLight, read_scene
 from garage2usd.checks.subject import Point, Subject
 from garage2usd.errors import ConfigError, StageError
-from garage2usd.layout import ObjectKind, Placement
+from garage2usd.layout import Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
-from garage2usd.layout.specs import TubeLightSpec
+from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.stage.reading import open_stage
 from garage2usd.structure.grid import Structure, cells_from_text
 
@@ -100,7 +100,6 @@ def _illuminances(
     tubes = [
         Placement(
             "Light",
-            ObjectKind.LIGHT,
             TubeLightSpec(light.width_m, light.height_m, drop_m=0.0, luminance_nit=light.luminance_nit),
             (float(light.matrix[3, 0]), float(light.matrix[3, 1]), float(light.matrix[3, 2])),
             float(np.arctan2(-light.matrix[0, 2], light.matrix[0, 0])),
