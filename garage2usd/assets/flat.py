@@ -1,4 +1,4 @@
-"""Level sheets of any outline."""
+"""Flat sheets of any outline, level or upright."""
 
 import numpy as np
 import shapely
@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Collider, Part, make_part
 
-__all__ = ["GRID_M", "flat_part", "level_triangles"]
+__all__ = ["GRID_M", "flat_part", "level_triangles", "upright_triangles"]
 
 GRID_M = 1e-6
 """The grid that corners of sheets which meet are snapped to."""
@@ -42,6 +42,27 @@ def level_triangles(area: shapely.Geometry) -> NDArray[np.float64]:
     turned = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] > 0
     corners[turned] = corners[turned][:, ::-1]
     return corners
+
+
+def upright_triangles(shape: shapely.Geometry, *, middle_m: float, front_m: float) -> NDArray[np.float64]:
+    """Triangles of a shape that stands upright and looks to +Z.
+
+    Parameters
+    ----------
+    shape
+        In (x, y), its second coordinate downwards.
+    middle_m
+        Height of its origin.
+    front_m
+        Where it stands along Z.
+
+    Returns
+    -------
+    NDArray
+        float64, shape (triangles, 3, 3).
+    """
+    corners = level_triangles(shape)
+    return np.stack([corners[..., 0], middle_m - corners[..., 1], np.full(corners.shape[:2], front_m)], axis=2)
 
 
 def _from_above(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from garage2usd.assets.flat import level_triangles
+from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, text_shape
 from garage2usd.assets.mesh import Asset, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
@@ -59,9 +59,7 @@ class ZonePlateSpec(Spec, kind=KIND):
 
 def _on_four_sides(name: str, shape: shapely.Geometry, material: str, lift_m: float, middle_m: float) -> Part:
     """A shape, its second coordinate downwards, upright on the sides of a column."""
-    corners = level_triangles(shape)
-    upright = np.stack([corners[..., 0], middle_m - corners[..., 1], np.full(corners.shape[:2], lift_m)], axis=2)
-    turned = [upright]
+    turned = [upright_triangles(shape, middle_m=middle_m, front_m=lift_m)]
     for _ in range(3):
         x, y, z = np.moveaxis(turned[-1], 2, 0)
         turned.append(np.stack([z, y, -x], axis=2))

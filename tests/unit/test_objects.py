@@ -20,7 +20,7 @@ CITYSCAPES = {
 
 def spec_classes(base=Spec):
     for cls in base.__subclasses__():
-        if hasattr(cls, "kind"):
+        if hasattr(cls, "kind") and cls.__module__.startswith("garage2usd."):
             yield cls
         yield from spec_classes(cls)
 
