@@ -21,7 +21,8 @@ __all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline", "Subject"]
 
 Point = tuple[float, float]
 """(x, z) in metres."""
-_LINE_M = 0.02
+_LINE_M = 0.06
+"""Half the width of a line, which is painted on the border of a stall."""
 _AT_HOME = 0.5
 
 

@@ -19,6 +19,7 @@ from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
 from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
+from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
@@ -166,13 +167,12 @@ def lay_out(
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
         yield wheel_stops(stalls, fittings)
-        cars = parked_cars(stalls, config.parking, draws)
-        yield cars
-        yield cones(grid, stalls, cars, fittings, draws, built_on=core_on)
+        yield (cars := parked_cars(stalls, config.parking, draws))
+        yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
         yield bumps
-        yield no_parking_signs(grid, shell, cores, fittings, seed=seed)
+        yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
 
         pillars = columns(structure, bay, fittings)
         yield (ceiling_panel(tile, fittings) for tile in grid)
@@ -191,6 +191,7 @@ def lay_out(
         yield core_placements(structure, cores, ceiling)
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
+        yield mounted_objects(grid, pillars, walls, stalls, cores, [*closing, *signs], config)
 
     return Layout(
         structure,

@@ -1,23 +1,19 @@
 """One module for each kind of object: its measures, mesh, colliders, semantic class and outline on the ground.
 
-Every module that declares a kind binds it as ``KIND``. They are found by that name, so that another module in this
-folder is another kind, and listed by their numbers, whatever their modules are called.
+A module that declares a kind binds it as ``KIND``, and as ``MOUNTED`` how objects of it hang on walls and columns,
+if they are. Both are found by these names, so that another module in this folder is another kind, and listed by the
+numbers of kinds, whatever the modules are called.
 """
 
-from collections.abc import Iterator
 from importlib import import_module
 from pkgutil import iter_modules
 
 from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.mounted import Mounted
 
-__all__ = ["KINDS", "Kind", "Spec"]
+__all__ = ["KINDS", "MOUNTED", "Kind", "Mounted", "Spec"]
 
-
-def _declared() -> Iterator[Kind]:
-    for module in iter_modules(__path__, prefix=f"{__name__}."):
-        kind = getattr(import_module(module.name), "KIND", None)
-        if isinstance(kind, Kind):
-            yield kind
+_MODULES = [import_module(module.name) for module in iter_modules(__path__, prefix=f"{__name__}.")]
 
 
 def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
@@ -35,5 +31,10 @@ def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
     return tuple(sorted(kinds, key=lambda kind: kind.number))
 
 
-KINDS = _in_order(list(_declared()))
+KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")])
 """All kinds of objects, in the order of their numbers."""
+
+MOUNTED: tuple[Mounted, ...] = tuple(
+    sorted((module.MOUNTED for module in _MODULES if hasattr(module, "MOUNTED")), key=lambda each: each.kind.number)
+)
+"""What hangs on walls and columns, in the same order."""
