@@ -17,6 +17,7 @@ from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.obstacle import ObstacleSpec
@@ -86,6 +87,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(2 * spec.radius_m, 0.2)
         case ChargerSpec():
             return _centred(0.32, 0.1)
+        case HydrantCabinetSpec():
+            return shapely.box(-0.325, 0, 0.325, 0.27)
         case ConeSpec():
             return _centred(0.38, 0.38)
         case StainSpec():

@@ -15,6 +15,7 @@ from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.obstacle import ObstacleSpec
@@ -78,6 +79,7 @@ SPECS = {
     **{f"exit_sign_{turn}": ExitSignSpec(turn, 0.58, 0.2) for turn in Turn},
     "mirror": MirrorSpec(0.25, arm_m=0.12),
     "charger": ChargerSpec(),
+    "hydrant_cabinet": HydrantCabinetSpec(),
     "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
     "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
     **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
