@@ -16,6 +16,7 @@ from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec
+from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.mirror import MirrorSpec
@@ -89,6 +90,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(0.32, 0.1)
         case HydrantCabinetSpec():
             return shapely.box(-0.325, 0, 0.325, 0.27)
+        case FireExtinguisherSpec():
+            return shapely.box(-0.2, 0, 0.2, 0.18)
         case ConeSpec():
             return _centred(0.38, 0.38)
         case StainSpec():

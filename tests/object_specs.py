@@ -13,6 +13,7 @@ from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
@@ -80,6 +81,7 @@ SPECS = {
     "mirror": MirrorSpec(0.25, arm_m=0.12),
     "charger": ChargerSpec(),
     "hydrant_cabinet": HydrantCabinetSpec(),
+    "fire_extinguisher": FireExtinguisherSpec(),
     "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
     "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
     **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},

@@ -18,7 +18,7 @@ SERVICES = ("duct", "cable_tray", "sprinkler")
 HANGING = ("light", "beam", *SERVICES, "exit_sign", "mirror")
 BUILDING = ("column", "wall", "portal", "obstacle", "ramp")
 STANDING = (*BUILDING, "barrier", "car", "cone", "wheel_stop", "charger")
-STANDING = (*STANDING, "no_parking_sign", "hydrant_cabinet")
+STANDING = (*STANDING, "no_parking_sign", "hydrant_cabinet", "fire_extinguisher")
 SOLID = (*HANGING, *STANDING, "speed_bump")
 TOUCH_M = 1e-4
 # flanges of ducts that meet; doors of cores that stand side by side

@@ -8,7 +8,9 @@ from numpy.typing import ArrayLike
 
 from garage2usd.assets.mesh import Face
 
-__all__ = ["box_faces", "disc_faces", "frame_faces", "lathe_faces", "ring_faces", "upright_lathe_faces"]
+__all__ = ["box_faces", "disc_faces", "frame_faces", "lathe_faces", "ring_faces", "tube_faces", "upright_lathe_faces"]
+
+_STRAIGHT = 1e-9
 
 
 def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Face]:
@@ -56,6 +58,30 @@ def disc_faces(radius_m: float, back_m: float, front_m: float, centre_y_m: float
     """A closed disc that looks to +Z."""
     faces = lathe_faces([(back_m, 0.0), (back_m, radius_m), (front_m, radius_m), (front_m, 0.0)], segments=28)
     return [face[:, [1, 2, 0]] + np.array((0.0, centre_y_m, 0.0)) for face in faces]
+
+
+def tube_faces(points: Sequence[tuple[float, float, float]], radius_m: float, *, segments: int) -> list[Face]:
+    """A closed round tube along a line of points that bends in a plane, mitred where it bends."""
+    line = np.array(points, dtype=float)
+    ways = np.diff(line, axis=0)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    normal = np.cross(ways[0], ways[-1])
+    if np.linalg.norm(normal) < _STRAIGHT:
+        normal = np.cross(ways[0], np.eye(3)[np.argmin(np.abs(ways[0]))])
+    normal /= np.linalg.norm(normal)
+    angles = np.arange(segments) * (2 * np.pi / segments)
+    rings = []
+    for index, point in enumerate(line):
+        before, after = ways[max(index - 1, 0)], ways[min(index, len(ways) - 1)]
+        side = np.cross(before + after, normal)
+        side *= 2 / (side @ side) * np.linalg.norm(np.cross(before, normal))
+        rings.append(point + radius_m * (np.cos(angles)[:, None] * normal + np.sin(angles)[:, None] * side))
+    faces = [
+        np.array([first[i], first[(i + 1) % segments], second[(i + 1) % segments], second[i]])
+        for first, second in pairwise(rings)
+        for i in range(segments)
+    ]
+    return [rings[0][::-1], *faces, rings[-1]]
 
 
 def frame_faces(half_m: float, top_m: float, border_m: float, back_m: float, front_m: float) -> list[Face]:

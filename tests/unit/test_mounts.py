@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 import shapely
 from footprints import footprint
-from overlaps import carriageways
+from overlaps import assert_solid_objects_keep_apart, carriageways
 from scipy.spatial.distance import cdist
+from small_garage import PLAN as SMALL
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out, mounts
-from garage2usd.objects import Mounted
+from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.mirror import KIND
 from garage2usd.objects.outline import rectangle
@@ -57,7 +58,7 @@ def places(layout):
 @pytest.mark.parametrize("sides", SIZES, ids=["equal", "dimensioned"])
 @pytest.mark.parametrize("width_m", [0.2, 0.4, 0.65])
 def test_nothing_hangs_where_cars_drive_or_park_or_people_leave(width_m, sides, monkeypatch):
-    plate = Mounted(PlateSpec(width_m, 0.2), "mirrors", "hydrant_reach", 7.0)
+    plate = Mounted(PlateSpec(width_m, 0.2), "hydrant_cabinets", "hydrant_reach", 7.0)
     monkeypatch.setattr(mounts, "MOUNTED", (plate,))
     layout, config = laid_out(sides=sides, profile="uk-istructe")
     hung = [place for place in layout.placements if isinstance(place.spec, PlateSpec)]
@@ -86,7 +87,7 @@ def test_nothing_hangs_where_cars_drive_or_park_or_people_leave(width_m, sides, 
 @pytest.mark.parametrize("walked", [False, True])
 @pytest.mark.parametrize("reach_m", REACH.values(), ids=REACH)
 def test_every_stall_is_served_wherever_a_face_is_free(reach_m, walked, count, monkeypatch):
-    plate = Mounted(PlateSpec(0.3, 0.1), "mirrors", "hydrant_reach", reach_m + 1.0, count, is_walked=walked)
+    plate = Mounted(PlateSpec(0.3, 0.1), "hydrant_cabinets", "hydrant_reach", reach_m + 1.0, count, is_walked=walked)
     monkeypatch.setattr(mounts, "MOUNTED", (plate,))
     layout, _ = laid_out(profile="uk-istructe")
     at = np.array([place.position_m for place in layout.placements if isinstance(place.spec, PlateSpec)])[:, [0, 2]]
@@ -96,3 +97,26 @@ def test_every_stall_is_served_wherever_a_face_is_free(reach_m, walked, count, m
     served = (2.0 if walked else np.pi) * reach_m**2
     floor = np.prod(layout.structure.shape) * 8.1**2
     assert len(at) <= count * max(4, 6 * floor / served)
+
+
+def test_the_clause_of_the_profile_decides_how_far():
+    near, _ = laid_out()
+    far, _ = laid_out(profile="uk-istructe")
+    assert len(far.of_kind("fire_extinguisher")) < len(near.of_kind("fire_extinguisher"))
+
+
+def test_each_kind_has_a_switch_and_moves_nothing_else():
+    everything, _ = laid_out()
+    names = {mounted.kind.name for mounted in MOUNTED}
+    others = [place for place in everything.placements if place.kind not in names]
+    for mounted in MOUNTED:
+        without, _ = laid_out(fittings={mounted.setting: False})
+        assert everything.of_kind(mounted.kind.name)
+        assert not without.of_kind(mounted.kind.name)
+        assert [place for place in without.placements if place.kind not in names] == others
+
+
+@pytest.mark.parametrize("text", [PLAN, SMALL], ids=["loop", "small"])
+def test_nothing_solid_meets_what_hangs_on_walls_and_columns(text):
+    layout, config = laid_out(text)
+    assert_solid_objects_keep_apart(layout, config)
