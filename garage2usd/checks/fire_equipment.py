@@ -15,6 +15,7 @@ from garage2usd.profiles import Length, Profile
 __all__ = ["BOOK"]
 
 BOOK = RuleBook()
+_HYDRANT = "hydrant_cabinet"
 
 
 def _out_of_reach(mounted: Mounted, subject: Subject, profile: Profile) -> Iterator[Miss]:
@@ -45,6 +46,19 @@ for _mounted in MOUNTED:
         asks=f"{'two of' if _mounted.count > 1 else 'one of'} the class `{_mounted.kind.label}` "
         f"{'are' if _mounted.count > 1 else 'is'} near enough to every stall and lane",
     )(partial(_out_of_reach, _mounted))
+
+
+@BOOK.rule("hydrant-spacing", "hydrant_spacing", asks="a fire hydrant is near enough to the next one")
+def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    hydrants = _places_of(subject, _HYDRANT)
+    if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
+        return
+    distances, _ = KDTree(hydrants).query(hydrants, k=[2])
+    farthest = int(np.argmax(distances[:, 0].round(6)))
+    measured, required = float(distances[farthest, 0]), profile.hydrant_spacing.amount
+    if measured > required + ROUNDING_M:
+        place: Point = (float(hydrants[farthest, 0]), float(hydrants[farthest, 1]))
+        yield Miss("", place, "the next fire hydrant is too far", measured, required)
 
 
 def _places_of(subject: Subject, label: str) -> NDArray[np.float64]:

@@ -107,6 +107,8 @@ class Profile(Settings):
 
     hydrant_reach: Length | None = None
     """Largest distance of a stall or a lane from the two nearest fire hydrants."""
+    hydrant_spacing: Length | None = None
+    """Largest distance of a fire hydrant from the next one."""
     extinguisher_distance: Length | None = None
     """Largest distance of a stall or a lane from the nearest fire extinguisher, walked along X and then along Z."""
 
