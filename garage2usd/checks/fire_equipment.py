@@ -43,8 +43,8 @@ for _mounted in MOUNTED:
     BOOK.rule(
         f"{_mounted.kind.name.replace('_', '-')}-distance",
         _mounted.clause,
-        asks=f"{'two of' if _mounted.count > 1 else 'one of'} the class `{_mounted.kind.label}` "
-        f"{'are' if _mounted.count > 1 else 'is'} near enough to every stall and lane",
+        asks=f"every stall and lane has {_mounted.count} {_mounted.kind.label.replace('_', ' ')}"
+        f"{'s' if _mounted.count > 1 else ''} near enough",
     )(partial(_out_of_reach, _mounted))
 
 

@@ -76,8 +76,8 @@ def _extinguisher(x_m: float) -> dict[str, list[Face]]:
     ]
     # from the valve's side down along the body, to where its nozzle is clipped
     bend = [(-0.016, 0.430), (-0.050, 0.437), (-0.078, 0.410), (-0.083, 0.340), (-0.083, 0.120)]
-    hose = tube_faces([(across, up, 0.0) for across, up in bend], 0.0085, segments=8)
-    hose += tube_faces([(-0.083, 0.121, 0.0), (-0.083, 0.050, 0.0)], 0.0125, segments=8)
+    hose = tube_faces([(across, up, 0.0) for across, up in bend], 0.0085, segments=6)
+    hose += tube_faces([(-0.083, 0.121, 0.0), (-0.083, 0.050, 0.0)], 0.0125, segments=6)
     strap = lathe_faces(
         [
             (0.0, _RADIUS_M + 0.003),
@@ -86,11 +86,11 @@ def _extinguisher(x_m: float) -> dict[str, list[Face]]:
             (0.0, _RADIUS_M),
             (0.0, _RADIUS_M + 0.003),
         ],
-        segments=24,
+        segments=18,
     )
     parts = {
-        "Body": upright_lathe_faces(list(_BODY_M), segments=24),
-        "Valve": upright_lathe_faces(list(_NECK_M), segments=16),
+        "Body": upright_lathe_faces(list(_BODY_M), segments=18),
+        "Valve": upright_lathe_faces(list(_NECK_M), segments=10),
         "Lever": squeeze + carry + box_faces((-0.010, top - 0.004, -0.030), (0.010, top + 0.012, 0.005)),
         "Gauge": [face + np.array((0.0, 0.424, 0.018)) for face in gauge],
         "Hose": hose,
@@ -105,7 +105,7 @@ def _extinguisher(x_m: float) -> dict[str, list[Face]]:
 def _wrapped(radius_m: float, heights_m: tuple[float, float], half_deg: float) -> list[Face]:
     """A label around the front of a body."""
     low, high = heights_m
-    angles = np.radians(np.linspace(-half_deg, half_deg, 11))
+    angles = np.radians(np.linspace(-half_deg, half_deg, 7))
     rim = [(radius_m * np.sin(angle), radius_m * np.cos(angle)) for angle in angles.tolist()]
     return [
         np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)]) for (x0, z0), (x1, z1) in pairwise(rim)
@@ -120,7 +120,7 @@ def _sign() -> list[Part]:
     drawn = shapely.union_all(
         [
             shapely.box(-0.052, -0.030, -0.008, 0.080),  # the body, its neck, its lever and its hose
-            shapely.Point(-0.030, -0.030).buffer(0.022, quad_segs=6),
+            shapely.Point(-0.030, -0.030).buffer(0.022, quad_segs=3),
             shapely.box(-0.038, -0.068, -0.022, -0.040),
             shapely.LineString([(-0.056, -0.068), (-0.004, -0.078)]).buffer(0.006, cap_style="flat"),
             shapely.LineString([(-0.022, -0.060), (0.010, -0.050), (0.014, 0.000)]).buffer(0.006, cap_style="flat"),

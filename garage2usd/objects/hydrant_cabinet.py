@@ -107,11 +107,10 @@ def _fittings(pipe_x: float, pipe_z: float) -> list[Part]:
         [(top, 0.012), (top + 0.05, 0.012), (top + 0.051, 0.05), (top + 0.066, 0.05)], segments=16
     )
     reel_y, reel_z = _FOOT_M + _HEIGHT_M - 0.29, _SHEET_M + 0.03
-    coils: list[Face] = []
-    for ring in range(6):
-        outer = _REEL_M - ring * 0.028
-        profile = [(0.0, outer - 0.022), (0.0, outer), (0.065, outer), (0.065, outer - 0.022), (0.0, outer - 0.022)]
-        coils += [face[:, [1, 2, 0]] + np.array((0.08, reel_y, reel_z)) for face in lathe_faces(profile, segments=28)]
+    # turns of flat hose: a groove between each and the next
+    turns = [(depth, _REEL_M - at * 0.033) for at in range(6) for depth in (0.065, 0.058)]
+    section = [(0.0, 0.0), (0.0, _REEL_M), *turns, (0.058, 0.0)]
+    coils = [face[:, [1, 2, 0]] + np.array((0.08, reel_y, reel_z)) for face in lathe_faces(section, segments=20)]
     hub = [
         face[:, [1, 2, 0]] + np.array((0.08, reel_y, _SHEET_M))
         for face in lathe_faces([(0.0, 0.0), (0.0, 0.03), (0.11, 0.03), (0.11, 0.0)], segments=12)

@@ -11,7 +11,7 @@ SPEC = TubeLightSpec(1.5, 0.12, luminance_nit=1000.0)
 
 
 def tube(x, z, yaw=0.0, height=3.2):
-    return Placement("Tube", "light", SPEC, (x, height, z), yaw, (0, 0))
+    return Placement("Tube", SPEC, (x, height, z), yaw, (0, 0))
 
 
 def integrated(point, place):
