@@ -18,8 +18,9 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
 from garage2usd.layout import Layout, lay_out
+from garage2usd.objects import KINDS
 from garage2usd.stage import arrangement_of, write_stage
-from garage2usd.stage.arrangement import SCATTERED, arrange
+from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
@@ -167,7 +168,7 @@ def _read(folder: Path) -> tuple[Layout, LaneGraph, GarageConfig]:
 
 def _own_layers(path: Path) -> list[Path]:
     """The layers that are authored for one garage alone."""
-    names = (TILES_FILE, LANE_GRAPH_FILE, *(f"{instancer}.usdc" for instancer in SCATTERED.values()))
+    names = (TILES_FILE, LANE_GRAPH_FILE, *(f"{kind.scattered}.usdc" for kind in KINDS if kind.scattered))
     return [file for file in (path, *(path.parent / ASSETS / name for name in names)) if file.exists()]
 
 

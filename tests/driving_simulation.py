@@ -13,7 +13,6 @@ import numpy as np
 import shapely
 from shapely import affinity
 
-from garage2usd.layout import ObjectKind
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Cell
 
@@ -21,21 +20,21 @@ LENGTH_M, WIDTH_M, WHEELBASE_M, REAR_M, TRACK_M, TURNING_RADIUS_M = 4.8, 1.8, 2.
 STEP_M = 0.02
 LOCK_RAD = math.atan(WHEELBASE_M / (math.sqrt(TURNING_RADIUS_M**2 - WHEELBASE_M**2) - TRACK_M / 2))
 _HARMLESS = {
-    ObjectKind.FLOOR,
-    ObjectKind.STALL,
-    ObjectKind.CEILING,
-    ObjectKind.LIGHT,
-    ObjectKind.BEAM,
-    ObjectKind.DUCT,
-    ObjectKind.CABLE_TRAY,
-    ObjectKind.SPRINKLER,
-    ObjectKind.EXIT_SIGN,
-    ObjectKind.MIRROR,
-    ObjectKind.SPEED_BUMP,
-    ObjectKind.SKY,
-    ObjectKind.STALL_NUMBER,
-    ObjectKind.ZONE_PLATE,
-    ObjectKind.FLOOR_STAIN,
+    "floor",
+    "stall",
+    "ceiling",
+    "light",
+    "beam",
+    "duct",
+    "cable_tray",
+    "sprinkler",
+    "exit_sign",
+    "mirror",
+    "speed_bump",
+    "sky",
+    "stall_number",
+    "zone_plate",
+    "floor_stain",
 }
 _OVERHEAD_M = 2.0
 

@@ -6,7 +6,32 @@ import shapely
 from shapely import affinity
 
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.layout import specs as s
+from garage2usd.objects.barrier import BarrierSpec
+from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
+from garage2usd.objects.cable_tray import CableTraySpec
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.ceiling import CeilingSpec
+from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.cone import ConeSpec
+from garage2usd.objects.duct import DuctSpec
+from garage2usd.objects.exit_sign import ExitSignSpec
+from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.mirror import MirrorSpec
+from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.obstacle import ObstacleSpec
+from garage2usd.objects.panel import PanelSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.ramp import RampSpec
+from garage2usd.objects.speed_bump import SpeedBumpSpec
+from garage2usd.objects.sprinkler import SprinklerSpec
+from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.objects.wall import WallPostSpec, WallSpec
+from garage2usd.objects.wheel_stop import WheelStopSpec
+from garage2usd.objects.zone_plate import ZonePlateSpec
 
 
 def footprint(placement):
@@ -20,56 +45,60 @@ def footprint(placement):
 
 def _local(spec):  # noqa: PLR0912 - a case for each kind of object
     match spec:
-        case s.PanelSpec():
+        case PanelSpec():
             panel = _centred(spec.width_m, spec.depth_m)
             return panel.difference(shapely.union_all([shapely.Polygon(opening) for opening in spec.openings]))
-        case s.CeilingSpec() | s.ObstacleSpec():
+        case CeilingSpec() | ObstacleSpec():
             return _centred(spec.width_m, spec.depth_m)
-        case s.WallSpec() | s.PortalSpec():
+        case WallSpec() | PortalSpec():
             return shapely.box(-spec.length_m / 2, -spec.thickness_m, spec.length_m / 2, 0)
-        case s.RampSpec():
+        case RampSpec():
             half = spec.width_m / 2 + spec.wall_m
             return shapely.box(-half, -spec.profile[-1][0], half, -spec.profile[0][0])
-        case s.BarrierSpec():
+        case BarrierSpec():
             return shapely.box(-0.2, -1.9, 0.2, 0.2)
-        case s.WallPostSpec():
+        case WallPostSpec():
             return _centred(spec.side_m, spec.side_m)
-        case s.ColumnSpec():
+        case ColumnSpec():
             return _centred(spec.size_m, spec.size_m)
-        case s.TubeLightSpec():
+        case TubeLightSpec():
             return _centred(spec.length_m, spec.width_m)
-        case s.BeamSpec():
+        case BeamSpec():
             return _centred(spec.width_m, spec.length_m)
-        case s.BeamNodeSpec():
+        case BeamNodeSpec():
             return shapely.union_all([shapely.box(*box) for box in spec.boxes])
-        case s.DuctSpec() | s.CableTraySpec():
+        case DuctSpec() | CableTraySpec():
             return _centred(spec.width_m, spec.length_m)
-        case s.SpeedBumpSpec():
+        case SpeedBumpSpec():
             return _centred(spec.length_m, 0.35)
-        case s.WheelStopSpec():
+        case WheelStopSpec():
             return _centred(spec.length_m, 0.15)
-        case s.CarSpec():
+        case CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)
-        case s.NumberSpec():
+        case NumberSpec():
             return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
-        case s.ZonePlateSpec():
+        case ZonePlateSpec():
             return _centred(spec.column_size_m + 0.01, spec.column_size_m + 0.01)
-        case s.SprinklerSpec():
+        case SprinklerSpec():
             return _centred(2 * spec.radius_m, spec.length_m)
-        case s.ExitSignSpec():
+        case ExitSignSpec():
             return _centred(0.8, 0.05)
-        case s.MirrorSpec():
+        case MirrorSpec():
             return _centred(2 * spec.radius_m, 0.2)
-        case s.ChargerSpec():
+        case ChargerSpec():
             return _centred(0.32, 0.1)
-        case s.ConeSpec():
+        case HydrantCabinetSpec():
+            return shapely.box(-0.325, 0, 0.325, 0.27)
+        case FireExtinguisherSpec():
+            return shapely.box(-0.2, 0, 0.2, 0.18)
+        case ConeSpec():
             return _centred(0.38, 0.38)
-        case s.StainSpec():
+        case StainSpec():
             return _centred(spec.width_m, spec.depth_m)
-        case s.TyreMarkSpec():
+        case TyreMarkSpec():
             return _centred(1.8, 2 * spec.length_m)
-        case s.NoParkingSignSpec():
+        case NoParkingSignSpec():
             return _centred(0.5, 0.5)
     raise TypeError(spec)
 

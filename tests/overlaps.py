@@ -10,20 +10,19 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull
 
 from garage2usd.config.vehicles import PAINTS
-from garage2usd.layout import ObjectKind
-from garage2usd.layout.specs import CarSpec
+from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 
-SERVICES = (ObjectKind.DUCT, ObjectKind.CABLE_TRAY, ObjectKind.SPRINKLER)
-HANGING = (ObjectKind.LIGHT, ObjectKind.BEAM, *SERVICES, ObjectKind.EXIT_SIGN, ObjectKind.MIRROR)
-BUILDING = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE, ObjectKind.RAMP)
-STANDING = (*BUILDING, ObjectKind.BARRIER, ObjectKind.CAR, ObjectKind.CONE, ObjectKind.WHEEL_STOP, ObjectKind.CHARGER)
-STANDING = (*STANDING, ObjectKind.NO_PARKING_SIGN)
-SOLID = (*HANGING, *STANDING, ObjectKind.SPEED_BUMP)
+SERVICES = ("duct", "cable_tray", "sprinkler")
+HANGING = ("light", "beam", *SERVICES, "exit_sign", "mirror")
+BUILDING = ("column", "wall", "portal", "obstacle", "ramp")
+STANDING = (*BUILDING, "barrier", "car", "cone", "wheel_stop", "charger")
+STANDING = (*STANDING, "no_parking_sign", "hydrant_cabinet", "fire_extinguisher")
+SOLID = (*HANGING, *STANDING, "speed_bump")
 TOUCH_M = 1e-4
 # flanges of ducts that meet; doors of cores that stand side by side
-MAY_TOUCH = {ObjectKind.DUCT, ObjectKind.OBSTACLE}
+MAY_TOUCH = {"duct", "obstacle"}
 SECTIONS = (1 / 6, 1 / 2, 5 / 6)
 """Where two pieces are compared, as shares of the height that both of them span."""
 

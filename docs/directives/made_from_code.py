@@ -16,9 +16,9 @@ from sphinx.util.docutils import SphinxDirective
 from garage2usd.checks import RULES
 from garage2usd.config import PlanConfig, config_schema
 from garage2usd.config.plan import SarsaParameters
+from garage2usd.objects import KINDS
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
-from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
 
 SECTIONS = {"SiteConfig", "BayConfig", "PlanConfig", "FittingsConfig", "ParkingConfig", "StageConfig"}
 
@@ -122,10 +122,9 @@ class ClassList(MadeFromCode):
 
     def lines(self) -> Iterator[str]:
         """One table."""
-        yield from ("| id | class | nearest Cityscapes class | kinds of objects |", "|---|---|---|---|")
-        for number, (name, cityscapes) in enumerate(CITYSCAPES.items(), 1):
-            kinds = ", ".join(f"`{kind.value}`" for kind, label in OBJECT_LABELS.items() if label == name)
-            yield f"| {number} | `{name}` | {cityscapes} | {kinds} |"
+        yield from ("| id | class | nearest Cityscapes class | kind of object |", "|---|---|---|---|")
+        for kind in KINDS:
+            yield f"| {kind.number} | `{kind.label}` | {kind.cityscapes} | `{kind.name}` |"
 
 
 class RuleList(MadeFromCode):

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.car_shell import SHAPES, Contour, Shell, both_sides, grid_quads, needed
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, box_faces, lathe_faces, make_part
+from garage2usd.assets.faces import box_faces, lathe_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
 __all__ = ["car"]
@@ -61,7 +62,7 @@ def car(body: CarBody) -> Asset:
         *_plates(shell),
         *_wheels(body),
     ]
-    return Asset("car", tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
+    return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
 
 
 def _flat(quads: Faces) -> list[Face]:

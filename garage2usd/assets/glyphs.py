@@ -3,10 +3,12 @@
 import shapely
 from shapely import affinity
 
-__all__ = ["GLYPH_WIDTH", "text_shape"]
+__all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "text_shape"]
 
 GLYPH_WIDTH = 0.56
 """Width of each character as a share of its height."""
+GLYPH_PITCH = 0.71
+"""From one character's middle to the next one's, as a share of their height."""
 _STROKE = 0.16
 _CUT = 0.14
 
@@ -115,7 +117,7 @@ _STROKES |= {
 }
 
 
-def text_shape(text: str, height_m: float, *, pitch: float) -> shapely.Geometry:
+def text_shape(text: str, height_m: float) -> shapely.Geometry:
     """The outline of a word, around the origin, with its second coordinate downwards.
 
     Parameters
@@ -124,12 +126,10 @@ def text_shape(text: str, height_m: float, *, pitch: float) -> shapely.Geometry:
         Digits and capital letters, without I and O, which are read as digits.
     height_m
         Of each character.
-    pitch
-        From one character's middle to the next one's, as a share of their height.
     """
     shapes = []
     for index, character in enumerate(text):
-        across = (index - (len(text) - 1) / 2) * pitch
+        across = (index - (len(text) - 1) / 2) * GLYPH_PITCH
         shapes.append(affinity.translate(_glyph(character), across))
     return affinity.scale(shapely.union_all(shapes), height_m, height_m, origin=(0, 0))
 

@@ -178,6 +178,10 @@ MATERIALS: dict[str, Material] = {
     "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8, touch=Touch.RUBBER),
     "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65, touch=Touch.RUBBER),
     "glass": Material(colour_rgb=(0.022, 0.028, 0.031), roughness=0.04, clearcoat=1.0, ior=1.52, touch=Touch.PLASTIC),
+    "cabinet_glass": Material(
+        colour_rgb=(0.3, 0.34, 0.34), roughness=0.03, opacity=0.14, ior=1.52, touch=Touch.PLASTIC
+    ),
+    "hose": Material(colour_rgb=(0.72, 0.68, 0.56), roughness=0.9, touch=Touch.RUBBER),
     "tyre": Material(colour_rgb=(0.018, 0.018, 0.019), roughness=0.85, touch=Touch.RUBBER),
     "rim": Material(colour_rgb=(0.5, 0.51, 0.53), roughness=0.28, metallic=0.9, touch=Touch.STEEL),
     "trim_black": Material(colour_rgb=(0.012, 0.012, 0.013), roughness=0.6, touch=Touch.PLASTIC),

@@ -3,10 +3,9 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from garage2usd.assets.materials import MATERIALS
 
@@ -16,11 +15,7 @@ __all__ = [
     "Face",
     "Part",
     "RectLight",
-    "box_faces",
-    "frame_faces",
-    "lathe_faces",
     "make_part",
-    "ring_faces",
 ]
 
 Face = NDArray[np.float64]
@@ -98,8 +93,6 @@ class Asset:
 
     Attributes
     ----------
-    label
-        Semantic class.
     parts
         Its meshes.
     light
@@ -108,7 +101,6 @@ class Asset:
         Materials of which one takes the place of ``car_paint``, by the names of the choices.
     """
 
-    label: str
     parts: tuple[Part, ...]
     light: RectLight | None = None
     paints: Mapping[str, str] = field(default_factory=dict)
@@ -161,80 +153,6 @@ def make_part(
         material=material,
         collider=collider,
     )
-
-
-def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Face]:
-    """The faces of an axis-aligned box.
-
-    Parameters
-    ----------
-    low, high
-        Opposite corners (x, y, z).
-    without
-        Faces to leave out, of the letters ``l`` -X, ``r`` +X, ``b`` -Y, ``t`` +Y, ``n`` -Z, ``f`` +Z.
-    """
-    (x0, y0, z0), (x1, y1, z1) = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
-    faces = {
-        "l": [(x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)],
-        "r": [(x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)],
-        "b": [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
-        "t": [(x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)],
-        "n": [(x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)],
-        "f": [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
-    }
-    return [np.array(face) for side, face in faces.items() if side not in without]
-
-
-def lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
-    """Turn a profile of (x, radius) about the X axis; from left to right its outside is away from the axis."""
-    angles = np.arange(segments + 1) * (2 * np.pi / segments)
-    angles[-1] = 0.0
-    rings = [np.stack([np.full(segments + 1, x), r * np.cos(angles), r * np.sin(angles)], axis=1) for x, r in profile]
-    return [
-        np.array([first[i], second[i], second[i + 1], first[i + 1]])[::-1]
-        for first, second in pairwise(rings)
-        for i in range(segments)
-    ]
-
-
-def frame_faces(half_m: float, top_m: float, border_m: float, back_m: float, front_m: float) -> list[Face]:
-    """A door frame standing on y = 0, open below, from `back_m` to `front_m` along Z.
-
-    Its opening is 2 `half_m` wide and `top_m` high, its border `border_m` wide on three sides.
-    """
-    inner = [(-half_m, 0.0), (-half_m, top_m), (half_m, top_m), (half_m, 0.0)]
-    wide, high = half_m + border_m, top_m + border_m
-    outer = [(-wide, 0.0), (-wide, high), (wide, high), (wide, 0.0)]
-    faces = []
-    for i in range(3):
-        (ax, ay), (bx, by) = outer[i], outer[i + 1]
-        (cx, cy), (dx, dy) = inner[i + 1], inner[i]
-        faces.append([(dx, dy, front_m), (cx, cy, front_m), (bx, by, front_m), (ax, ay, front_m)])
-        faces.append([(ax, ay, back_m), (bx, by, back_m), (cx, cy, back_m), (dx, dy, back_m)])
-        faces.append([(ax, ay, front_m), (bx, by, front_m), (bx, by, back_m), (ax, ay, back_m)])
-        faces.append([(dx, dy, back_m), (cx, cy, back_m), (cx, cy, front_m), (dx, dy, front_m)])
-    for i in (0, 3):
-        (ax, ay), (dx, dy) = outer[i], inner[i]
-        foot = [(ax, ay, front_m), (ax, ay, back_m), (dx, dy, back_m), (dx, dy, front_m)]
-        faces.append(foot if i == 0 else foot[::-1])
-    return [np.array(face) for face in faces]
-
-
-def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
-    """A rectangular ring around a box's outline in X and Y, `border_m` wide, as long along Z as the box."""
-    (x0, y0, z0), (x1, y1, z1) = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
-    b = border_m
-    inner = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
-    outer = [(x0 - b, y0 - b), (x1 + b, y0 - b), (x1 + b, y1 + b), (x0 - b, y1 + b)]
-    faces = []
-    for i in range(4):
-        (ax, ay), (bx, by) = outer[i], outer[(i + 1) % 4]
-        (cx, cy), (dx, dy) = inner[(i + 1) % 4], inner[i]
-        faces.append([(ax, ay, z1), (bx, by, z1), (cx, cy, z1), (dx, dy, z1)])
-        faces.append([(dx, dy, z0), (cx, cy, z0), (bx, by, z0), (ax, ay, z0)])
-        faces.append([(ax, ay, z0), (bx, by, z0), (bx, by, z1), (ax, ay, z1)])
-        faces.append([(dx, dy, z1), (cx, cy, z1), (cx, cy, z0), (dx, dy, z0)])
-    return [np.array(face) for face in faces]
 
 
 def _unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -6,9 +6,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
-from garage2usd.assets.stains import CELLS, CELLS_ACROSS
 
-__all__ = ["bake_stains"]
+__all__ = ["CELLS", "CELLS_ACROSS", "bake_stains"]
+
+_Cell = tuple[float, float, float, float]
+CELLS_ACROSS = 8
+"""Cells across and down the texture; `CELLS` counts in them."""
+CELLS: dict[str, tuple[_Cell, ...]] = {
+    "wear_straight": ((0, 0, 2, 2), (2, 0, 2, 2)),
+    "wear_bend": ((4, 0, 2, 2),),
+    "wear_t": ((6, 0, 2, 2),),
+    "wear_cross": ((0, 2, 2, 2),),
+    "damp": ((2, 2, 2, 2),),
+    "oil": ((4, 2, 1, 1), (5, 2, 1, 1), (6, 2, 1, 1), (7, 2, 1, 1), (4, 3, 1, 1), (5, 3, 1, 1)),
+    "patch": ((6, 3, 1, 1), (7, 3, 1, 1)),
+    "drips": ((0, 4, 1, 2),),
+    "crack": ((1, 4, 1, 3), (2, 4, 1, 3)),
+    "tyre": ((3, 4, 0.5, 4), (3.5, 4, 0.5, 4)),
+}
+"""For each mark the cells of its variants: left, top, width and height."""
 
 _CELL_PIXELS = 128
 _INK_RGB = {"oil": (26, 23, 20), "drips": (26, 23, 20), "damp": (44, 43, 41), "patch": (138, 135, 128)}

@@ -7,20 +7,17 @@ import numpy as np
 from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
 from garage2usd.checks.subject import Subject
 from garage2usd.config import BayConfig
-from garage2usd.layout import Layout, ObjectKind, Stall, StallUse
+from garage2usd.layout import Layout, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
-from garage2usd.layout.specs import Spec
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects import KINDS, Spec
 from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
 from garage2usd.stage.arrangement import arrange
-from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["layout_subject", "unlaid_subject"]
-
-_FLAT = {ObjectKind.FLOOR, ObjectKind.STALL, ObjectKind.STALL_NUMBER, ObjectKind.FLOOR_STAIN, ObjectKind.SKY}
 
 
 def layout_subject(
@@ -80,12 +77,12 @@ def _edges(graph: LaneGraph) -> tuple[LaneEdge, ...]:
 def _things(layout: Layout) -> tuple[Thing, ...]:
     paths = arrange(layout, nested=False).paths()
     objects = layout.placements
-    rows = objects.rows_of(*(kind for kind in ObjectKind if kind not in _FLAT))
+    rows = objects.rows_of(*(kind.name for kind in KINDS if kind.is_solid))
     things = []
     for row, placement in zip(rows.tolist(), objects.at(rows), strict=True):
         matrix = turned_about_y(placement.yaw_rad, placement.position_m)
         bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(placement.spec))
-        things.append(Thing(paths[row], OBJECT_LABELS[placement.kind], bodies))
+        things.append(Thing(paths[row], placement.spec.kind.label, bodies))
     return tuple(things)
 
 

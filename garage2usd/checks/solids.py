@@ -9,13 +9,14 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.checks.shapes import Thing
+from garage2usd.objects import KINDS
 
 __all__ = ["HANGS_FROM_M", "Solid", "Solids"]
 
 HANGS_FROM_M = 1.0
 """What begins higher than this hangs; all else stands."""
 _FLAT_M = 0.03
-_NO_SOLIDS = {"floor", "parking_stall", "stall_number", "floor_stain", "sky", "zone_plate"}
+_NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid}
 
 
 class Solid(NamedTuple):
@@ -60,7 +61,7 @@ class Solids:
         self._labels: list[str] = []
         corners, owners, lows, highs, hangs = [], [], [], [], []
         for thing in things:
-            if thing.label in _NO_SOLIDS:
+            if thing.label in _NOT_SOLID:
                 continue
             hanging = min((body.low_m() for body in thing.bodies), default=0.0) > HANGS_FROM_M
             touched = [body for body in thing.bodies if body.touches]

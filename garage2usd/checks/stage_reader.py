@@ -10,9 +10,9 @@ from pxr import Usd
 from garage2usd.checks.scene import RectLight, read_scene
 from garage2usd.checks.subject import Subject
 from garage2usd.errors import ConfigError, StageError
-from garage2usd.layout import ObjectKind, Placement
+from garage2usd.layout import Placement
 from garage2usd.layout.lighting import direct_lux, lane_points_of
-from garage2usd.layout.specs import TubeLightSpec
+from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.ground import Point
 from garage2usd.reading.lanes import Lanes, read_lanes
@@ -101,7 +101,6 @@ def _illuminances(
     tubes = [
         Placement(
             "Light",
-            ObjectKind.LIGHT,
             TubeLightSpec(light.width_m, light.height_m, drop_m=0.0, luminance_nit=light.luminance_nit),
             (float(light.matrix[3, 0]), float(light.matrix[3, 1]), float(light.matrix[3, 2])),
             float(np.arctan2(-light.matrix[0, 2], light.matrix[0, 0])),

@@ -17,7 +17,8 @@ from garage2usd.structure.grid import Structure
 
 __all__ = ["Subject"]
 
-_LINE_M = 0.02
+_LINE_M = 0.06
+"""Half the width of a line, which is painted on the border of a stall."""
 _AT_HOME = 0.5
 
 

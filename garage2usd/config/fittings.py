@@ -51,6 +51,10 @@ class FittingsConfig(Settings):
     """Lit signs at junctions, where the ceiling leaves room over the clear height."""
     mirrors: bool = True
     """Convex mirrors at blind corners, on columns and walls."""
+    hydrant_cabinets: bool = True
+    """Fire hydrant cabinets on columns and walls, so many that two jets reach every stall and lane."""
+    fire_extinguishers: bool = True
+    """Pairs of fire extinguishers on columns and walls, so many that one is in reach of every stall and lane."""
     speed_bump_rate: float = Field(0.15, ge=0, le=1)
     """Share of straight lane squares that carry a speed bump."""
     cone_rate: float = Field(0.04, ge=0, le=1)

@@ -9,7 +9,7 @@ from garage2usd.driving.garage import DrivenGarage, DrivenStall, StallProof, pro
 from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, LaneSquare, SquareUse
 from garage2usd.driving.proof import Limits
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
-from garage2usd.layout import Layout, ObjectKind, Stall, lay_out
+from garage2usd.layout import Layout, Stall, lay_out
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind
@@ -74,9 +74,9 @@ def without_unreachable(
 
 def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:
     """The stalls that take cars, the lanes, and what stands on the floor, each by its `object_name`."""
-    present = {object_name(place) for place in layout.of_kind(ObjectKind.CAR)}
+    present = {object_name(place) for place in layout.of_kind("car")}
     cones = defaultdict(list)
-    for place in layout.of_kind(ObjectKind.CONE):
+    for place in layout.of_kind("cone"):
         cones[object_name(place).rpartition("_")[0]].append(object_name(place))
     stalls = []
     for stall in layout.stalls:

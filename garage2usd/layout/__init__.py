@@ -19,17 +19,19 @@ from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
 from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
 from garage2usd.layout.lighting import Illuminance, light_up
+from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
-from garage2usd.layout.specs import Point
 from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.stall_table import StallTable
-from garage2usd.layout.table import KINDS, ObjectTable
+from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
+from garage2usd.objects import KINDS
+from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -37,7 +39,6 @@ from garage2usd.structure.lane_graph import LaneGraph, Square
 __all__ = [
     "Illuminance",
     "Layout",
-    "ObjectKind",
     "ObjectTable",
     "Placement",
     "Stall",
@@ -86,7 +87,7 @@ class Layout:
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
         counts = np.bincount(self.placements.kind, minlength=len(KINDS)).tolist()
-        return {str(kind): count for kind, count in zip(KINDS, counts, strict=True)}
+        return {kind.name: count for kind, count in zip(KINDS, counts, strict=True)}
 
     @property
     def area_per_stall_m2(self) -> float:
@@ -94,8 +95,8 @@ class Layout:
         areas = np.outer(self.structure.row_depths_mm, self.structure.column_widths_mm)
         return float(areas[self.structure.cells != Cell.OBSTACLE].sum()) / _MM2_PER_M2 / len(self.stalls)
 
-    def of_kind(self, kind: ObjectKind) -> tuple[Placement, ...]:
-        """All objects of one kind."""
+    def of_kind(self, kind: str) -> tuple[Placement, ...]:
+        """All objects of one kind, by its name."""
         return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
@@ -166,13 +167,12 @@ def lay_out(
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
         yield wheel_stops(stalls, fittings)
-        cars = parked_cars(stalls, config.parking, draws)
-        yield cars
-        yield cones(grid, stalls, cars, fittings, draws, built_on=core_on)
+        yield (cars := parked_cars(stalls, config.parking, draws))
+        yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
         yield bumps
-        yield no_parking_signs(grid, shell, cores, fittings, seed=seed)
+        yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
 
         pillars = columns(structure, bay, fittings)
         yield (ceiling_panel(tile, fittings) for tile in grid)
@@ -191,6 +191,7 @@ def lay_out(
         yield core_placements(structure, cores, ceiling)
         yield pillars
         yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
+        yield mounted_objects(grid, pillars, walls, stalls, cores, [*closing, *signs], config)
 
     return Layout(
         structure,

@@ -9,8 +9,12 @@ import shapely
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import ObjectKind, Placement, to_world
-from garage2usd.layout.specs import BarrierSpec, PortalSpec, RampSpec, SkySpec, TubeLightSpec
+from garage2usd.layout.placement import Placement, to_world
+from garage2usd.objects.barrier import BarrierSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.ramp import RampSpec
+from garage2usd.objects.sky import SkySpec
+from garage2usd.objects.tube_light import TubeLightSpec
 
 __all__ = ["barriers", "ramp_lights", "with_ramps"]
 
@@ -58,9 +62,9 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
             continue
         taken = taken.union(ground)
         opened.append(replace(wall, spec=replace(wall.spec, is_open=True)))
-        for kind, shape in ((ObjectKind.RAMP, spec), (ObjectKind.SKY, _sky(spec))):
-            name = wall.name.replace("Portal", kind.name.capitalize())
-            ramps.append(Placement(name, kind, shape, wall.position_m, wall.yaw_rad))
+        for kind, shape in (("Ramp", spec), ("Sky", _sky(spec))):
+            name = wall.name.replace("Portal", kind)
+            ramps.append(Placement(name, shape, wall.position_m, wall.yaw_rad))
     return [*opened, *ramps]
 
 
@@ -118,7 +122,7 @@ def ramp_lights(walls: Iterable[Placement], tube: TubeLightSpec, fittings: Fitti
             x, z = to_world((0.0, -run), (ramp.position_m[0], ramp.position_m[2]), ramp.yaw_rad)
             position = (round(x, 6), spec.cover_height_m, round(z, 6))
             name = f"{ramp.name.replace('Ramp', 'Tube')}_{number}"
-            lights.append(Placement(name, ObjectKind.LIGHT, tube, position, ramp.yaw_rad))
+            lights.append(Placement(name, tube, position, ramp.yaw_rad))
     return lights
 
 
@@ -147,5 +151,5 @@ def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement
         x, z = to_world((left * (half + _BARRIER_GAP_M), along), (x, z), wall.yaw_rad)
         yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
         name = wall.name.replace("Portal", "Barrier")
-        gates.append(Placement(name, ObjectKind.BARRIER, spec, (round(x, 6), 0.0, round(z, 6)), yaw))
+        gates.append(Placement(name, spec, (round(x, 6), 0.0, round(z, 6)), yaw))
     return gates

@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.layout.clearance import check_clear_width
-from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
-from garage2usd.layout.specs import ColumnSpec, PortalSpec, WallPostSpec, WallSpec
+from garage2usd.layout.placement import Placement, edge_yaw_rad
 from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure, outside_squares
 from garage2usd.structure.stalls import Edge
@@ -35,7 +37,6 @@ def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> l
     return [
         Placement(
             f"Column_r{row:02d}_c{col:02d}",
-            ObjectKind.COLUMN,
             spec,
             (float(structure.column_edges_m[col]), 0.0, float(structure.row_edges_m[row])),
         )
@@ -79,7 +80,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
             x = float(structure.column_edges_m[col]) + (0.5 - right) * thickness
             z = float(structure.row_edges_m[row]) + (0.5 - down) * thickness
             name = f"Post_r{row:02d}_c{col:02d}"
-            walls.append(Placement(name, ObjectKind.WALL, post, (round(x, 6), 0.0, round(z, 6))))
+            walls.append(Placement(name, post, (round(x, 6), 0.0, round(z, 6))))
     return walls
 
 
@@ -93,9 +94,7 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
         length -= fittings.wall_thickness_m * sum(reflex)
         x += fittings.wall_thickness_m / 2 * (reflex[0] - reflex[1])
     spec: WallSpec | PortalSpec = WallSpec(round(length, 6), fittings.ceiling_height_m, fittings.wall_thickness_m)
-    kind = ObjectKind.WALL
     if has_door:
-        kind = ObjectKind.PORTAL
         door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * DOOR_JAMB_M)
         check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)
         spec = PortalSpec(
@@ -108,5 +107,5 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
         )
     # the inner face looks back over the edge into the square
     yaw = edge_yaw_rad({Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}[edge])
-    name = f"{kind.name.capitalize()}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
-    return Placement(name, kind, spec, (round(x, 6), 0.0, round(z, 6)), yaw)
+    name = f"{'Portal' if has_door else 'Wall'}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
+    return Placement(name, spec, (round(x, 6), 0.0, round(z, 6)), yaw)

@@ -8,8 +8,9 @@ from itertools import product
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.layout.placement import ObjectKind, Placement
-from garage2usd.layout.specs import BeamNodeSpec, BeamSpec, Box, Point
+from garage2usd.layout.placement import Placement
+from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
+from garage2usd.objects.outline import Box, Point
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
 
@@ -121,7 +122,7 @@ def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float
     def place(name: str, length_m: float, middle: Point, yaw_rad: float, square: Square) -> None:
         spec = BeamSpec(round(length_m, 6), width, depth_m)
         position = (round(middle[0], 6), ceiling_m, round(middle[1], 6))
-        placed.append(Placement(name, ObjectKind.BEAM, spec, position, yaw_rad, square))
+        placed.append(Placement(name, spec, position, yaw_rad, square))
 
     for row, col in np.argwhere(inside[:, :-1] & inside[:, 1:]).tolist():
         middle = (float(x[col + 1]), float(z[row] + z[row + 1]) / 2)
@@ -147,7 +148,7 @@ def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float
         name = f"BeamNode_{_CORNERS[down, right]}"
         position = (float(structure.column_edges_m[col]), ceiling_m, float(structure.row_edges_m[row]))
         square = (row - 1 + down, col - 1 + right)
-        nodes.append(Placement(name, ObjectKind.BEAM, BeamNodeSpec(boxes, depth_m), position, 0.0, square))
+        nodes.append(Placement(name, BeamNodeSpec(boxes, depth_m), position, 0.0, square))
     return nodes
 
 

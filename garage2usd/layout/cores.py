@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad, stall_name, to_world
-from garage2usd.layout.specs import Box, ObstacleSpec, Point
+from garage2usd.layout.placement import Placement, edge_yaw_rad, stall_name, to_world
 from garage2usd.layout.tiles import Tile, neighbour
+from garage2usd.objects.obstacle import ObstacleSpec
+from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell, Structure, outside_squares
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -122,14 +123,14 @@ def core_placements(structure: Structure, cores: list[Core], height_m: float) ->
                 round(float(x[col + 1] - x[col]), 6), round(float(z[row + 1] - z[row]), 6), height_m, has_door=False
             )
             position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
-            placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", ObjectKind.OBSTACLE, spec, position))
+            placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", spec, position))
     for core in cores:
         row, col = core.square
         kind = "Core" if core.recess_m else "Obstacle"
         name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
         spec = ObstacleSpec(core.width_m, core.depth_m, height_m)
         position = (round(core.centre_m[0], 6), 0.0, round(core.centre_m[1], 6))
-        placements.append(Placement(name, ObjectKind.OBSTACLE, spec, position, edge_yaw_rad(core.edge)))
+        placements.append(Placement(name, spec, position, edge_yaw_rad(core.edge)))
     return placements
 
 

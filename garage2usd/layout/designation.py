@@ -7,8 +7,10 @@ from dataclasses import replace
 import shapely
 
 from garage2usd.config import ParkingConfig
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
-from garage2usd.layout.specs import ChargerSpec, Marking, Point, Surface
+from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
+from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.panel import Marking, Surface
 from garage2usd.profiles import Profile
 
 __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
@@ -114,5 +116,5 @@ def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
             x, z = to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
             name = stall.named("Charger")
             position = (round(x, 6), 0.0, round(z, 6))
-            posts.append(Placement(name, ObjectKind.CHARGER, ChargerSpec(), position, stall.yaw_rad, stall.square))
+            posts.append(Placement(name, ChargerSpec(), position, stall.yaw_rad, stall.square))
     return posts

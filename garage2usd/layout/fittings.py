@@ -8,10 +8,13 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
 from garage2usd.layout.services import LINES_REACH_M
-from garage2usd.layout.specs import ConeSpec, Point, SpeedBumpSpec, TubeLightSpec
 from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.cone import ConeSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.speed_bump import SpeedBumpSpec
+from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
@@ -60,7 +63,7 @@ def tube_lights(
             z = tile.z_m + (0.0 if along_x else offset)
             position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
             yaw = 0.0 if along_x else _QUARTER_TURN
-            lights.append(Placement(f"Tube_{index + 1}", ObjectKind.LIGHT, TUBE, position, yaw, tile.square))
+            lights.append(Placement(f"Tube_{index + 1}", TUBE, position, yaw, tile.square))
     return lights
 
 
@@ -87,9 +90,7 @@ def speed_bumps(
             continue
         spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3))
         yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
-        bumps[tile.square] = Placement(
-            "SpeedBump", ObjectKind.SPEED_BUMP, spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square
-        )
+        bumps[tile.square] = Placement("SpeedBump", spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square)
     return list(bumps.values())
 
 
@@ -112,7 +113,7 @@ def cones(
         for number, point in enumerate(points, start=1):
             x, z = to_world(point, middle, yaw_rad)
             position = (round(x, 6), 0.0, round(z, 6))
-            placed.append(Placement(f"{name}_{number}", ObjectKind.CONE, ConeSpec(), position, yaw_rad, square))
+            placed.append(Placement(f"{name}_{number}", ConeSpec(), position, yaw_rad, square))
 
     for stall in stalls:
         is_drawn = numbers[stall.square][stall.ordinal] < fittings.cone_rate

@@ -9,8 +9,8 @@ from scipy.spatial import KDTree
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.placement import Placement, Stall
-from garage2usd.layout.specs import TubeLightSpec
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.structure.grid import Cell
 
 __all__ = ["Illuminance", "Lux", "direct_lux", "lane_points_of", "light_up"]

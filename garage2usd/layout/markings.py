@@ -4,7 +4,8 @@ from functools import lru_cache
 
 import shapely
 
-from garage2usd.layout.specs import Marking, Polygon, Surface, rectangle
+from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.panel import Marking, Surface
 from garage2usd.structure.stalls import Edge
 
 __all__ = [

@@ -7,9 +7,11 @@ import numpy as np
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.cores import Core
-from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad, to_world
-from garage2usd.layout.specs import NoParkingSignSpec, Point, PortalSpec
+from garage2usd.layout.placement import Placement, edge_yaw_rad, to_world
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.portal import PortalSpec
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell
@@ -80,4 +82,4 @@ def _beside(wall: Placement, place: Point) -> Edge:
 
 def _sign(place: Point, yaw_rad: float, square: Square) -> Placement:
     position = (round(place[0], 6), 0.0, round(place[1], 6))
-    return Placement("NoParkingSign", ObjectKind.NO_PARKING_SIGN, NoParkingSignSpec(), position, yaw_rad, square)
+    return Placement("NoParkingSign", NoParkingSignSpec(), position, yaw_rad, square)

@@ -8,9 +8,11 @@ import networkx as nx
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import ObjectKind, Placement, edge_yaw_rad
-from garage2usd.layout.specs import ExitSignSpec, MirrorSpec, Point, Turn
+from garage2usd.layout.placement import Placement, edge_yaw_rad
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
+from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.mirror import MirrorSpec
+from garage2usd.objects.outline import Point
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind
 from garage2usd.structure.stalls import Edge
@@ -62,7 +64,7 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
     position = (round(x, 6), ceiling_m, round(z, 6))
     spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
-    return Placement(name, ObjectKind.EXIT_SIGN, spec, position, edge_yaw_rad(edge), tile.square)
+    return Placement(name, spec, position, edge_yaw_rad(edge), tile.square)
 
 
 def mirrors(
@@ -104,7 +106,7 @@ def mirrors(
             name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
             yaw = round(math.atan2(-side_x, -side_z), 6)
             spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
-            placed.append(Placement(name, ObjectKind.MIRROR, spec, position, yaw, tile.square))
+            placed.append(Placement(name, spec, position, yaw, tile.square))
     return placed
 
 

@@ -14,9 +14,12 @@ from garage2usd.errors import ConfigError
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, to_world
-from garage2usd.layout.specs import CarSpec, PanelSpec, Surface, WheelStopSpec
+from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.panel import Surface
+from garage2usd.objects.stall import StallSpec
+from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.randomness import Step
 from garage2usd.structure.dead_ends import DeadEnd
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -101,7 +104,6 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     return [
         Placement(
             stall.named("Stall"),
-            ObjectKind.STALL,
             _stall_panel(stall.width_m, stall.length_m, stall.use),
             (stall.centre_m[0], 0.0, stall.centre_m[1]),
             stall.yaw_rad,
@@ -112,11 +114,11 @@ def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
 
 
 @lru_cache
-def _stall_panel(width_m: float, length_m: float, use: StallUse) -> PanelSpec:
+def _stall_panel(width_m: float, length_m: float, use: StallUse) -> StallSpec:
     lines = stall_lines(width_m, length_m)
     if not use.takes_cars:
         lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
-    return PanelSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
+    return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
 def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
@@ -131,7 +133,7 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
         name = stall.named("WheelStop")
         spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
         position = (round(x, 6), 0.0, round(z, 6))
-        placements.append(Placement(name, ObjectKind.WHEEL_STOP, spec, position, stall.yaw_rad, stall.square))
+        placements.append(Placement(name, spec, position, stall.yaw_rad, stall.square))
     return placements
 
 
@@ -178,7 +180,6 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
         placements.append(
             Placement(
                 stall.named("Car"),
-                ObjectKind.CAR,
                 CarSpec(body.name, PAINTS[int(paint_index * len(PAINTS))]),
                 (round(x, 6), 0.0, round(z, 6)),
                 round(math.remainder(turned, math.tau), 6),

@@ -4,43 +4,12 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from garage2usd.layout.specs import Spec
+from garage2usd.objects.kind import Spec
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["ObjectKind", "Placement", "Stall", "StallUse", "edge_yaw_rad", "stall_name", "to_world"]
-
-
-class ObjectKind(StrEnum):
-    """Every kind of object in a garage."""
-
-    FLOOR = "floor"
-    STALL = "stall"
-    CEILING = "ceiling"
-    WALL = "wall"
-    PORTAL = "portal"
-    OBSTACLE = "obstacle"
-    COLUMN = "column"
-    LIGHT = "light"
-    BEAM = "beam"
-    DUCT = "duct"
-    CABLE_TRAY = "cable_tray"
-    SPEED_BUMP = "speed_bump"
-    WHEEL_STOP = "wheel_stop"
-    NO_PARKING_SIGN = "no_parking_sign"
-    CONE = "cone"
-    CAR = "car"
-    RAMP = "ramp"
-    SKY = "sky"
-    BARRIER = "barrier"
-    STALL_NUMBER = "stall_number"
-    ZONE_PLATE = "zone_plate"
-    CHARGER = "charger"
-    SPRINKLER = "sprinkler"
-    EXIT_SIGN = "exit_sign"
-    MIRROR = "mirror"
-    FLOOR_STAIN = "floor_stain"
+__all__ = ["Placement", "Stall", "StallUse", "edge_yaw_rad", "stall_name", "to_world"]
 
 
 class StallUse(StrEnum):
@@ -73,10 +42,8 @@ class Placement:
     name
         Prim name, PascalCase, unique within its square or, without a square, within its kind. On squares that hold
         the same, the same.
-    kind
-        What it is.
     spec
-        The shape that is placed; equal specs share one prototype.
+        The shape that is placed, which says what kind of object it is; equal specs share one prototype.
     position_m
         (x, y, z) of the shape's origin.
     yaw_rad
@@ -86,11 +53,15 @@ class Placement:
     """
 
     name: str
-    kind: ObjectKind
     spec: Spec
     position_m: tuple[float, float, float]
     yaw_rad: float = 0.0
     square: Square | None = None
+
+    @property
+    def kind(self) -> str:
+        """Name of its kind of object, one of `garage2usd.objects.KINDS`."""
+        return self.spec.kind.name
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,9 +14,13 @@ from garage2usd.layout.ceiling import (
     TRAY_WIDTH_M,
     CeilingLevels,
 )
-from garage2usd.layout.placement import ObjectKind, Placement
-from garage2usd.layout.specs import CableTraySpec, DuctSpec, Point, Spec, SprinklerSpec
+from garage2usd.layout.placement import Placement
 from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.cable_tray import CableTraySpec
+from garage2usd.objects.duct import DuctSpec
+from garage2usd.objects.kind import Spec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stalls import Edge
 
@@ -105,7 +109,7 @@ def ducts(structure: Structure, grid: TileGrid, ceiling_m: float, levels: Ceilin
     for piece in _pieces(_DUCT, structure, grid):
         hangers = _hangers_at_m(piece, grid.setback_m)
         spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
-        placed.append(_place(piece, ObjectKind.DUCT, spec, ceiling_m - levels.duct_top_m))
+        placed.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
     return placed
 
 
@@ -118,7 +122,7 @@ def sprinklers(structure: Structure, grid: TileGrid, ceiling_m: float, levels: C
         heads = () if piece.joins else _heads_at_m(piece.length_m, grid.setback_m)
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
-        placed.append(_place(piece, ObjectKind.SPRINKLER, spec, ceiling_m))
+        placed.append(_place(piece, spec, ceiling_m))
     return placed
 
 
@@ -130,14 +134,14 @@ def cable_trays(structure: Structure, grid: TileGrid, ceiling_m: float, levels: 
     for piece in _pieces(_TRAY, structure, grid):
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
-        placed.append(_place(piece, ObjectKind.CABLE_TRAY, spec, ceiling_m))
+        placed.append(_place(piece, spec, ceiling_m))
     return placed
 
 
-def _place(piece: _Piece, kind: ObjectKind, spec: Spec, height_m: float) -> Placement:
+def _place(piece: _Piece, spec: Spec, height_m: float) -> Placement:
     x, z = piece.middle_m
     position = (round(x, 6), round(height_m, 6), round(z, 6))
-    return Placement(piece.name, kind, spec, position, _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square)
+    return Placement(piece.name, spec, position, _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square)
 
 
 def _pieces(line: _Line, structure: Structure, grid: TileGrid) -> Iterator[_Piece]:

@@ -13,9 +13,12 @@ from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, StallUse, edge_yaw_rad, to_world
-from garage2usd.layout.specs import PanelSpec, Point, Spec, StainMark, StainSpec, TyreMarkSpec
+from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.kind import Spec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.panel import PanelSpec
 from garage2usd.randomness import Step
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.lane_graph import Square
@@ -87,7 +90,7 @@ class _Floor:
             return
         self.boxes.append((lift_m, box))
         position = (round(self.tile.x_m + place[0], 6), lift_m, round(self.tile.z_m + place[1], 6))
-        self.placed.append(Placement(name, ObjectKind.FLOOR_STAIN, spec, position, yaw_rad, self.tile.square))
+        self.placed.append(Placement(name, spec, position, yaw_rad, self.tile.square))
 
 
 def floor_stains(

@@ -1,21 +1,17 @@
 """All objects of a garage in columns, so that a million of them stay light and quick to go through."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout.placement import ObjectKind, Placement
+from garage2usd.layout.placement import Placement
+from garage2usd.objects import KINDS, Spec
 
-if TYPE_CHECKING:
-    from garage2usd.layout.specs import Spec
+__all__ = ["ObjectTable", "compact"]
 
-__all__ = ["KINDS", "ObjectTable", "compact"]
-
-KINDS = tuple(ObjectKind)
-"""The kinds by the number that a table holds for each."""
-_KIND_NUMBERS = {kind: number for number, kind in enumerate(KINDS)}
+_ROWS = {kind.name: row for row, kind in enumerate(KINDS)}
 
 
 class ObjectTable(Sequence[Placement]):
@@ -28,7 +24,8 @@ class ObjectTable(Sequence[Placement]):
     names
         The different names, as ASCII; shape (names,).
     kind, spec, name
-        Number of each object's kind in `KINDS`, of its shape in `specs` and of its name in `names`; shape (n,).
+        Index of each object's kind in `garage2usd.objects.KINDS`, of its shape in `specs` and of its name in `names`;
+        shape (n,).
     position_m
         (x, y, z) of each; float64, shape (n, 3).
     yaw_rad
@@ -45,9 +42,10 @@ class ObjectTable(Sequence[Placement]):
         specs: dict[Spec, int] = {}
         names: dict[str, int] = {}
         columns = [_columns(part, specs, names) for part in parts]
-        kind, spec, name, position, yaw, square = (np.concatenate(column) for column in zip(*columns, strict=True))
+        spec, name, position, yaw, square = (np.concatenate(column) for column in zip(*columns, strict=True))
         order = np.lexsort((square[:, 1], square[:, 0], square[:, 0] < 0))
-        self.kind, self.spec, self.name = kind[order], compact(spec[order]), compact(name[order])
+        kinds = np.array([_ROWS[shape.kind.name] for shape in specs], dtype=np.uint8)
+        self.kind, self.spec, self.name = kinds[spec[order]], compact(spec[order]), compact(name[order])
         self.position_m, self.yaw_rad, self.square = position[order], yaw[order], compact(square[order])
         self.specs, self.names = tuple(specs), np.array(list(names), dtype=np.bytes_)
 
@@ -73,24 +71,29 @@ class ObjectTable(Sequence[Placement]):
 
     def at(self, rows: NDArray[np.intp]) -> list[Placement]:
         """The placements in some rows."""
-        columns = (self.name, self.kind, self.spec, self.position_m, self.yaw_rad, self.square)
+        columns = (self.name, self.spec, self.position_m, self.yaw_rad, self.square)
         return [
             Placement(
                 self.names[name].decode("ascii"),
-                KINDS[kind],
                 self.specs[spec],
                 (x, y, z),
                 yaw,
                 (row, col) if row >= 0 else None,
             )
-            for name, kind, spec, (x, y, z), yaw, (row, col) in zip(
+            for name, spec, (x, y, z), yaw, (row, col) in zip(
                 *(column[rows].tolist() for column in columns), strict=True
             )
         ]
 
-    def rows_of(self, *kinds: ObjectKind) -> NDArray[np.intp]:
-        """Numbers of the rows that hold objects of some kinds."""
-        return np.flatnonzero(np.isin(self.kind, [_KIND_NUMBERS[kind] for kind in kinds]))
+    def rows_of(self, *kinds: str) -> NDArray[np.intp]:
+        """Numbers of the rows that hold objects of some kinds, by their names.
+
+        Raises
+        ------
+        KeyError
+            If there is no such kind.
+        """
+        return np.flatnonzero(np.isin(self.kind, [_ROWS[kind] for kind in kinds]))
 
 
 def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]:
@@ -99,12 +102,11 @@ def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]
 
 
 def _columns(
-    placements: Iterable[Placement], specs: dict["Spec", int], names: dict[str, int]
+    placements: Iterable[Placement], specs: dict[Spec, int], names: dict[str, int]
 ) -> tuple[NDArray[Any], ...]:
-    """Kind, shape, name, position, turn and square of placements as arrays; new shapes and names get a number."""
+    """Shape, name, position, turn and square of placements as arrays; new shapes and names get a number."""
     placements = list(placements)
     return (
-        np.array([_KIND_NUMBERS[place.kind] for place in placements], dtype=np.uint8),
         np.array([specs.setdefault(place.spec, len(specs)) for place in placements], dtype=np.int32),
         np.array([names.setdefault(place.name, len(names)) for place in placements], dtype=np.int32),
         np.array([place.position_m for place in placements], dtype=np.float64).reshape(-1, 3),

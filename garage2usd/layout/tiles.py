@@ -19,8 +19,11 @@ from garage2usd.layout.markings import (
     two_way_arrows,
     zebra,
 )
-from garage2usd.layout.placement import ObjectKind, Placement, stall_name
-from garage2usd.layout.specs import Box, CeilingSpec, Marking, PanelSpec, Polygon, Surface, rectangle
+from garage2usd.layout.placement import Placement, stall_name
+from garage2usd.objects.ceiling import CeilingSpec
+from garage2usd.objects.floor import FloorSpec
+from garage2usd.objects.outline import Box, Polygon, rectangle
+from garage2usd.objects.panel import Marking, Surface
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge, StallRow
@@ -214,15 +217,15 @@ def floor_panel(
             markings = _row_end_lines(tile, places, bay) if places else hatching(tile.half_x_m, tile.half_z_m)
     else:
         markings = _portal_markings(tile)
-    spec = PanelSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
-    return Placement("Floor", ObjectKind.FLOOR, spec, (tile.x_m, 0.0, tile.z_m), square=tile.square)
+    spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
+    return Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), square=tile.square)
 
 
 def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
     """The ceiling slab over one square."""
     spec = CeilingSpec(tile.width_m, tile.depth_m, CEILING_THICKNESS_M)
     position = (tile.x_m, fittings.ceiling_height_m, tile.z_m)
-    return Placement("Ceiling", ObjectKind.CEILING, spec, position, square=tile.square)
+    return Placement("Ceiling", spec, position, square=tile.square)
 
 
 def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Polygon:

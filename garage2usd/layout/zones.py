@@ -8,9 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from garage2usd.assets.glyphs import GLYPH_PITCH
 from garage2usd.config import FittingsConfig
-from garage2usd.layout.placement import ObjectKind, Placement, Stall, to_world
-from garage2usd.layout.specs import GLYPH_PITCH, NumberSpec, ZonePlateSpec
+from garage2usd.layout.placement import Placement, Stall, to_world
+from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.objects.zone_plate import ZonePlateSpec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square
 
@@ -84,7 +86,6 @@ def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Pla
             numbers.append(
                 Placement(
                     f"{stall.named('StallNumber')}_{piece}",
-                    ObjectKind.STALL_NUMBER,
                     NumberSpec(painted[start:end], _DIGIT_HEIGHT_M),
                     (round(x, 6), 0.0, round(z, 6)),
                     stall.yaw_rad,
@@ -108,5 +109,5 @@ def zone_plates(
             ("ZoneLetter", zone.letter, _LETTER_PLATE_M),
         ):
             spec = ZonePlateSpec(text, column_size_m, round(high - low, 6))
-            plates.append(Placement(f"{name}_r{row:02d}_c{col:02d}", ObjectKind.ZONE_PLATE, spec, (x, low, z)))
+            plates.append(Placement(f"{name}_r{row:02d}_c{col:02d}", spec, (x, low, z)))
     return plates

@@ -105,6 +105,13 @@ class Profile(Settings):
     exit_distance_sprinklered: Length | None = None
     """The same with sprinklers."""
 
+    hydrant_reach: Length | None = None
+    """Largest distance of a stall or a lane from the two nearest fire hydrants."""
+    hydrant_spacing: Length | None = None
+    """Largest distance of a fire hydrant from the next one."""
+    extinguisher_distance: Length | None = None
+    """Largest distance of a stall or a lane from the nearest fire extinguisher, walked along X and then along Z."""
+
     speed_bump_height: Length | None = None
     """Largest height of a speed bump."""
     wheel_stop_height: Length | None = None

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
-from garage2usd.layout import ObjectKind
 from garage2usd.limits import lift
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
@@ -36,7 +35,7 @@ __all__ = ["Picture", "Rendering", "render_stage"]
 
 _LEAST_SIDE_PX, _GREATEST_SIDE_PX = 16, 8192
 _OVERHEAD = frozenset(OBJECT_LABELS[kind] for kind, switch in SWITCHES.items() if switch.variant_set == "ceiling")
-_CEILING = frozenset({OBJECT_LABELS[ObjectKind.CEILING]})
+_CEILING = frozenset({OBJECT_LABELS["ceiling"]})
 _BLENDER_FROM = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
     UsdGeom.Tokens.z: np.eye(3),

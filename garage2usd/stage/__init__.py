@@ -7,7 +7,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.assets import MATERIALS, texture_folder
+from garage2usd.assets import MATERIALS
+from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import StageConfig, StageForm
 from garage2usd.layout import Layout
 from garage2usd.progress import Progress, silent
@@ -100,7 +101,7 @@ def write_stage(
     for done, (name, spec) in enumerate(sorted(shapes.items())):
         progress("assets", done, len(shapes))
         asset = asset_of(spec)
-        write_prototype(asset, folder / f"{name}.usdc")
+        write_prototype(asset, folder / f"{name}.usdc", label=spec.kind.label)
         used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
     for texture in sorted(used):
         shutil.copyfile(texture_folder(config.texture_quality) / texture, textures / texture)

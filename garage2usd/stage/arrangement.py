@@ -8,33 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout import Layout, ObjectKind
-from garage2usd.layout.table import KINDS, compact
+from garage2usd.layout import Layout
+from garage2usd.layout.table import compact
+from garage2usd.objects import KINDS
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["ROOT_NAME", "SCATTERED", "Arrangement", "arrange", "row_name", "tile_name"]
+__all__ = ["ROOT_NAME", "Arrangement", "arrange", "row_name", "tile_name"]
 
 ROOT_NAME = "Garage"
 
-_BUILDING_GROUPS = {
-    ObjectKind.WALL: "Walls",
-    ObjectKind.PORTAL: "Walls",
-    ObjectKind.OBSTACLE: "Obstacles",
-    ObjectKind.COLUMN: "Columns",
-    ObjectKind.ZONE_PLATE: "Columns",
-    ObjectKind.RAMP: "Ramps",
-    ObjectKind.SKY: "Ramps",
-    ObjectKind.LIGHT: "Ramps",
-    ObjectKind.BARRIER: "Ramps",
-}
-"""Group of each kind of object that belongs to the building, not to a tile."""
-
-_AT_CORNERS = {ObjectKind.COLUMN: "Column"}
+_AT_CORNERS = {"column": "Column"}
 """Names of what stands where four tiles meet: where tiles share prototypes, it belongs to the first of them."""
-
-SCATTERED = {ObjectKind.STALL_NUMBER: "StallNumbers", ObjectKind.ZONE_PLATE: "ZonePlates"}
-"""Instancer of each kind that makes all tiles different and that nothing can touch, where tiles share prototypes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +106,8 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
     names, name = objects.names, objects.name
     scattered = {}
     if nested:
-        for kind, common_name in _AT_CORNERS.items():
-            at = objects.rows_of(kind)
+        for corner_kind, common_name in _AT_CORNERS.items():
+            at = objects.rows_of(corner_kind)
             corner_x, _, corner_z = objects.position_m[at].T
             # a corner is a border's number; the tile before it has that number less one
             row = np.searchsorted(structure.row_edges_m, corner_z - _BORDER_TOLERANCE_M) - 1
@@ -131,10 +116,10 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
             name = name.astype(np.int32)
             name[at] = len(names)
             names = np.append(names, np.bytes_(common_name))
-        for kind, instancer in SCATTERED.items():
-            at = objects.rows_of(kind)
-            if len(at):
-                scattered[instancer] = at
+        for kind in KINDS:
+            at = objects.rows_of(kind.name)
+            if kind.scattered and len(at):
+                scattered[kind.scattered] = at
                 tile[at] = -2
                 name[at] = 0
         # most names were those of what is scattered and of columns
@@ -173,6 +158,6 @@ def tile_name(square: Square) -> str:
 def _grouped(layout: Layout, rows: NDArray[np.intp]) -> dict[str, NDArray[np.intp]]:
     """Rows of what belongs to the building, by group, in the order of their first objects."""
     kinds = layout.placements.kind[rows]
-    group_of_kind = np.array([_BUILDING_GROUPS.get(kind, "") for kind in KINDS])
+    group_of_kind = np.array([kind.group for kind in KINDS])
     groups = group_of_kind[kinds]
     return {group: rows[groups == group] for group in dict.fromkeys(groups.tolist())}

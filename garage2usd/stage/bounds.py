@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.layout import ObjectTable
-from garage2usd.layout.specs import Spec
+from garage2usd.objects import Spec
 from garage2usd.stage.prototypes import asset_of
 
 __all__ = ["points_of", "world_bounds_m"]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
-from garage2usd.layout import Layout, ObjectKind
+from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
@@ -26,7 +26,7 @@ _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
-_SHELL = (ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.RAMP, ObjectKind.SKY)
+_SHELL = ("wall", "portal", "ramp", "sky")
 """What is outermost of every garage."""
 
 DRIVE_NAME = "Drive"

@@ -6,9 +6,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout import Layout, ObjectKind, Stall
-from garage2usd.layout.specs import Spec
-from garage2usd.layout.table import KINDS
+from garage2usd.layout import Layout, Stall
+from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.prim_text import header_text, instance_text, place_text, rounded_deg, rounded_m
 from garage2usd.stage.prototypes import Prototype
@@ -50,7 +49,7 @@ class InstanceWriter:
         self._prototypes = [prototypes[spec] for spec in self._objects.specs]
         self._asset_folder = asset_folder
         self._classes = classes
-        rows = self._objects.rows_of(ObjectKind.STALL).tolist() if describe_stalls else []
+        rows = self._objects.rows_of("stall").tolist() if describe_stalls else []
         self._stalls = dict(zip(rows, layout.stalls, strict=bool(rows)))
         self._headers: dict[tuple[int, int], str] = {}
 
@@ -79,7 +78,7 @@ class InstanceWriter:
 
     def _header(self, kind: int, spec: int) -> str:
         prototype = self._prototypes[spec]
-        switch = SWITCHES.get(KINDS[kind])
+        switch = SWITCHES.get(KINDS[kind].name)
         base = self._classes.get(switch) if switch else None
         header = header_text(f"{self._asset_folder}/{prototype.name}.usdc", look=prototype.look, base=base)
         self._headers[kind, spec] = header

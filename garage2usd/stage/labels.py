@@ -5,70 +5,16 @@ from typing import Any
 
 import numpy as np
 
-from garage2usd.layout import Layout, ObjectKind
-from garage2usd.layout.table import KINDS
+from garage2usd.layout import Layout
+from garage2usd.objects import KINDS
 from garage2usd.stage.bounds import world_bounds_m
 
 __all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table"]
 
-OBJECT_LABELS: dict[ObjectKind, str] = {
-    ObjectKind.FLOOR: "floor",
-    ObjectKind.STALL: "parking_stall",
-    ObjectKind.CEILING: "ceiling",
-    ObjectKind.WALL: "wall",
-    ObjectKind.PORTAL: "vehicle_door",
-    ObjectKind.OBSTACLE: "obstacle",
-    ObjectKind.COLUMN: "column",
-    ObjectKind.LIGHT: "light",
-    ObjectKind.BEAM: "beam",
-    ObjectKind.DUCT: "duct",
-    ObjectKind.CABLE_TRAY: "cable_tray",
-    ObjectKind.SPEED_BUMP: "speed_bump",
-    ObjectKind.WHEEL_STOP: "wheel_stop",
-    ObjectKind.NO_PARKING_SIGN: "traffic_sign",
-    ObjectKind.CONE: "traffic_cone",
-    ObjectKind.CAR: "car",
-    ObjectKind.RAMP: "ramp",
-    ObjectKind.SKY: "sky",
-    ObjectKind.BARRIER: "barrier",
-    ObjectKind.STALL_NUMBER: "stall_number",
-    ObjectKind.ZONE_PLATE: "zone_plate",
-    ObjectKind.CHARGER: "charger",
-    ObjectKind.SPRINKLER: "sprinkler",
-    ObjectKind.EXIT_SIGN: "exit_sign",
-    ObjectKind.MIRROR: "mirror",
-    ObjectKind.FLOOR_STAIN: "floor_stain",
-}
+OBJECT_LABELS: dict[str, str] = {kind.name: kind.label for kind in KINDS}
 """Semantic class of each kind of object, authored on every instance root."""
 
-CITYSCAPES: dict[str, str] = {
-    "floor": "road",
-    "parking_stall": "parking",
-    "ceiling": "building",
-    "wall": "wall",
-    "vehicle_door": "wall",
-    "obstacle": "building",
-    "column": "pole",
-    "light": "static",
-    "beam": "building",
-    "duct": "static",
-    "cable_tray": "static",
-    "speed_bump": "road",
-    "wheel_stop": "static",
-    "traffic_sign": "traffic sign",
-    "traffic_cone": "static",
-    "car": "car",
-    "ramp": "road",
-    "sky": "sky",
-    "barrier": "guard rail",
-    "stall_number": "parking",
-    "zone_plate": "traffic sign",
-    "charger": "static",
-    "sprinkler": "static",
-    "exit_sign": "traffic sign",
-    "mirror": "static",
-    "floor_stain": "road",
-}
+CITYSCAPES: dict[str, str] = {kind.label: kind.cityscapes for kind in KINDS}
 """Name of the nearest Cityscapes class of each class."""
 
 
@@ -85,17 +31,15 @@ def label_table(layout: Layout, paths: Sequence[str]) -> dict[str, list[dict[str
     Returns
     -------
     dict
-        ``classes``: name, id from 1 and Cityscapes name of each class; ``objects``: for each placement in their order
+        ``classes``: name, id and Cityscapes name of each class; ``objects``: for each placement in their order
         ``path``, ``id`` from 1, ``class``, and ``min_m`` and ``max_m``, the corners of its bounds in the world.
     """
-    names = list(CITYSCAPES)
-    class_of_kind = [OBJECT_LABELS[kind] for kind in KINDS]
     low, high = (np.round(corners, 4).tolist() for corners in world_bounds_m(layout.placements))
     objects = [
-        {"path": path, "id": number, "class": class_of_kind[kind], "min_m": least, "max_m": most}
+        {"path": path, "id": number, "class": KINDS[kind].label, "min_m": least, "max_m": most}
         for number, (path, kind, least, most) in enumerate(
             zip(paths, layout.placements.kind.tolist(), low, high, strict=True), 1
         )
     ]
-    classes = [{"name": name, "id": number, "cityscapes": CITYSCAPES[name]} for number, name in enumerate(names, 1)]
+    classes = [{"name": kind.label, "id": kind.number, "cityscapes": kind.cityscapes} for kind in KINDS]
     return {"classes": classes, "objects": objects}

@@ -8,9 +8,9 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
 from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch
+from garage2usd.objects.car import PAINT_SET
 from garage2usd.reading.taxonomy import OBJECT_TAXONOMY
 from garage2usd.stage.looks import define_material, set_varying
-from garage2usd.stage.prototypes import PAINT_SET
 from garage2usd.stage.variants import POWER_SET
 
 __all__ = ["NITS_PER_INTENSITY", "write_prototype"]
@@ -38,7 +38,7 @@ _FRICTION = {
 }
 
 
-def write_prototype(asset: Asset, path: Path) -> None:
+def write_prototype(asset: Asset, path: Path, *, label: str) -> None:
     """Author `asset` as a ``.usdc`` whose default prim is named like the file.
 
     Parameters
@@ -47,6 +47,8 @@ def write_prototype(asset: Asset, path: Path) -> None:
         Meshes in metres, Y up.
     path
         The file; its stem is the prim's name.
+    label
+        Its semantic class.
     """
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
@@ -58,7 +60,7 @@ def write_prototype(asset: Asset, path: Path) -> None:
     model.SetKind(Kind.Tokens.component)
     model.SetAssetName(path.stem)
     model.SetAssetIdentifier(Sdf.AssetPath(f"./{path.name}"))
-    UsdSemantics.LabelsAPI.Apply(root, OBJECT_TAXONOMY).CreateLabelsAttr([asset.label])
+    UsdSemantics.LabelsAPI.Apply(root, OBJECT_TAXONOMY).CreateLabelsAttr([label])
 
     geometry = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Geom")).GetPath()
     looks = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Looks")).GetPath()

@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.layout import ObjectTable
-from garage2usd.layout.specs import Spec
-from garage2usd.layout.table import KINDS
+from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.authoring import attribute, define, save, set_units
 from garage2usd.stage.bounds import world_bounds_m
-from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import Prototype
 
 __all__ = ["write_instancer"]
@@ -30,7 +28,6 @@ def write_instancer(
     -----
     Point instancers lose colliders in physics engines, and browsers draw one copy only.
     """
-    kind = KINDS[objects.kind[rows[0]]]
     shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
     specs = [objects.specs[shape] for shape in shapes]
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
@@ -38,7 +35,7 @@ def write_instancer(
     with Sdf.ChangeBlock():
         set_units(layer)
         layer.defaultPrim = path.stem
-        prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=OBJECT_LABELS[kind])
+        prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
         _author_prototypes(prim, [prototypes[spec].name for spec in specs])
         _author_points(prim, objects, rows, indices)
     save(layer, path)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pxr import Sdf
 
 from garage2usd.layout import Layout
-from garage2usd.layout.table import KINDS
+from garage2usd.objects import KINDS
 from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.authoring import save, set_units
 from garage2usd.stage.instances import InstanceWriter
@@ -110,7 +110,7 @@ def _followers(layout: Layout, arrangement: Arrangement, rows: NDArray[np.intp])
     """Names of the objects in some rows that follow each variant set."""
     followers: dict[Switch, list[str]] = defaultdict(list)
     for row in rows.tolist():
-        switch = SWITCHES.get(KINDS[layout.placements.kind[row]])
+        switch = SWITCHES.get(KINDS[layout.placements.kind[row]].name)
         if switch is not None:
             followers[switch].append(arrangement.names[arrangement.name[row]].decode("ascii"))
     return dict(followers)

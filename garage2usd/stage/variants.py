@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from garage2usd.layout import ObjectKind
+from garage2usd.objects import KINDS
+from garage2usd.objects.kind import VariantSet
 
 __all__ = ["POWER_SET", "SWITCHES", "Switch", "VariantTexts", "variant_texts"]
 
@@ -34,24 +35,13 @@ class Switch(NamedTuple):
     class_name: str
 
 
-_CARS = Switch("occupancy", "parked", "empty", "active = false\n", "", "Car")
-_LIGHTS = Switch("lights", "on", "off", f'variants = {{\nstring {POWER_SET} = "off"\n}}\n', "", "Light")
-_OVERHEAD = Switch("ceiling", "shown", "hidden", "", 'token visibility = "invisible"\n', "Overhead")
-
-SWITCHES: Mapping[ObjectKind, Switch] = {
-    ObjectKind.CAR: _CARS,
-    ObjectKind.LIGHT: _LIGHTS,
-    **dict.fromkeys(
-        (
-            ObjectKind.CEILING,
-            ObjectKind.BEAM,
-            ObjectKind.DUCT,
-            ObjectKind.CABLE_TRAY,
-            ObjectKind.SPRINKLER,
-            ObjectKind.EXIT_SIGN,
-        ),
-        _OVERHEAD,
-    ),
+_SWITCHES = {
+    VariantSet.OCCUPANCY: Switch("occupancy", "parked", "empty", "active = false\n", "", "Car"),
+    VariantSet.LIGHTS: Switch("lights", "on", "off", f'variants = {{\nstring {POWER_SET} = "off"\n}}\n', "", "Light"),
+    VariantSet.CEILING: Switch("ceiling", "shown", "hidden", "", 'token visibility = "invisible"\n', "Overhead"),
+}
+SWITCHES: Mapping[str, Switch] = {
+    kind.name: switch for variant_set, switch in _SWITCHES.items() for kind in KINDS if kind.follows is variant_set
 }
 """Which variant set each kind of object follows; the others follow none."""
 
@@ -84,7 +74,7 @@ def variant_texts(
         Whether the first choice of each is selected. It says nothing of the objects, so that none is the same; but
         each prim below takes longer to compose, which of tens of thousands is a fifth of the time to open them.
     """
-    switches = dict.fromkeys(SWITCHES.values())
+    switches = _SWITCHES.values()
     bodies = []
     for switch in switches:
         inner = _overs(switch, followers)

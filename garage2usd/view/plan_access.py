@@ -3,9 +3,11 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from garage2usd.layout import Layout, ObjectKind, Placement
+from garage2usd.layout import Layout, Placement
 from garage2usd.layout.placement import to_world
-from garage2usd.layout.specs import PortalSpec, RampSpec, rectangle
+from garage2usd.objects.outline import rectangle
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.ramp import RampSpec
 from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.drawing import Area, Colour, Line, Point, Text, text_width
 from garage2usd.view.plan_lanes import LANE_COLOUR, LINE_M
@@ -20,7 +22,7 @@ _BREAK_M = 0.35
 
 def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
     """Each ramp from its door to a broken edge, where the sheet cuts it off, or to its end."""
-    for place in layout.of_kind(ObjectKind.RAMP):
+    for place in layout.of_kind("ramp"):
         spec = place.spec
         if not isinstance(spec, RampSpec):
             continue
@@ -41,7 +43,7 @@ def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
 
 def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
     """The wall beside a door, and outside of it an arrow with a word."""
-    for place in layout.of_kind(ObjectKind.PORTAL):
+    for place in layout.of_kind("portal"):
         spec = place.spec
         if not isinstance(spec, PortalSpec):
             continue

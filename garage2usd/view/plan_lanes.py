@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from garage2usd.layout import Layout
-from garage2usd.layout.specs import rectangle
+from garage2usd.objects.outline import rectangle
 from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind

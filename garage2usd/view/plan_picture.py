@@ -7,9 +7,13 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.layout import Layout, ObjectKind, Placement, Stall, StallUse
+from garage2usd.layout import Layout, Placement, Stall, StallUse
 from garage2usd.layout.placement import to_world
-from garage2usd.layout.specs import CarSpec, ColumnSpec, ObstacleSpec, WallPostSpec, WallSpec, rectangle
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.obstacle import ObstacleSpec
+from garage2usd.objects.outline import rectangle
+from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge
@@ -105,10 +109,10 @@ def _legend(
     counts = layout.counts()
     entries = lane_legend(graph, found)
     entries += [(_STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
-    entries += [(_CAR, "parked car")] if counts[ObjectKind.CAR] else []
+    entries += [(_CAR, "parked car")] if counts["car"] else []
     entries += [(FREE, "free")]
-    entries += [(RAMP, "ramp")] if counts[ObjectKind.RAMP] else []
-    entries += [(_SOLID, "obstacle")] if counts[ObjectKind.OBSTACLE] else []
+    entries += [(RAMP, "ramp")] if counts["ramp"] else []
+    entries += [(_SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
@@ -119,7 +123,7 @@ def _stall_words(use: StallUse) -> str:
 
 
 def _stalls(layout: Layout) -> Iterator[Area | Line | Text]:
-    cars = {(place.square, place.name): place for place in layout.of_kind(ObjectKind.CAR)}
+    cars = {(place.square, place.name): place for place in layout.of_kind("car")}
     for stall in layout.stalls:
         corners = stall.corners_m()
         yield Area(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
@@ -156,20 +160,20 @@ def _number(stall: Stall) -> Text:
 
 
 def _building(layout: Layout) -> Iterator[Area | Line]:
-    for place in layout.of_kind(ObjectKind.OBSTACLE):
+    for place in layout.of_kind("obstacle"):
         if isinstance(place.spec, ObstacleSpec):
             yield _placed(place, place.spec.width_m, place.spec.depth_m, _SOLID, "obstacle")
     for core in layout.cores:
         (x, z), half = core.door_m, _DOOR_M / 2
         ends = [(x - half, z), (x + half, z)] if core.along_x else [(x, z - half), (x, z + half)]
         yield Line(ends, _ON_FOOT, 3 * LINE_M, "exit on_foot")
-    for place in layout.of_kind(ObjectKind.WALL):
+    for place in layout.of_kind("wall"):
         if isinstance(place.spec, WallSpec):
             half = place.spec.length_m / 2
             yield turned(place, rectangle(-half, -place.spec.thickness_m, half, 0.0), INK, "wall")
         elif isinstance(place.spec, WallPostSpec):
             yield _placed(place, place.spec.side_m, place.spec.side_m, INK, "wall")
-    for place in layout.of_kind(ObjectKind.COLUMN):
+    for place in layout.of_kind("column"):
         if isinstance(place.spec, ColumnSpec):
             yield _placed(place, place.spec.size_m, place.spec.size_m, INK, "column")
 

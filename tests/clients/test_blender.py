@@ -14,7 +14,6 @@ from pxr import Usd
 from sample_files import REPOSITORY, each_build
 from stage_textures import texture_names
 
-from garage2usd.layout import ObjectKind
 from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
@@ -22,7 +21,7 @@ pytestmark = [
     pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only"),
 ]
 
-PREFIXES = {ObjectKind.STALL: "Stall_", ObjectKind.CAR: "Car_", ObjectKind.COLUMN: "Column_", ObjectKind.LIGHT: "Tube_"}
+PREFIXES = {"stall": "Stall_", "car": "Car_", "column": "Column_", "light": "Tube_"}
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +47,7 @@ def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
         assert_same_places(np.array(found), np.array([place.position_m for place in layout.of_kind(kind)]))
 
     lights = [item for item in scene["drawn"] if item["type"] == "LIGHT"]
-    tubes = np.array([place.position_m for place in layout.of_kind(ObjectKind.LIGHT)])
+    tubes = np.array([place.position_m for place in layout.of_kind("light")])
     assert_same_places(np.array([item["place"] for item in lights])[:, [0, 2]], tubes[:, [0, 2]])
     for item in lights:
         assert item["energy_w"] > 0

@@ -11,7 +11,6 @@ import pytest
 from sample_files import SAMPLES
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout import ObjectKind
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux
 from garage2usd.pipeline import build
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
@@ -69,7 +68,7 @@ def places(structure):
 
 def test_direct_light_is_as_predicted(garage, measured):
     layout = garage.garage.layout
-    unit = direct_lux(places(layout.structure).reshape(-1, 2), layout.of_kind(ObjectKind.LIGHT)) / MAINTENANCE
+    unit = direct_lux(places(layout.structure).reshape(-1, 2), layout.of_kind("light")) / MAINTENANCE
     predicted = (unit * layout.illuminance.luminance_nit).reshape(SIDE, SIDE)
     assert measured["direct"].mean() == pytest.approx(predicted.mean(), rel=0.08)
     assert np.corrcoef(measured["direct"].ravel(), predicted.ravel())[0, 1] > 0.9

@@ -16,7 +16,6 @@ from sample_files import REPOSITORY, SAMPLES
 from stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
-from garage2usd.layout import ObjectKind
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.looks import PACKED_CHANNELS
 from garage2usd.stage.prototypes import asset_of
@@ -74,7 +73,7 @@ def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     meshes = sum(item["mesh"] for item in scene["objects"])
     assert meshes == sum(len(asset_of(placement.spec).parts) for placement in layout.placements)
 
-    tubes = np.array([tube.position_m for tube in layout.of_kind(ObjectKind.LIGHT)])
+    tubes = np.array([tube.position_m for tube in layout.of_kind("light")])
     assert_same_places(np.array([light["place"] for light in scene["lights"]])[:, [0, 2]], tubes[:, [0, 2]])
     assert {light["type"] for light in scene["lights"]} == {"RectAreaLight"}
     assert np.allclose([light["down"] for light in scene["lights"]], [0, -1, 0], atol=1e-6)

@@ -10,7 +10,6 @@ from PIL import Image
 from sample_files import REPOSITORY
 from viewer_page import viewed
 
-from garage2usd.layout import ObjectKind
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.labels import OBJECT_LABELS
 
@@ -59,7 +58,7 @@ def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):
     build, page = opened
     layout = build.garage.layout
     paths = arrange(layout, nested=False).paths()
-    occupied = {(place.square, place.name.partition("_")[2]) for place in layout.of_kind(ObjectKind.CAR)}
+    occupied = {(place.square, place.name.partition("_")[2]) for place in layout.of_kind("car")}
     names = [placement.name for placement in layout.placements]
     clicked = 0
     for stall in layout.stalls[:: max(1, len(layout.stalls) // 30)]:
@@ -138,7 +137,7 @@ def test_labels_are_seen_in_the_colours_of_the_legend(opened):
         stall
         for stall in build.garage.layout.stalls
         if (stall.square, stall.named("Car"))
-        not in {(place.square, place.name) for place in build.garage.layout.of_kind(ObjectKind.CAR)}
+        not in {(place.square, place.name) for place in build.garage.layout.of_kind("car")}
     )
     x, z = stall.centre_m
     page.eval(
@@ -175,7 +174,7 @@ def test_one_walks_at_eye_height_and_through_no_wall(opened):
         if entry["class"] == "ramp":
             (x0, _, z0), (x1, _, z1) = entry["min_m"], entry["max_m"]
             floors.append((x0, x1, z0, z1))
-    cars = [(place.position_m, place.yaw_rad) for place in build.garage.layout.of_kind(ObjectKind.CAR)]
+    cars = [(place.position_m, place.yaw_rad) for place in build.garage.layout.of_kind("car")]
     ways = page.eval(
         "(() => { const found = []; viewer.walker.key('KeyW', true); viewer.walker.key('ShiftLeft', true);"
         " for (let k = 0; k < 90; k++) { if (k % 6 === 0) viewer.walker.yaw += 2.4;"

@@ -7,7 +7,7 @@ from footprints import footprint
 from sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.layout import lay_out
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
@@ -41,9 +41,9 @@ def ground_of(layout):
 @each_sample
 def test_every_open_door_has_its_ramp_outside_the_garage(sample):
     layout = generate(load_config(sample)).layout
-    doors = [place for place in layout.of_kind(ObjectKind.PORTAL) if place.spec.is_open]
-    ramps, skies = layout.of_kind(ObjectKind.RAMP), layout.of_kind(ObjectKind.SKY)
-    assert len(doors) == len(ramps) == len(skies) == len(layout.of_kind(ObjectKind.BARRIER))
+    doors = [place for place in layout.of_kind("portal") if place.spec.is_open]
+    ramps, skies = layout.of_kind("ramp"), layout.of_kind("sky")
+    assert len(doors) == len(ramps) == len(skies) == len(layout.of_kind("barrier"))
     for door, ramp, sky in zip(doors, ramps, skies, strict=True):
         assert (ramp.position_m, ramp.yaw_rad) == (door.position_m, door.yaw_rad) == (sky.position_m, sky.yaw_rad)
         assert footprint(ramp).intersection(ground_of(layout)).area < 1e-6
@@ -53,7 +53,7 @@ def test_every_open_door_has_its_ramp_outside_the_garage(sample):
 @pytest.mark.parametrize(("ceiling_m", "clear_m"), [(3.2, 2.2), (2.4, 2.2), (4.5, 2.4)])
 def test_a_ramp_keeps_the_standard_s_slopes_and_the_clear_height(ceiling_m, clear_m):
     layout = laid_out(OPEN, ceiling_height_m=ceiling_m, clear_height_m=clear_m)
-    spec = layout.of_kind(ObjectKind.RAMP)[0].spec
+    spec = layout.of_kind("ramp")[0].spec
     slopes = [(r1 - r0, (y1 - y0) / (r1 - r0)) for (r0, y0), (r1, y1) in itertools.pairwise(spec.profile)]
     assert [slope for _, slope in slopes] == pytest.approx([0, 0.075, 0.15, 0.075, 0], abs=1e-6)
     assert min(slopes[1][0], slopes[3][0]) >= 3.6 - 1e-6
@@ -64,17 +64,17 @@ def test_a_ramp_keeps_the_standard_s_slopes_and_the_clear_height(ceiling_m, clea
 
 def test_a_door_without_room_for_a_ramp_stays_closed():
     layout = laid_out(POCKET)
-    closed = [place for place in layout.of_kind(ObjectKind.PORTAL) if not place.spec.is_open]
+    closed = [place for place in layout.of_kind("portal") if not place.spec.is_open]
     assert [place.spec.is_entrance for place in closed] == [False]
-    assert len(layout.of_kind(ObjectKind.RAMP)) == 1
+    assert len(layout.of_kind("ramp")) == 1
     assert "Door" in {part.name for part in asset_of(closed[0].spec).parts}
 
 
 def test_gates_stand_beside_the_opening_and_raised_arms_above_the_clear_height():
     layout = laid_out(OPEN, ceiling_height_m=2.4)
-    gates = layout.of_kind(ObjectKind.BARRIER)
+    gates = layout.of_kind("barrier")
     assert [gate.spec.is_raised for gate in gates] == [True, False]
-    for gate, door in zip(gates, layout.of_kind(ObjectKind.PORTAL), strict=True):
+    for gate, door in zip(gates, layout.of_kind("portal"), strict=True):
         half = door.spec.door_width_m / 2 - 0.08
         lane = shapely.box(-100, door.position_m[2] - half, 200, door.position_m[2] + half)
         assert footprint(gate).intersection(lane).area < 1e-6

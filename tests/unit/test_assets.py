@@ -1,78 +1,17 @@
-import string
 from collections import Counter, defaultdict
 
 import networkx as nx
 import numpy as np
 import pytest
 import shapely
+from object_specs import SPECS
 
-from garage2usd import assets
-from garage2usd.assets import MATERIALS, Collider, Marking
+from garage2usd.assets import MATERIALS, Collider
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.layout import specs as s
 from garage2usd.pipeline import generate
-from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
-PANEL = {
-    "width_m": 8.1,
-    "depth_m": 6.5,
-    "base_material": "floor_concrete",
-    "markings": [
-        Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), "paint_yellow"),
-        Marking(((0.0, 0.0), (1.0, 1.0), (0.2, 2.0)), "paint_white"),
-        Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), "paint_white"),
-    ],
-    "openings": [((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))],
-    "label": "floor",
-}
-
-CASES = {
-    "floor": assets.floor_panel(**PANEL),
-    "wall": assets.wall_panel(8.1, 3.2, 0.3),
-    "post": assets.wall_post(0.3, 3.2),
-    "entrance": assets.portal_wall(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True),
-    "exit": assets.portal_wall(5.4, 3.0, 0.3, door_width_m=4.2, door_height_m=2.4, is_entrance=False),
-    "open_door": assets.portal_wall(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True, is_open=True),
-    "ramp": assets.ramp(
-        width_m=6.2,
-        wall_m=0.3,
-        threshold_m=(5.84, 0.3),
-        profile=[(0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5)],
-        cover_m=(9.3, 3.2, 3.5),
-        wall_top_m=4.8,
-    ),
-    "sky": assets.sky(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
-    "raised_barrier": assets.barrier(arm_m=6.1, is_raised=True, elbow_m=2.75),
-    "closed_barrier": assets.barrier(arm_m=6.1, is_raised=False, elbow_m=2.75),
-    "obstacle": assets.obstacle_block(8.1, 5.4, 3.2),
-    "column": assets.column(0.6, 3.2),
-    "ceiling": assets.ceiling_panel(8.1, 8.1, 0.25),
-    "tube": assets.tube_light(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
-    "beam": assets.beam(7.5, 0.4, 0.4),
-    "node": assets.beam_node([(-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)], 0.4),
-    "duct": assets.duct(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),
-    "branch": assets.duct(0.65, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(0.1,)),
-    "tray": assets.cable_tray(8.1, 0.3, 0.06, 0.5, rods_at_m=(-2.0, 2.0)),
-    "cone": assets.cone(),
-    "bump": assets.speed_bump(7.2),
-    "stop": assets.wheel_stop(1.65),
-    "sign": assets.no_parking_sign(),
-    "sprinkler": assets.sprinkler(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
-    "pipe": assets.sprinkler(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
-    **{f"exit_sign_{turn}": assets.exit_sign(turn, 0.58, 0.2) for turn in (-90, 0, 90)},
-    "mirror": assets.mirror(0.25, arm_m=0.12),
-    "charger": assets.charger(),
-    "oil": assets.floor_stain("oil", 2, 0.9, 0.7),
-    "wear": assets.floor_stain("wear_t", 0, 8.1, 6.5),
-    **{f"tyres_{turn}": assets.tyre_marks(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
-    **{f"number_{digits}": assets.floor_number(digits, 0.45, pitch=0.71) for digits in [*"0123456789", "07", "88"]},
-    **{
-        f"plate_{text}": assets.zone_plate(text, 0.6, 0.38, pitch=0.71)
-        for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
-    },
-    **{f"car_{body.name}": assets.car(body) for body in CAR_BODIES},
-}
+CASES = {name: spec.asset() for name, spec in SPECS.items()}
 each_part = pytest.mark.parametrize(
     ("case", "part"),
     [(name, part) for name, asset in CASES.items() for part in asset.parts],
@@ -213,9 +152,10 @@ def test_texture_coordinates_run_on_under_the_paint():
 
 
 def test_colliders_are_on_what_can_be_touched():
-    untouchable = {"sky", "stall_number", "zone_plate", "floor_stain"}
-    for asset in CASES.values():
-        assert (asset.label in untouchable) != any(part.collider for part in asset.parts)
+    for case, asset in CASES.items():
+        kind = SPECS[case].kind
+        is_floor = kind.name in {"floor", "stall"}
+        assert (kind.is_solid or is_floor) == any(part.collider for part in asset.parts), case
     assert {part.collider for part in CASES["floor"].parts} == {Collider.MESH}
     assert {part.collider for part in CASES["stop"].parts} == {Collider.CONVEX_HULL}
 
@@ -225,5 +165,4 @@ def test_every_spec_of_a_garage_has_an_asset():
     for place in layout.placements:
         assert asset_of(place.spec).parts
         assert asset_of(place.spec) is asset_of(place.spec)
-        assert asset_of(place.spec).label == OBJECT_LABELS[place.kind]
-    assert any(isinstance(place.spec, s.CarSpec) for place in layout.placements)
+    assert layout.of_kind("car")

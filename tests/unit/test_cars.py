@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from garage2usd import assets
 from garage2usd.assets import Collider
+from garage2usd.assets.cars import car
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.stage.prototype_layer import write_prototype
 
@@ -12,7 +12,7 @@ TYRES = {f"{end}{side}Tyre" for end in ("Front", "Rear") for side in ("Left", "R
 
 
 def parts_of(body):
-    return {part.name: part for part in assets.car(body).parts}
+    return {part.name: part for part in car(body).parts}
 
 
 def signed_volume(part):
@@ -52,7 +52,7 @@ def test_a_car_has_all_its_parts_in_few_points(body):
     painted = {name for name, part in parts.items() if part.material.startswith("car_paint")}
     assert painted >= {"Body", "Cabin", "Mirrors"}
     assert {parts[name].material for name in painted} == {"car_paint"}
-    assert tuple(assets.car(body).paints) == PAINTS
+    assert tuple(car(body).paints) == PAINTS
 
 
 @each_body
@@ -175,7 +175,7 @@ def test_each_wheel_stands_on_the_floor(body):
 @each_body
 def test_a_car_takes_150_kb(body, tmp_path):
     path = tmp_path / "Car.usdc"
-    write_prototype(assets.car(body), path)
+    write_prototype(car(body), path, label="car")
     assert path.stat().st_size <= 150_000
 
 

@@ -7,7 +7,7 @@ from footprints import footprint
 from scipy import ndimage
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.layout import lay_out
 from garage2usd.layout.compartments import compartments_of
 from garage2usd.layout.cores import obstacle_cores
 from garage2usd.planning import dimension
@@ -44,8 +44,8 @@ def test_a_core_touches_no_column_wall_car_stall_light_or_other_core(garage):
     layout, _ = garage
     cores = [ground(core) for core in layout.cores]
     assert len(cores) >= 2
-    others = [place for kind in (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.CAR, ObjectKind.NO_PARKING_SIGN,
-                                 ObjectKind.LIGHT, ObjectKind.SPEED_BUMP, ObjectKind.CONE)
+    others = [place for kind in ("column", "wall", "car", "no_parking_sign",
+                                 "light", "speed_bump", "cone")
               for place in layout.of_kind(kind)]  # fmt: skip
     grounds = [footprint(place) for place in others]
     grounds += [shapely.Polygon(stall.corners_m()) for stall in layout.stalls]
@@ -88,8 +88,8 @@ def test_every_compartment_is_small_enough_hangs_together_and_has_its_exits(gara
 
 def test_a_door_opens_onto_its_lane_over_a_crossing_and_a_landing(garage):
     layout, _ = garage
-    floors = {place.square: place.spec for place in layout.of_kind(ObjectKind.FLOOR)}
-    signs = {place.square for place in layout.of_kind(ObjectKind.NO_PARKING_SIGN)}
+    floors = {place.square: place.spec for place in layout.of_kind("floor")}
+    signs = {place.square for place in layout.of_kind("no_parking_sign")}
     for core in layout.cores:
         assert layout.structure.cells[core.lane] == Cell.LANE
         assert core.square in signs
@@ -107,7 +107,7 @@ def test_obstacles_beside_lanes_are_cores_with_their_door_on_a_lane():
     (core,) = obstacle_cores(structure)
     assert (core.square, core.lane) == ((2, 2), (3, 2))
     layout, _ = laid_out("........\nE======X\n..#..#..\n........\n", bay={"dimensioned": False})
-    doors = {place.name: place.yaw_rad for place in layout.of_kind(ObjectKind.OBSTACLE) if place.spec.has_door}
+    doors = {place.name: place.yaw_rad for place in layout.of_kind("obstacle") if place.spec.has_door}
     assert doors == {"Obstacle_r02_c02": math.pi, "Obstacle_r02_c05": math.pi}  # towards -Z, where the lane is
     assert [core.stalls for core in layout.cores] == [(), ()]
 

@@ -3,11 +3,11 @@ import pytest
 import shapely
 from footprints import footprint
 
-from garage2usd import assets
 from garage2usd.config import GarageConfig
-from garage2usd.layout import ObjectKind, StallUse, lay_out
+from garage2usd.layout import StallUse, lay_out
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.markings import zebra
+from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 
@@ -63,8 +63,8 @@ def test_every_accessible_stall_has_a_hatched_aisle_beside_it_that_two_share(sha
         # a whole side of the stall lies on the aisle
         reach = shapely.Polygon(stall.corners_m()).buffer(0.01, join_style="mitre")
         assert max(reach.intersection(aisle).length for aisle in ground) > 2 * stall.length_m
-    kept_free = [*layout.of_kind(ObjectKind.CAR), *layout.of_kind(ObjectKind.WHEEL_STOP)]
-    kept_free += [*layout.of_kind(ObjectKind.CONE), *layout.of_kind(ObjectKind.STALL_NUMBER)]
+    kept_free = [*layout.of_kind("car"), *layout.of_kind("wheel_stop")]
+    kept_free += [*layout.of_kind("cone"), *layout.of_kind("stall_number")]
     taken = shapely.union_all([footprint(place) for place in kept_free])
     assert taken.intersection(shapely.union_all(ground)).area < 1e-6
 
@@ -79,14 +79,14 @@ def rows_of(layout):
 def test_shares_of_zero_leave_every_stall_standard():
     layout = laid_out(parking={"ev_share": 0, "accessible_share": 0})
     assert {stall.use for stall in layout.stalls} <= {StallUse.STANDARD, StallUse.TURNING}
-    assert not layout.of_kind(ObjectKind.CHARGER)
+    assert not layout.of_kind("charger")
 
 
 def test_chargers_stand_in_their_stall_behind_the_cars():
     layout = laid_out(parking={"ev_share": 1, "occupancy": 1})
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
-    cars = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.CAR)])
-    posts = layout.of_kind(ObjectKind.CHARGER)
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
+    cars = shapely.union_all([footprint(place) for place in layout.of_kind("car")])
+    posts = layout.of_kind("charger")
     assert len(posts) == len(of_use(layout, StallUse.EV)) > 0
     for post in posts:
         assert footprint(post).within(panels[post.square, post.name.replace("Charger", "Stall")])
@@ -95,8 +95,8 @@ def test_chargers_stand_in_their_stall_behind_the_cars():
 
 def test_numbers_are_painted_at_the_mouth_of_their_stall():
     layout = laid_out()
-    panels = {(place.square, place.name): place for place in layout.of_kind(ObjectKind.STALL)}
-    digits = layout.of_kind(ObjectKind.STALL_NUMBER)
+    panels = {(place.square, place.name): place for place in layout.of_kind("stall")}
+    digits = layout.of_kind("stall_number")
     numbered = {(*stall.square, stall.named("StallNumber")): stall.number for stall in layout.stalls if stall.number}
     assert len(numbered) == sum(stall.use.takes_cars for stall in layout.stalls)
     painted = {(*place.square, place.name.rsplit("_", 1)[0]): place.spec.digits for place in digits}
@@ -133,7 +133,7 @@ def test_symbols_are_clean_polygons_between_wheel_stop_and_number(use):
 def test_digits_differ_and_keep_their_size():
     areas = set()
     for digit in range(10):
-        (part,) = assets.floor_number(str(digit), 0.45, pitch=0.71).parts
+        (part,) = NumberSpec(str(digit), 0.45).asset().parts
         low, high = part.points.min(axis=0), part.points.max(axis=0)
         assert (high - low)[2] == pytest.approx(0.45, abs=1e-3)
         assert (high - low)[0] <= 0.56 * 0.45 + 1e-3
@@ -144,6 +144,6 @@ def test_digits_differ_and_keep_their_size():
 
 def test_a_zebra_crossing_lies_before_a_core_s_door():
     bars = {marking.polygon for marking in zebra(4.05, 4.05, 0.35, along_x=True)}
-    floors = {place.square: place.spec for place in laid_out().of_kind(ObjectKind.FLOOR)}
+    floors = {place.square: place.spec for place in laid_out().of_kind("floor")}
     crossed = {square for square, spec in floors.items() if bars <= {marking.polygon for marking in spec.markings}}
     assert crossed == {(3, 2)}  # the other core's door opens onto a junction

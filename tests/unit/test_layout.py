@@ -11,8 +11,8 @@ from sample_files import each_sample
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import ConfigError
-from garage2usd.layout import ObjectKind, StallUse, lay_out
-from garage2usd.layout import specs as s
+from garage2usd.layout import StallUse, lay_out
+from garage2usd.objects.panel import PanelSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.dead_ends import dead_ends
@@ -57,7 +57,7 @@ def assert_disjoint(placements):
 
 
 def test_floors_and_stalls_tile_the_inside_without_overlap(layout):
-    ground = [*layout.of_kind(ObjectKind.FLOOR), *layout.of_kind(ObjectKind.STALL)]
+    ground = [*layout.of_kind("floor"), *layout.of_kind("stall")]
     assert_disjoint(ground)
     area = sum(footprint(place).area for place in ground)
     inside = (layout.structure.cells != Cell.OBSTACLE).sum()
@@ -65,7 +65,7 @@ def test_floors_and_stalls_tile_the_inside_without_overlap(layout):
 
 
 def test_markings_do_not_overlap_and_stay_on_their_panel(layout):
-    for spec in {p.spec for p in layout.placements if isinstance(p.spec, s.PanelSpec)}:
+    for spec in {p.spec for p in layout.placements if isinstance(p.spec, PanelSpec)}:
         shapes = [shapely.Polygon(marking.polygon) for marking in spec.markings]
         assert all(shape.is_valid and shape.area > 0 for shape in shapes)
         panel = shapely.box(-spec.width_m / 2, -spec.depth_m / 2, spec.width_m / 2, spec.depth_m / 2)
@@ -75,16 +75,16 @@ def test_markings_do_not_overlap_and_stay_on_their_panel(layout):
 
 
 def test_walls_close_the_contour_once(layout):
-    shell = [place for place in layout.placements if place.kind in {ObjectKind.WALL, ObjectKind.PORTAL}]
+    shell = [place for place in layout.placements if place.kind in {"wall", "portal"}]
     assert_disjoint(shell)
     x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
     cells = layout.structure.cells
     squares = [
         shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in np.argwhere(cells != Cell.OBSTACLE).tolist()
     ]
-    core = footprint(layout.of_kind(ObjectKind.OBSTACLE)[0])
+    core = footprint(layout.of_kind("obstacle")[0])
     assert core.area == pytest.approx(8.1**2)
-    inside = shapely.union_all([*squares, *(footprint(place) for place in layout.of_kind(ObjectKind.OBSTACLE))])
+    inside = shapely.union_all([*squares, *(footprint(place) for place in layout.of_kind("obstacle"))])
     walls = union(shell)
     assert walls.intersection(inside).area < 1e-6
     # the walls are exactly the band of their thickness around the inside
@@ -93,17 +93,17 @@ def test_walls_close_the_contour_once(layout):
 
 
 def test_every_portal_has_one_door(layout):
-    assert len(layout.of_kind(ObjectKind.PORTAL)) == (layout.structure.cells >= Cell.ENTRANCE).sum()
-    entrances = [place for place in layout.of_kind(ObjectKind.PORTAL) if place.spec.is_entrance]
+    assert len(layout.of_kind("portal")) == (layout.structure.cells >= Cell.ENTRANCE).sum()
+    entrances = [place for place in layout.of_kind("portal") if place.spec.is_entrance]
     assert len(entrances) == 1
 
 
 def test_columns_stand_clear_of_stalls_cars_walls_and_carriageways(layout):
-    columns = union(layout.of_kind(ObjectKind.COLUMN))
-    assert len(layout.of_kind(ObjectKind.COLUMN)) > 10
-    solid = (ObjectKind.STALL, ObjectKind.CAR, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    columns = union(layout.of_kind("column"))
+    assert len(layout.of_kind("column")) > 10
+    solid = ("stall", "car", "wall", "portal", "obstacle")
     for place in layout.placements:
-        if place.kind in (*solid, ObjectKind.SPEED_BUMP):
+        if place.kind in (*solid, "speed_bump"):
             assert footprint(place).intersection(columns).area < 1e-6, place
     # half a column and a margin reach into a lane square; the carriageway lies inside that
     x, z = layout.structure.column_edges_m, layout.structure.row_edges_m
@@ -120,14 +120,14 @@ def test_stalls_match_the_score_and_cars_stand_inside_their_lines(layout):
     assert len(layout.stalls) == square_capacity(layout.structure, GarageConfig().bay).sum()
     names = [stall.name for stall in layout.stalls]
     assert len(set(names)) == len(names)
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
     assert set(panels) == {(stall.square, stall.named("Stall")) for stall in layout.stalls}
     for stall in layout.stalls:
         assert (
             shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.square, stall.named("Stall")]).area
             < 1e-6
         )
-    cars = layout.of_kind(ObjectKind.CAR)
+    cars = layout.of_kind("car")
     assert len(cars) == len(names)
     for car in cars:
         lines = panels[car.square, car.name.replace("Car", "Stall")]
@@ -145,20 +145,20 @@ def test_the_mouth_of_a_stall_lies_on_its_lane(layout):
 
 
 def test_ducts_hang_under_the_ceiling_above_the_clear_height_and_never_meet(layout):
-    ducts = layout.of_kind(ObjectKind.DUCT)
+    ducts = layout.of_kind("duct")
     assert_disjoint(ducts)
     for place in ducts:
         top = place.position_m[1]
         assert top + place.spec.hanger_m == pytest.approx(layout.ceiling_height_m)
         assert top - place.spec.height_m >= GarageConfig().fittings.clear_height_m
-    assert_disjoint([*ducts, *layout.of_kind(ObjectKind.COLUMN)])
-    assert_disjoint(list(layout.of_kind(ObjectKind.LIGHT)))
+    assert_disjoint([*ducts, *layout.of_kind("column")])
+    assert_disjoint(list(layout.of_kind("light")))
 
 
 def test_speed_bumps_keep_apart():
     config = GarageConfig(fittings={"speed_bump_rate": 1.0, "stair_cores": False})
     layout = laid_out("." * 12 + "\nE" + "=" * 10 + "X\n" + "." * 12, config)
-    columns = sorted(place.square[1] for place in layout.of_kind(ObjectKind.SPEED_BUMP))
+    columns = sorted(place.square[1] for place in layout.of_kind("speed_bump"))
     assert columns == [1, 3, 5, 7, 9]
 
 
@@ -207,29 +207,29 @@ def test_settings_decide_what_is_there():
 
 def test_cones_close_stalls_without_cars_and_never_stand_on_lanes():
     layout = laid_out(IRREGULAR, GarageConfig(fittings={"cone_rate": 1.0}))
-    cones = layout.of_kind(ObjectKind.CONE)
-    occupied = {(car.square, car.name.replace("Car", "Stall")) for car in layout.of_kind(ObjectKind.CAR)}
+    cones = layout.of_kind("cone")
+    occupied = {(car.square, car.name.replace("Car", "Stall")) for car in layout.of_kind("car")}
     standard = {(s.square, s.named("Stall")) for s in layout.stalls if s.use is StallUse.STANDARD}
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind(ObjectKind.STALL)}
+    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
     closed = [panels[key] for key in standard - occupied]
     for panel in closed:
         assert sum(panel.contains(footprint(cone)) for cone in cones) == 3
     hatched = [
         place
-        for place in layout.of_kind(ObjectKind.FLOOR)
+        for place in layout.of_kind("floor")
         if layout.structure.cells[place.square] == Cell.FREE and not place.spec.openings
     ]
     assert len(cones) == 3 * len(closed) + 4 * len(hatched) > 20
     assert shapely.union_all([*closed, *map(footprint, hatched)]).buffer(1e-6).contains(union(cones))
-    signs = [place for place in layout.placements if place.kind in {ObjectKind.NO_PARKING_SIGN, ObjectKind.CAR}]
-    digits = layout.of_kind(ObjectKind.STALL_NUMBER)
-    stops = layout.of_kind(ObjectKind.WHEEL_STOP)
+    signs = [place for place in layout.placements if place.kind in {"no_parking_sign", "car"}]
+    digits = layout.of_kind("stall_number")
+    stops = layout.of_kind("wheel_stop")
     assert union(cones).intersection(union([*signs, *digits, *stops])).area < 1e-6
 
 
 def test_cars_of_other_stalls_do_not_move_with_the_occupancy():
-    few = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.3})).of_kind(ObjectKind.CAR)
-    many = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.8})).of_kind(ObjectKind.CAR)
+    few = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.3})).of_kind("car")
+    many = laid_out(IRREGULAR, GarageConfig(parking={"occupancy": 0.8})).of_kind("car")
     assert set(few) < set(many)
 
 
@@ -238,11 +238,11 @@ def test_samples_have_no_overlap(sample):
     from garage2usd.config import load_config
 
     layout = generate(load_config(sample)).layout
-    standing = (ObjectKind.COLUMN, ObjectKind.CAR, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
-    standing += (ObjectKind.SPEED_BUMP, ObjectKind.NO_PARKING_SIGN, ObjectKind.RAMP, ObjectKind.BARRIER)
+    standing = ("column", "car", "wall", "portal", "obstacle")
+    standing += ("speed_bump", "no_parking_sign", "ramp", "barrier")
     assert_disjoint([place for place in layout.placements if place.kind in standing])
-    assert_disjoint([place for place in layout.placements if place.kind in {ObjectKind.FLOOR, ObjectKind.STALL}])
-    assert_disjoint([*layout.of_kind(ObjectKind.DUCT), *layout.of_kind(ObjectKind.COLUMN)])
+    assert_disjoint([place for place in layout.placements if place.kind in {"floor", "stall"}])
+    assert_disjoint([*layout.of_kind("duct"), *layout.of_kind("column")])
 
 
 def test_names_are_unique_among_siblings(layout):
@@ -259,15 +259,15 @@ def test_a_long_dead_end_keeps_a_turning_stall():
     free = laid_out(text, GarageConfig(parking=parking))
     turning = [stall for stall in free.stalls if stall.use is StallUse.TURNING]
     assert [stall.access_square for stall in turning] == [(1, 6)]  # four squares of 8.1 m past the exit's junction
-    assert len(free.of_kind(ObjectKind.CAR)) == len(free.of_kind(ObjectKind.WHEEL_STOP)) == len(free.stalls) - 1
+    assert len(free.of_kind("car")) == len(free.of_kind("wheel_stop")) == len(free.stalls) - 1
     allowed = laid_out(text, GarageConfig(parking=parking, plan={"dead_ends": "allow"}))
-    assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind(ObjectKind.CAR))
+    assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind("car"))
 
     def is_turning(place):
         return (place.square, place.name) == (turning[0].square, turning[0].named("Stall"))
 
-    hatched = {place.spec for place in free.of_kind(ObjectKind.STALL) if is_turning(place)}
-    plain = {place.spec for place in free.of_kind(ObjectKind.STALL) if not is_turning(place)}
+    hatched = {place.spec for place in free.of_kind("stall") if is_turning(place)}
+    plain = {place.spec for place in free.of_kind("stall") if not is_turning(place)}
     assert hatched.isdisjoint(plain)
 
 
@@ -306,7 +306,7 @@ def test_the_narrowest_garage_that_is_not_refused_leaves_cars_their_width():
         plan={"unreachable_stalls": "keep"},
     )
     layout = generate(config).layout
-    for door in layout.of_kind(ObjectKind.PORTAL):
+    for door in layout.of_kind("portal"):
         frame = next(part for part in asset_of(door.spec).parts if part.name == "Frame")
         inner = np.abs(frame.points[frame.points[:, 1] < 0.1, 0]).min()
         assert 2 * inner == pytest.approx(2.5, abs=1e-4)
@@ -314,7 +314,7 @@ def test_the_narrowest_garage_that_is_not_refused_leaves_cars_their_width():
 
 def test_a_lane_that_no_car_reaches_is_not_worn():
     layout = generate(GarageConfig(site={"structure": "#=#.....\n##......\nE=======\n......=X"})).layout
-    assert (0, 1) not in {place.square for place in layout.of_kind(ObjectKind.FLOOR_STAIN) if place.name == "Wear"}
+    assert (0, 1) not in {place.square for place in layout.of_kind("floor_stain") if place.name == "Wear"}
 
 
 def test_tyres_stand_before_the_wheel_stops():
@@ -322,8 +322,8 @@ def test_tyres_stand_before_the_wheel_stops():
     parking = {"occupancy": 1.0, "accessible_share": 0, "max_yaw_deg": 5.0}
     for reversed_share in (0.0, 1.0):
         layout = laid_out(IRREGULAR, GarageConfig(parking={**parking, "reversed_share": reversed_share}))
-        assert {car.spec.body for car in layout.of_kind(ObjectKind.CAR)} == {body.name for body in CAR_BODIES}
-        assert not list(Solids(layout, (ObjectKind.CAR, ObjectKind.WHEEL_STOP)).clashes())
+        assert {car.spec.body for car in layout.of_kind("car")} == {body.name for body in CAR_BODIES}
+        assert not list(Solids(layout, ("car", "wheel_stop")).clashes())
 
 
 def stall_under(layout, car):
@@ -335,9 +335,9 @@ def test_occupancy_is_told_stall_by_stall():
     names = [stall.name for stall in laid_out(text, GarageConfig()).stalls]
     wanted = names[1:6:2]
     only = laid_out(text, GarageConfig(parking={"occupied_stalls": wanted}))
-    assert [stall_under(only, car) for car in only.of_kind(ObjectKind.CAR)] == wanted
+    assert [stall_under(only, car) for car in only.of_kind("car")] == wanted
     most = laid_out(text, GarageConfig(parking={"occupancy": 1.0, "empty_stalls": wanted}))
-    assert [stall_under(most, car) for car in most.of_kind(ObjectKind.CAR)] == [n for n in names if n not in wanted]
+    assert [stall_under(most, car) for car in most.of_kind("car")] == [n for n in names if n not in wanted]
 
 
 @pytest.mark.parametrize(

@@ -2,17 +2,16 @@ import numpy as np
 import pytest
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout import ObjectKind
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
-from garage2usd.layout.specs import TubeLightSpec
+from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.pipeline import generate
 
 SPEC = TubeLightSpec(1.5, 0.12, luminance_nit=1000.0)
 
 
 def tube(x, z, yaw=0.0, height=3.2):
-    return Placement("Tube", ObjectKind.LIGHT, SPEC, (x, height, z), yaw, (0, 0))
+    return Placement("Tube", SPEC, (x, height, z), yaw, (0, 0))
 
 
 def integrated(point, place):
@@ -54,5 +53,5 @@ def test_the_floor_gets_what_was_asked_for():
 
 def test_no_tubes_no_light():
     layout = generate(GarageConfig(plan={"episodes": 100}, fittings={"tubes_per_cell": 0})).layout
-    assert layout.of_kind(ObjectKind.LIGHT) == ()
+    assert layout.of_kind("light") == ()
     assert (layout.illuminance.luminance_nit, layout.illuminance.lanes.maximum) == (0, 0)

@@ -7,8 +7,8 @@ from sample_files import each_sample
 from scipy.spatial.distance import pdist
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout import ObjectKind, lay_out
-from garage2usd.layout.specs import Turn
+from garage2usd.layout import lay_out
+from garage2usd.objects.exit_sign import Turn
 from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
@@ -39,13 +39,13 @@ E======X
 def test_any_ceiling_leaves_the_clear_height(ceiling_m):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m)
     assert_solid_objects_keep_apart(layout, config)
-    assert bool(layout.of_kind(ObjectKind.MIRROR)) == (ceiling_m >= 2.95)
-    assert bool(layout.of_kind(ObjectKind.EXIT_SIGN)) == (ceiling_m > 3)
+    assert bool(layout.of_kind("mirror")) == (ceiling_m >= 2.95)
+    assert bool(layout.of_kind("exit_sign")) == (ceiling_m > 3)
 
 
 def test_exit_signs_point_to_the_exit():
     layout, _ = laid_out(CROSS)
-    turns = {(place.square, place.name): place.spec.turn for place in layout.of_kind(ObjectKind.EXIT_SIGN)}
+    turns = {(place.square, place.name): place.spec.turn for place in layout.of_kind("exit_sign")}
     assert turns[(1, 2), "ExitSign_Left"] is Turn.AHEAD
     assert turns[(1, 2), "ExitSign_Down"] is Turn.RIGHT  # driving up, the exit lies on the right
     assert turns[(1, 5), "ExitSign_Up"] is Turn.LEFT
@@ -61,7 +61,7 @@ def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
     layout, config = laid_out(CROSS)
     assert_solid_objects_keep_apart(layout, config)
     seen = {}
-    for place in layout.of_kind(ObjectKind.MIRROR):
+    for place in layout.of_kind("mirror"):
         seen.setdefault(place.square, set()).update(ways_seen(place))
     assert seen[1, 2] == seen[1, 5] == set(Edge)
     assert seen[3, 2] >= {Edge.LEFT, Edge.UP, Edge.RIGHT}
@@ -71,7 +71,7 @@ def test_mirrors_serve_every_way_into_a_blind_junction_or_bend():
 .=..
 .E..
 """)
-    (mirror,) = bend.of_kind(ObjectKind.MIRROR)
+    (mirror,) = bend.of_kind("mirror")
     assert (mirror.square, ways_seen(mirror)) == ((1, 1), {Edge.DOWN, Edge.RIGHT})
 
 
@@ -84,9 +84,9 @@ E====X
 .====.
 """
     )
-    solid = (ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.PORTAL, ObjectKind.OBSTACLE)
+    solid = ("column", "wall", "portal", "obstacle")
     holding = shapely.union_all([footprint(place) for place in layout.placements if place.kind in solid])
-    placed = layout.of_kind(ObjectKind.MIRROR)
+    placed = layout.of_kind("mirror")
     assert {place.spec.arm_m for place in placed} >= {0.12, 0.29}
     for place in placed:
         x, _, z = place.position_m
@@ -99,11 +99,11 @@ def test_mirrors_around_one_column_hang_beside_each_other(column_m):
     text = "E=====X\n=.=.=.=\n=======\n.=.=.=.\n======="
     layout, config = laid_out(text, bay={"column_size_m": column_m})
     assert_solid_objects_keep_apart(layout, config)
-    placed = layout.of_kind(ObjectKind.MIRROR)
+    placed = layout.of_kind("mirror")
     nearest = pdist(np.array([place.position_m for place in placed])).min()
     assert nearest >= 2 * placed[0].spec.radius_m - 1e-6
     assert nearest < 2  # there are some around one column
-    columns = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.COLUMN)])
+    columns = shapely.union_all([footprint(place) for place in layout.of_kind("column")])
     for place in placed:
         x, _, z = place.position_m
         tip = shapely.Point(x - place.spec.arm_m * np.sin(place.yaw_rad), z - place.spec.arm_m * np.cos(place.yaw_rad))
@@ -113,16 +113,16 @@ def test_mirrors_around_one_column_hang_beside_each_other(column_m):
 @pytest.mark.parametrize(("sides_m", "column_m", "ceiling_m"), [(5.6, 0.9, 2.73), (6.3, 0.25, 2.76), (6.4, 1.1, 2.9)])
 def test_tubes_over_small_junctions_keep_off_lines_that_hang_as_high(sides_m, column_m, ceiling_m):
     layout, config = laid_out(CROSS, sides_m, bay={"column_size_m": column_m}, ceiling_height_m=ceiling_m)
-    assert layout.of_kind(ObjectKind.DUCT)
+    assert layout.of_kind("duct")
     assert_solid_objects_keep_apart(layout, config)
 
 
 def test_ramps_are_lit_under_their_cover():
     layout, config = laid_out(CROSS)
-    tubes = [place for place in layout.of_kind(ObjectKind.LIGHT) if place.square is None]
-    ramps = layout.of_kind(ObjectKind.RAMP)
+    tubes = [place for place in layout.of_kind("light") if place.square is None]
+    ramps = layout.of_kind("ramp")
     assert len(tubes) == 2 * len(ramps) > 0
-    assert {place.spec for place in tubes} == {place.spec for place in layout.of_kind(ObjectKind.LIGHT)}
+    assert {place.spec for place in tubes} == {place.spec for place in layout.of_kind("light")}
     for place in tubes:
         (ramp,) = [ramp for ramp in ramps if footprint(ramp).contains(footprint(place))]
         run = np.hypot(place.position_m[0] - ramp.position_m[0], place.position_m[2] - ramp.position_m[2])
@@ -140,8 +140,8 @@ E======X
 .=====..
 """
     )
-    beams = [footprint(place) for place in layout.of_kind(ObjectKind.BEAM)]
-    columns = [footprint(place) for place in layout.of_kind(ObjectKind.COLUMN)]
+    beams = [footprint(place) for place in layout.of_kind("beam")]
+    columns = [footprint(place) for place in layout.of_kind("column")]
     concrete = shapely.union_all([*beams, *columns])
     assert concrete.area == pytest.approx(sum(shape.area for shape in [*beams, *columns]), abs=1e-6)
     structure = layout.structure
@@ -156,7 +156,7 @@ E======X
         for row, col in np.argwhere(inside[:-1] & inside[1:]).tolist()
     ]
     assert shapely.union_all(lines).difference(concrete.buffer(1e-6)).length < 1e-6
-    ground = shapely.union_all([footprint(place) for place in layout.of_kind(ObjectKind.CEILING)])
+    ground = shapely.union_all([footprint(place) for place in layout.of_kind("ceiling")])
     assert concrete.difference(ground.buffer(1e-6)).area < 1e-6
 
 
@@ -164,15 +164,15 @@ E======X
     ("ceiling_m", "switches", "depth_m", "absent"),
     [
         (3.2, {}, 0.4, set()),
-        (3.2, {"cable_trays": False}, 0.5, {ObjectKind.CABLE_TRAY, ObjectKind.MIRROR}),
-        (3.2, {"ducts": False}, 0.6, {ObjectKind.DUCT, ObjectKind.MIRROR}),
-        (3.2, {"beams": False}, 0.0, {ObjectKind.BEAM}),
-        (2.75, {}, 0.0, {ObjectKind.BEAM, ObjectKind.CABLE_TRAY, ObjectKind.EXIT_SIGN, ObjectKind.MIRROR}),
-        (2.4, {}, 0.0, {kind for kind in HANGING if kind not in {ObjectKind.LIGHT, ObjectKind.SPRINKLER}}),
+        (3.2, {"cable_trays": False}, 0.5, {"cable_tray", "mirror"}),
+        (3.2, {"ducts": False}, 0.6, {"duct", "mirror"}),
+        (3.2, {"beams": False}, 0.0, {"beam"}),
+        (2.75, {}, 0.0, {"beam", "cable_tray", "exit_sign", "mirror"}),
+        (2.4, {}, 0.0, {kind for kind in HANGING if kind not in {"light", "sprinkler"}}),
     ],
 )
 def test_what_finds_no_room_over_the_clear_height_is_left_out(ceiling_m, switches, depth_m, absent):
     layout, config = laid_out(CROSS, ceiling_height_m=ceiling_m, **switches)
     assert_solid_objects_keep_apart(layout, config)
     assert {kind for kind in HANGING if not layout.of_kind(kind)} == absent
-    assert {place.spec.depth_m for place in layout.of_kind(ObjectKind.BEAM)} == ({depth_m} if depth_m else set())
+    assert {place.spec.depth_m for place in layout.of_kind("beam")} == ({depth_m} if depth_m else set())

@@ -9,10 +9,10 @@ import shapely
 from footprints import footprint
 from sample_files import each_sample
 
-from garage2usd.assets.lettering import PAINT_LIFT_M
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout import ObjectKind, StallUse
-from garage2usd.layout import specs as s
+from garage2usd.layout import StallUse
+from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.stall_number import PAINT_LIFT_M
 from garage2usd.pipeline import generate
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.bounds import world_bounds_m
@@ -32,11 +32,11 @@ E============.
 """
 """Straights, bends, T-junctions and a crossroads: every kind of wear has a square."""
 CONFIG = GarageConfig(seed=8, site={"structure": DRAWN}, fittings={"floor_stain_rate": 1.0}, parking={"occupancy": 0.3})
-WEAR = {mark for mark in s.StainMark if mark.name.startswith("WEAR")}
+WEAR = {mark for mark in StainMark if mark.name.startswith("WEAR")}
 
 
 def is_wear(place):
-    return isinstance(place.spec, s.StainSpec) and place.spec.mark in WEAR
+    return isinstance(place.spec, StainSpec) and place.spec.mark in WEAR
 
 
 @pytest.fixture(scope="module")
@@ -46,12 +46,12 @@ def layout():
 
 @pytest.fixture(scope="module")
 def stains(layout):
-    return layout.of_kind(ObjectKind.FLOOR_STAIN)
+    return layout.of_kind("floor_stain")
 
 
 def boxes(layout):
     """The ground that each stain covers as its mesh says, by an axis-aligned box."""
-    rows = layout.placements.rows_of(ObjectKind.FLOOR_STAIN)
+    rows = layout.placements.rows_of("floor_stain")
     low, high = world_bounds_m(layout.placements, rows)
     return [shapely.box(x0, z0, x1, z1) for (x0, _, z0), (x1, _, z1) in zip(low, high, strict=True)]
 
@@ -63,19 +63,15 @@ def square_box(layout, square):
 
 
 def test_every_mark_is_there(stains):
-    marks = {place.spec.mark for place in stains if isinstance(place.spec, s.StainSpec)}
-    assert marks == set(s.StainMark)
-    tyres = {np.sign(place.spec.turn_rad) for place in stains if isinstance(place.spec, s.TyreMarkSpec)}
+    marks = {place.spec.mark for place in stains if isinstance(place.spec, StainSpec)}
+    assert marks == set(StainMark)
+    tyres = {np.sign(place.spec.turn_rad) for place in stains if isinstance(place.spec, TyreMarkSpec)}
     assert tyres == {-1, 0, 1}
 
 
 def test_stains_keep_to_their_square_off_walls_and_columns(layout, stains):
     standing = shapely.union_all(
-        [
-            footprint(place)
-            for place in layout.placements
-            if place.kind in {ObjectKind.COLUMN, ObjectKind.WALL, ObjectKind.OBSTACLE, ObjectKind.PORTAL}
-        ]
+        [footprint(place) for place in layout.placements if place.kind in {"column", "wall", "obstacle", "portal"}]
     )
     for place, box in zip(stains, boxes(layout), strict=True):
         assert square_box(layout, place.square).buffer(1e-4).covers(box), place
@@ -89,10 +85,10 @@ def test_wear_covers_every_lane_once_and_leads_where_cars_drive(layout, stains):
     assert sorted(place.square for place in worn) == [tuple(square) for square in np.argwhere(driven).tolist()]
     steps = {(0, 1): (1, 0), (1, 0): (0, 1), (0, -1): (-1, 0), (-1, 0): (0, -1)}  # (x, z): (row, column)
     base = {
-        s.StainMark.WEAR_STRAIGHT: [(0, 1), (0, -1)],
-        s.StainMark.WEAR_BEND: [(0, 1), (1, 0)],
-        s.StainMark.WEAR_T: [(0, 1), (1, 0), (-1, 0)],
-        s.StainMark.WEAR_CROSS: list(steps),
+        StainMark.WEAR_STRAIGHT: [(0, 1), (0, -1)],
+        StainMark.WEAR_BEND: [(0, 1), (1, 0)],
+        StainMark.WEAR_T: [(0, 1), (1, 0), (-1, 0)],
+        StainMark.WEAR_CROSS: list(steps),
     }
     for place in worn:
         cos, sin = round(np.cos(place.yaw_rad)), round(np.sin(place.yaw_rad))
@@ -131,9 +127,9 @@ def test_oil_lies_under_the_engine_between_the_lines(layout, stains):
 
 
 def test_patches_keep_off_paint(layout, stains):
-    patches = [place for place in stains if getattr(place.spec, "mark", None) is s.StainMark.PATCH]
+    patches = [place for place in stains if getattr(place.spec, "mark", None) is StainMark.PATCH]
     assert patches
-    floors = {place.square: place for place in layout.of_kind(ObjectKind.FLOOR)}
+    floors = {place.square: place for place in layout.of_kind("floor")}
     for place in patches:
         panel = floors[place.square]
         x, _, z = panel.position_m
@@ -145,7 +141,7 @@ def test_patches_keep_off_paint(layout, stains):
 def shown(layout):
     """What stains each square shows, by square."""
     sets = defaultdict(set)
-    for place in layout.of_kind(ObjectKind.FLOOR_STAIN):
+    for place in layout.of_kind("floor_stain"):
         if not is_wear(place):
             row, col = place.square
             x, z = layout.structure.column_edges_m[col], layout.structure.row_edges_m[row]
@@ -169,7 +165,7 @@ def test_the_rate_thins_them_out_without_moving_them():
     few, many = (
         set(
             generate(GarageConfig(seed=5, site=SITE, plan=plan, fittings={"floor_stain_rate": rate})).layout.of_kind(
-                ObjectKind.FLOOR_STAIN
+                "floor_stain"
             )
         )
         for rate in (0.2, 0.8)
@@ -177,7 +173,7 @@ def test_the_rate_thins_them_out_without_moving_them():
     assert 0 < len(few) < len(many)
     assert len(few - many) <= len(few) // 20  # a few lie where there is a larger one now
     none = generate(GarageConfig(seed=5, site=SITE, plan=plan, fittings={"floor_stain_rate": 0})).layout
-    assert none.of_kind(ObjectKind.FLOOR_STAIN) == ()
+    assert none.of_kind("floor_stain") == ()
 
 
 def test_squares_that_share_draws_share_their_stains():

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from garage2usd.assets import MATERIALS, texture_folder
-from garage2usd.assets.stains import CELLS, CELLS_ACROSS
+from garage2usd.assets import MATERIALS
+from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
+from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import TextureQuality
 
 NAMES = sorted({texture for material in MATERIALS.values() for texture in material.textures()})

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout import ObjectKind, lay_out
+from garage2usd.layout import lay_out
 from garage2usd.layout.zones import Zones
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
@@ -60,17 +60,17 @@ def test_without_zones_stalls_count_through_the_garage_and_columns_are_bare():
     layout = laid_out(zones=False)
     numbers = [stall.number for stall in layout.stalls if stall.use.takes_cars]
     assert numbers == [f"{n:03d}" for n in range(1, len(numbers) + 1)]
-    assert not layout.of_kind(ObjectKind.ZONE_PLATE)
+    assert not layout.of_kind("zone_plate")
 
 
 def test_each_column_shows_the_zone_of_a_square_beside_it():
     layout = laid_out()
     zones, edges = Zones(layout.structure), (layout.structure.row_edges_m, layout.structure.column_edges_m)
     shown = {}
-    for plate in sorted(layout.of_kind(ObjectKind.ZONE_PLATE), key=lambda plate: -plate.position_m[1]):
+    for plate in sorted(layout.of_kind("zone_plate"), key=lambda plate: -plate.position_m[1]):
         x, _, z = plate.position_m
         shown[x, z] = shown.get((x, z), "") + plate.spec.text
-    feet = {(place.position_m[0], place.position_m[2]) for place in layout.of_kind(ObjectKind.COLUMN)}
+    feet = {(place.position_m[0], place.position_m[2]) for place in layout.of_kind("column")}
     assert set(shown) == feet
     for (x, z), text in shown.items():
         beside = {

@@ -16,8 +16,7 @@ from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from sample_files import SAMPLES
 
 from garage2usd.assets.mesh import Collider
-from garage2usd.layout import ObjectKind
-from garage2usd.stage.arrangement import SCATTERED
+from garage2usd.objects import KINDS
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
 
@@ -29,7 +28,7 @@ IMPORTS = [
     # to flatten the large one takes pxr most of a minute, and shows nothing that the others do not
     if (sample.stem, form[1]) != ("large_20x30", "flat")
 ]
-INSTANCERS = tuple(f"/{name}" for name in SCATTERED.values())
+INSTANCERS = tuple(f"/{kind.scattered}" for kind in KINDS if kind.scattered)
 COLLIDERS = {
     Collider.MESH: ("MeshCollider", False),
     Collider.CONVEX_HULL: ("MeshCollider", True),
@@ -67,7 +66,7 @@ def directed_object(item) -> np.ndarray:
 def test_every_object_of_the_layout_stands_and_looks_as_it_should(imported, sample, extension, form):
     build, prefab = imported(sample, extension, form)
     placements = build.garage.layout.placements
-    for kind in ObjectKind:
+    for kind in OBJECT_LABELS:
         rows = placements.rows_of(kind)
         expected = directed(placements.position_m[rows], placements.yaw_rad[rows])
         # an instancer has the label of its points
@@ -203,7 +202,7 @@ def test_the_fronts_of_all_meshes_look_outwards(imported):
 def test_an_asymmetric_garage_is_not_mirrored(imported):
     """The corners of every column, as the layout has them, are in the prefab and those of its mirror image are not."""
     build, prefab = imported(SAMPLE["irregular"], "usdz")
-    columns = build.garage.layout.of_kind(ObjectKind.COLUMN)
+    columns = build.garage.layout.of_kind("column")
     corners = np.concatenate(
         [np.array(asset_of(column.spec).parts[0].points) + column.position_m for column in columns]
     )
@@ -221,7 +220,7 @@ def test_an_asymmetric_garage_is_not_mirrored(imported):
 
 def test_lights_shine_down_from_the_tubes_as_strongly_as_the_formula_says(imported):
     build, prefab = imported(SAMPLE["paper_7x9"], "usdc")
-    tubes = np.array([place.position_m for place in build.garage.layout.of_kind(ObjectKind.LIGHT)])
+    tubes = np.array([place.position_m for place in build.garage.layout.of_kind("light")])
     lights = [item for item in prefab.objects if "light" in item]
     found = np.array([place_of(item) for item in lights])
     assert_same_places(found[:, [0, 2]], from_usd(tubes)[:, [0, 2]])

@@ -95,6 +95,17 @@ def without_lane_graph(stage):
     stage.GetPrimAtPath(GRAPH).SetActive(False)
 
 
+def without(start, *, keep=0):
+    """Take the objects away that hang on walls and columns and whose names begin so, but for some."""
+
+    def edit(stage):
+        children = stage.GetPrimAtPath("/Garage/FireProtection").GetChildren()
+        for prim in [prim for prim in children if prim.GetName().startswith(start)][keep:]:
+            prim.SetActive(False)
+
+    return edit
+
+
 def without_lights(stage):
     for prim in list(stage.Traverse()):
         if prim.GetName().startswith("Tube"):
@@ -172,6 +183,8 @@ BROKEN = {
     "a bollard before a mouth": ("swept-path", box(12.4, 0.0, 8.28, label="bollard", side=0.3, scale=(1, 3, 1))),
     "a gate on the lane before a mouth": ("swept-path", box(12.15, 0.0, 9.6, label="barrier", side=1.5)),
     "a kerb before a mouth": ("swept-path", box(12.15, 0.0, 8.28, label="kerb", side=0.3, scale=(4.0, 0.4, 1.0))),
+    "one hydrant alone": ("hydrant-cabinet-distance", without("HydrantCabinet", keep=1)),
+    "no extinguisher": ("fire-extinguisher-distance", without("FireExtinguisher")),
     "a low duct": ("headroom", moved(f"{TILES}/Row_r01/Tile_r01_c02/Duct", y=-0.1)),
     "a pipe of another tool, hung too low": ("headroom", box(12.15, 1.9, 5.0, label="pipe")),
     "a high wheel stop": ("wheel-stop-height", moved(f"{STALL_1_1}/WheelStop_2", y=0.05)),

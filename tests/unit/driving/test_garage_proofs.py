@@ -19,7 +19,7 @@ from garage2usd.driving.layout_garage import layout_garage, square_directions
 from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
-from garage2usd.layout import ObjectKind, StallUse, lay_out
+from garage2usd.layout import StallUse, lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.grid import Cell
 
@@ -216,9 +216,9 @@ def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
     assert {stall.name for stall in dropped.layout.stalls} == names - dropped.layout.unreachable
     assert all(proof.is_proven for proof in proofs_of(dropped))
     stalls_on = Counter(stall.square for stall in dropped.layout.stalls)
-    for floor in dropped.layout.of_kind(ObjectKind.FLOOR):
+    for floor in dropped.layout.of_kind("floor"):
         assert len(floor.spec.openings) == stalls_on[floor.square]
-    assert len(dropped.layout.of_kind(ObjectKind.STALL)) == len(dropped.layout.stalls)
+    assert len(dropped.layout.of_kind("stall")) == len(dropped.layout.stalls)
 
 
 def test_a_garage_without_any_stall_that_cars_get_into_is_refused():

@@ -10,7 +10,6 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 
 import garage2usd
 from garage2usd.errors import StageError
-from garage2usd.layout import ObjectKind
 from garage2usd.reading.files import open_stage
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of
@@ -94,7 +93,7 @@ def test_nothing_is_lost_or_doubled_when_faces_become_triangles(garage):
 def test_cars_that_differ_in_paint_share_their_shape_but_not_their_palette(garages):
     build, scene = garages["instanced"]
     cars = [placed for placed in scene.objects if placed.label == "car"]
-    specs = {place.spec for place in build.garage.layout.of_kind(ObjectKind.CAR)}
+    specs = {place.spec for place in build.garage.layout.of_kind("car")}
     bodies = {spec.body for spec in specs}
     assert len({placed.shape for placed in cars}) == len(bodies)
     assert len({placed.palette for placed in cars}) == len({spec.paint for spec in specs})
@@ -136,7 +135,7 @@ def test_stalls_and_lanes_are_those_of_the_layout(garage):
 
 def test_every_tube_shines_where_it_hangs(garage):
     build, scene = garage
-    tubes = {tuple(np.round(place.position_m, 2)) for place in build.garage.layout.of_kind(ObjectKind.LIGHT)}
+    tubes = {tuple(np.round(place.position_m, 2)) for place in build.garage.layout.of_kind("light")}
     shining = [(placed, light) for placed in scene.objects for light in scene.shapes[placed.shape].lights]
     assert len(shining) == len(tubes)
     for placed, light in shining:
@@ -172,7 +171,7 @@ def test_what_a_variant_hides_is_not_shown(garages):
     sets.SetSelection("ceiling", "hidden")
     counts = read_scene(stage, build.stage).counts()
     assert not counts.keys() & {"car", "ceiling", "beam", "duct", "exit_sign"}
-    assert counts["column"] == len(build.garage.layout.of_kind(ObjectKind.COLUMN))
+    assert counts["column"] == len(build.garage.layout.of_kind("column"))
 
 
 def test_the_page_gets_what_the_scene_holds(garages):

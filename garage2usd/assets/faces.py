@@ -1,0 +1,124 @@
+"""Faces of boxes, solids of revolution, frames and rings: what parts are made of."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from garage2usd.assets.mesh import Face
+
+__all__ = ["box_faces", "disc_faces", "frame_faces", "lathe_faces", "ring_faces", "tube_faces", "upright_lathe_faces"]
+
+_STRAIGHT = 1e-9
+
+
+def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Face]:
+    """The faces of an axis-aligned box.
+
+    Parameters
+    ----------
+    low, high
+        Opposite corners (x, y, z).
+    without
+        Faces to leave out, of the letters ``l`` -X, ``r`` +X, ``b`` -Y, ``t`` +Y, ``n`` -Z, ``f`` +Z.
+    """
+    (x0, y0, z0), (x1, y1, z1) = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    faces = {
+        "l": [(x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)],
+        "r": [(x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)],
+        "b": [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
+        "t": [(x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)],
+        "n": [(x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)],
+        "f": [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
+    }
+    return [np.array(face) for side, face in faces.items() if side not in without]
+
+
+def lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
+    """Turn a profile of (x, radius) about the X axis; from left to right its outside is away from the axis."""
+    angles = np.arange(segments + 1) * (2 * np.pi / segments)
+    angles[-1] = 0.0
+    rings = [np.stack([np.full(segments + 1, x), r * np.cos(angles), r * np.sin(angles)], axis=1) for x, r in profile]
+    return [
+        np.array([first[i], second[i], second[i + 1], first[i + 1]])[::-1]
+        for first, second in pairwise(rings)
+        for i in range(segments)
+    ]
+
+
+def upright_lathe_faces(profile: list[tuple[float, float]], *, segments: int) -> list[Face]:
+    """A closed solid of revolution about the Y axis from (height, radius) pairs, lowest first."""
+    capped = [(profile[0][0], 0.0), *profile, (profile[-1][0], 0.0)]
+    # from X to Y: a right-handed turn of the axes keeps the winding
+    return [face[:, [1, 0, 2]] * (-1.0, 1.0, 1.0) for face in lathe_faces(capped, segments=segments)]
+
+
+def disc_faces(radius_m: float, back_m: float, front_m: float, centre_y_m: float) -> list[Face]:
+    """A closed disc that looks to +Z."""
+    faces = lathe_faces([(back_m, 0.0), (back_m, radius_m), (front_m, radius_m), (front_m, 0.0)], segments=28)
+    return [face[:, [1, 2, 0]] + np.array((0.0, centre_y_m, 0.0)) for face in faces]
+
+
+def tube_faces(points: Sequence[tuple[float, float, float]], radius_m: float, *, segments: int) -> list[Face]:
+    """A closed round tube along a line of points that bends in a plane, mitred where it bends."""
+    line = np.array(points, dtype=float)
+    ways = np.diff(line, axis=0)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    normal = np.cross(ways[0], ways[-1])
+    if np.linalg.norm(normal) < _STRAIGHT:
+        normal = np.cross(ways[0], np.eye(3)[np.argmin(np.abs(ways[0]))])
+    normal /= np.linalg.norm(normal)
+    angles = np.arange(segments) * (2 * np.pi / segments)
+    rings = []
+    for index, point in enumerate(line):
+        before, after = ways[max(index - 1, 0)], ways[min(index, len(ways) - 1)]
+        side = np.cross(before + after, normal)
+        side *= 2 / (side @ side) * np.linalg.norm(np.cross(before, normal))
+        rings.append(point + radius_m * (np.cos(angles)[:, None] * normal + np.sin(angles)[:, None] * side))
+    faces = [
+        np.array([first[i], first[(i + 1) % segments], second[(i + 1) % segments], second[i]])
+        for first, second in pairwise(rings)
+        for i in range(segments)
+    ]
+    return [rings[0][::-1], *faces, rings[-1]]
+
+
+def frame_faces(half_m: float, top_m: float, border_m: float, back_m: float, front_m: float) -> list[Face]:
+    """A door frame standing on y = 0, open below, from `back_m` to `front_m` along Z.
+
+    Its opening is 2 `half_m` wide and `top_m` high, its border `border_m` wide on three sides.
+    """
+    inner = [(-half_m, 0.0), (-half_m, top_m), (half_m, top_m), (half_m, 0.0)]
+    wide, high = half_m + border_m, top_m + border_m
+    outer = [(-wide, 0.0), (-wide, high), (wide, high), (wide, 0.0)]
+    faces = []
+    for i in range(3):
+        (ax, ay), (bx, by) = outer[i], outer[i + 1]
+        (cx, cy), (dx, dy) = inner[i + 1], inner[i]
+        faces.append([(dx, dy, front_m), (cx, cy, front_m), (bx, by, front_m), (ax, ay, front_m)])
+        faces.append([(ax, ay, back_m), (bx, by, back_m), (cx, cy, back_m), (dx, dy, back_m)])
+        faces.append([(ax, ay, front_m), (bx, by, front_m), (bx, by, back_m), (ax, ay, back_m)])
+        faces.append([(dx, dy, back_m), (cx, cy, back_m), (cx, cy, front_m), (dx, dy, front_m)])
+    for i in (0, 3):
+        (ax, ay), (dx, dy) = outer[i], inner[i]
+        foot = [(ax, ay, front_m), (ax, ay, back_m), (dx, dy, back_m), (dx, dy, front_m)]
+        faces.append(foot if i == 0 else foot[::-1])
+    return [np.array(face) for face in faces]
+
+
+def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
+    """A rectangular ring around a box's outline in X and Y, `border_m` wide, as long along Z as the box."""
+    (x0, y0, z0), (x1, y1, z1) = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    b = border_m
+    inner = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    outer = [(x0 - b, y0 - b), (x1 + b, y0 - b), (x1 + b, y1 + b), (x0 - b, y1 + b)]
+    faces = []
+    for i in range(4):
+        (ax, ay), (bx, by) = outer[i], outer[(i + 1) % 4]
+        (cx, cy), (dx, dy) = inner[(i + 1) % 4], inner[i]
+        faces.append([(ax, ay, z1), (bx, by, z1), (cx, cy, z1), (dx, dy, z1)])
+        faces.append([(dx, dy, z0), (cx, cy, z0), (bx, by, z0), (ax, ay, z0)])
+        faces.append([(ax, ay, z0), (bx, by, z0), (bx, by, z1), (ax, ay, z1)])
+        faces.append([(dx, dy, z1), (cx, cy, z1), (cx, cy, z0), (dx, dy, z0)])
+    return [np.array(face) for face in faces]

@@ -1,0 +1,70 @@
+"""Rules of what people fight fires with: that enough of it is within reach of every stall and lane."""
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.subject import Subject
+from garage2usd.objects import MOUNTED, Mounted
+from garage2usd.profiles import Length, Profile
+from garage2usd.reading.ground import Point
+
+__all__ = ["BOOK"]
+
+BOOK = RuleBook()
+_HYDRANT = "hydrant_cabinet"
+
+
+def _out_of_reach(mounted: Mounted, subject: Subject, profile: Profile) -> Iterator[Miss]:
+    """The stall or lane that is farthest from what serves it, if that is too far."""
+    clause: Length | None = getattr(profile, mounted.clause)
+    places = [(stall.name, stall.centre) for stall in subject.stalls]
+    places += [(node.name, node.position) for node in subject.nodes if not node.is_portal]
+    if clause is None or not subject.things or not places:
+        return
+    hung = _places_of(subject, mounted.kind.label)
+    what = mounted.kind.label.replace("_", " ")
+    if len(hung) < mounted.count:
+        yield Miss("", None, f"{len(hung)} objects of the class {what} are too few")
+        return
+    distances, _ = KDTree(hung).query([place for _, place in places], k=[mounted.count], p=mounted.norm)
+    farthest = int(np.argmax(distances[:, 0].round(6)))
+    measured = float(distances[farthest, 0])
+    if measured > clause.amount + ROUNDING_M:
+        name, position = places[farthest]
+        which = "the second nearest" if mounted.count > 1 else "the nearest"
+        yield Miss(name, position, f"{which} {what} is too far", measured, clause.amount)
+
+
+for _mounted in MOUNTED:
+    BOOK.rule(
+        f"{_mounted.kind.name.replace('_', '-')}-distance",
+        _mounted.clause,
+        asks=f"every stall and lane has {_mounted.count} {_mounted.kind.label.replace('_', ' ')}"
+        f"{'s' if _mounted.count > 1 else ''} near enough",
+    )(partial(_out_of_reach, _mounted))
+
+
+@BOOK.rule("hydrant-spacing", "hydrant_spacing", asks="a fire hydrant is near enough to the next one")
+def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
+    hydrants = _places_of(subject, _HYDRANT)
+    if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
+        return
+    distances, _ = KDTree(hydrants).query(hydrants, k=[2])
+    farthest = int(np.argmax(distances[:, 0].round(6)))
+    measured, required = float(distances[farthest, 0]), profile.hydrant_spacing.amount
+    if measured > required + ROUNDING_M:
+        place: Point = (float(hydrants[farthest, 0]), float(hydrants[farthest, 1]))
+        yield Miss("", place, "the next fire hydrant is too far", measured, required)
+
+
+def _places_of(subject: Subject, label: str) -> NDArray[np.float64]:
+    """The middle of the lowest piece of each object of a class; float64, shape (n, 2)."""
+    middles: dict[str, Point] = {}
+    for solid in subject.solids.standing(label):
+        middles.setdefault(solid.name, solid.centre)
+    return np.array(list(middles.values())).reshape(-1, 2)

@@ -1,0 +1,208 @@
+"""Where things hang on walls and columns: on faces that neither a stall nor a carriageway nor a door needs."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from garage2usd.config import GarageConfig
+from garage2usd.layout.cores import Core
+from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, to_world
+from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects import MOUNTED, Mounted
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.objects.wall import WallSpec
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["mounted_objects"]
+
+_APPROACH_M = 0.6
+"""What is kept free in front, so that people get there."""
+_LINE_M = 0.03
+"""How far something may reach into a stall: over half of the half of the line that lies in it."""
+_OVERHANG_M = 0.05
+"""How much wider than a column something on it may be, in all."""
+_SLACK_M = 1.0
+"""How much nearer than asked something hangs, as only the middles of stalls and lanes are measured."""
+_PITCH_M = 1.0
+"""Of the places along a wall."""
+_APART = 0.5
+"""How far objects of a kind hang from each other where they can, as a share of their reach."""
+_TOUCH_M = 1e-3
+
+
+class _Face(NamedTuple):
+    """A place on a column or a wall: the foot of its middle, the way that it looks, its width, its name."""
+
+    place: Point
+    yaw_rad: float
+    width_m: float
+    name: str
+    is_on_lane: bool = False
+
+
+def mounted_objects(
+    grid: TileGrid,
+    pillars: Iterable[Placement],
+    walls: Iterable[Placement],
+    stalls: Sequence[Stall],
+    cores: Iterable[Core],
+    standing: Iterable[Placement],
+    config: GarageConfig,
+) -> list[Placement]:
+    """Everything that is mounted on columns and walls, each kind so that every place has enough of it within reach.
+
+    Parameters
+    ----------
+    grid, pillars, walls, stalls, cores
+        The garage. Things hang beside lanes only where no other face serves.
+    standing
+        What else stands on squares without stalls.
+    config
+        Which kinds there are, and how far each serves by the profile.
+
+    Notes
+    -----
+    A greedy set cover: the first stall or lane in reading order that is not yet served gets, of all free faces within
+    reach, the one that serves most of the places which need more. A place that no free face serves stays unserved.
+    """
+    pillars, walls = tuple(pillars), tuple(walls)
+    faces = [*_column_faces(pillars), *_wall_faces(walls)]
+    driven = [_carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
+    used = [shapely.Polygon(stall.corners_m()).buffer(-_LINE_M, join_style="mitre") for stall in stalls]
+    used += [_ground(_core_and_landing(core), core.centre_m, edge_yaw_rad(core.edge)) for core in cores]
+    used += [outline for place in (*pillars, *walls, *standing) for outline in _outlines(place)]
+    places = np.array([stall.centre_m for stall in stalls] + [_middle(tile) for tile in grid if tile.cell is Cell.LANE])
+    placed: list[Placement] = []
+    for mounted in MOUNTED:
+        if getattr(config.fittings, mounted.setting):
+            free = _free_faces(mounted, faces, shapely.STRtree(driven), shapely.STRtree(used))
+            clause = getattr(config.standard, mounted.clause)
+            reach_m = (clause.amount if clause else mounted.reach_m) - _SLACK_M
+            hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, free, places)]
+            used += [outline for place in hung for outline in _outlines(place)]
+            placed += hung
+    return placed
+
+
+def _column_faces(pillars: Iterable[Placement]) -> Iterator[_Face]:
+    """The four faces of every column."""
+    for pillar in pillars:
+        if isinstance(pillar.spec, ColumnSpec):
+            side = pillar.spec.size_m
+            for edge in Edge:
+                yaw = edge_yaw_rad(edge)
+                place = to_world((0.0, side / 2), (pillar.position_m[0], pillar.position_m[2]), yaw)
+                name = f"{pillar.name}_{edge.name.capitalize()}"
+                yield _Face(_rounded(place), yaw, side + _OVERHANG_M, name)
+
+
+def _wall_faces(walls: Iterable[Placement]) -> Iterator[_Face]:
+    """Places along every wall, a pitch apart, and where it meets the next one in its line."""
+    ends: set[tuple[Point, float]] = set()
+    for wall in walls:
+        if not isinstance(wall.spec, WallSpec):
+            continue
+        yaw, origin, length = wall.yaw_rad, (wall.position_m[0], wall.position_m[2]), wall.spec.length_m
+        count = max(int(length / _PITCH_M), 1)
+        for number in range(count):
+            across = (number - (count - 1) / 2) * _PITCH_M
+            room = length - 2 * abs(across)
+            yield _Face(_rounded(to_world((across, 0.0), origin, yaw)), yaw, room, f"{wall.name}_{number + 1}")
+        for across in (-length / 2, length / 2):
+            end = _rounded(to_world((across, 0.0), origin, yaw))
+            if (end, yaw) in ends:
+                yield _Face(end, yaw, length, f"{wall.name}_End")
+            ends.add((end, yaw))
+
+
+def _free_faces(
+    mounted: Mounted, faces: Iterable[_Face], driven: shapely.STRtree, used: shapely.STRtree
+) -> list[_Face]:
+    """The faces that are wide enough, with ground before them on which nobody drives, parks or stands in the way."""
+    left, right, depth = _extent_m(mounted)
+    wide = [face for face in faces if face.width_m >= right - left]
+    foot = rectangle(left, _TOUCH_M, right, depth)
+    before = rectangle(left, _TOUCH_M, right, depth + _APPROACH_M)
+    taken: set[int] = set()
+    for outline, tree in ((foot, driven), (before, used)):
+        grounds = np.array([_ground(outline, face.place, face.yaw_rad) for face in wide], dtype=object)
+        taken.update(tree.query(grounds, predicate="intersects")[0].tolist())
+    free = [face for index, face in enumerate(wide) if index not in taken]
+    grounds = np.array([_ground(before, face.place, face.yaw_rad) for face in free], dtype=object)
+    on_lanes = set(driven.query(grounds, predicate="intersects")[0].tolist())
+    return [face._replace(is_on_lane=index in on_lanes) for index, face in enumerate(free)]
+
+
+def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: NDArray[np.float64]) -> list[_Face]:
+    """As few faces as a greedy choice needs to serve all places that can be; places are (x, z), shape (n, 2)."""
+    if not faces or not len(places):
+        return []
+    at = np.array([face.place for face in faces])
+    beside = KDTree(at)
+    served = [np.array(found) for found in KDTree(places).query_ball_point(at, reach_m, p=mounted.norm)]
+    within = beside.query_ball_point(places, reach_m, p=mounted.norm, return_sorted=True)
+    needed = np.full(len(places), mounted.count)
+    chosen: dict[int, _Face] = {}
+    near: set[int] = set()
+
+    def worth(face: int) -> tuple[bool, bool, int]:
+        return not faces[face].is_on_lane, face not in near, int((needed[served[face]] > 0).sum())
+
+    for place in range(len(places)):
+        while needed[place] > 0:
+            open_faces = [face for face in within[place] if face not in chosen]
+            if not open_faces:
+                break
+            best = max(open_faces, key=worth)
+            chosen[best] = faces[best]
+            near.update(beside.query_ball_point(at[best], _APART * reach_m))
+            needed[served[best]] -= 1
+    return list(chosen.values())
+
+
+def _hung(mounted: Mounted, face: _Face) -> Placement:
+    kind = "".join(word.capitalize() for word in mounted.kind.name.split("_"))
+    return Placement(f"{kind}_{face.name}", mounted.spec, (face.place[0], 0.0, face.place[1]), face.yaw_rad)
+
+
+def _extent_m(mounted: Mounted) -> tuple[float, float, float]:
+    """How far something reaches to the left, to the right, and out of the wall."""
+    xs, zs = zip(*(corner for outline in mounted.spec.outlines() for corner in outline), strict=True)
+    return min(xs), max(xs), max(zs)
+
+
+def _core_and_landing(core: Core) -> Polygon:
+    """A core with the floor before its door, in its own coordinates."""
+    x, z = core.width_m / 2, core.depth_m / 2
+    return rectangle(-x, -z, x, z + core.recess_m)
+
+
+def _outlines(place: Placement) -> list[shapely.Polygon]:
+    origin = (place.position_m[0], place.position_m[2])
+    return [_ground(outline, origin, place.yaw_rad) for outline in place.spec.outlines()]
+
+
+def _ground(outline: Polygon, origin: Point, yaw_rad: float) -> shapely.Polygon:
+    return shapely.Polygon([to_world(corner, origin, yaw_rad) for corner in outline])
+
+
+def _carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
+    """The ground of a lane between its margins; all of a portal's."""
+    margin = 0.0 if tile.cell in {Cell.ENTRANCE, Cell.EXIT} else setback_m
+    up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)
+    x, z = tile.half_x_m, tile.half_z_m
+    return shapely.box(tile.x_m - x + left, tile.z_m - z + up, tile.x_m + x - right, tile.z_m + z - down)
+
+
+def _middle(tile: Tile) -> Point:
+    return tile.x_m, tile.z_m
+
+
+def _rounded(place: Point) -> Point:
+    return round(place[0], 6), round(place[1], 6)

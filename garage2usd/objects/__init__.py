@@ -1,0 +1,40 @@
+"""One module for each kind of object: its measures, mesh, colliders, semantic class and outline on the ground.
+
+A module that declares a kind binds it as ``KIND``, and as ``MOUNTED`` how objects of it hang on walls and columns,
+if they are. Both are found by these names, so that another module in this folder is another kind, and listed by the
+numbers of kinds, whatever the modules are called.
+"""
+
+from importlib import import_module
+from pkgutil import iter_modules
+
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.mounted import Mounted
+
+__all__ = ["KINDS", "MOUNTED", "Kind", "Mounted", "Spec"]
+
+_MODULES = [import_module(module.name) for module in iter_modules(__path__, prefix=f"{__name__}.")]
+
+
+def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
+    """Kinds by their numbers.
+
+    Raises
+    ------
+    ValueError
+        If two have the same number, name or label.
+    """
+    for facts in zip(*((kind.number, kind.name, kind.label) for kind in kinds), strict=True):
+        twice = sorted({str(fact) for fact in facts if facts.count(fact) > 1})
+        if twice:
+            raise ValueError(f"declared by more than one kind of object: {', '.join(twice)}")
+    return tuple(sorted(kinds, key=lambda kind: kind.number))
+
+
+KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")])
+"""All kinds of objects, in the order of their numbers."""
+
+MOUNTED: tuple[Mounted, ...] = tuple(
+    sorted((module.MOUNTED for module in _MODULES if hasattr(module, "MOUNTED")), key=lambda each: each.kind.number)
+)
+"""What hangs on walls and columns, in the same order."""

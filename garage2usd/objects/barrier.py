@@ -1,0 +1,101 @@
+"""Barrier gates."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "BarrierSpec"]
+
+KIND = Kind("barrier", number=19, label="barrier", cityscapes="guard rail", group="Ramps")
+
+_ARM_M = 0.08
+_ARM_PITCH_M = 0.45
+_HOUSING_M = (0.3, 1.05, 0.3)
+_PIVOT_M = 0.92
+_GATE = (rectangle(-0.2, -0.2, 0.2, 0.2), rectangle(-0.17, -1.9, 0.17, -1.5))
+_ARM_Z_M = (0.18, 0.26)
+
+
+@dataclass(frozen=True)
+class BarrierSpec(Spec, kind=KIND):
+    """A boom barrier whose arm reaches to -X, for traffic to +Z; origin in the middle of its housing's foot."""
+
+    arm_m: float
+    is_raised: bool
+    elbow_m: float
+
+    def asset(self) -> Asset:
+        """A housing, a folding arm towards -X, and a ticket column at a driver's window."""
+        x, top, z = _HOUSING_M[0] / 2, _HOUSING_M[1], _HOUSING_M[2] / 2
+        housing = box_faces((-x, 0.1, -z), (x, top, z))
+        plinth = box_faces((-x - 0.05, 0.0, -z - 0.05), (x + 0.05, 0.1, z + 0.05))
+        cap = box_faces((-x - 0.02, top, -z - 0.02), (x + 0.02, top + 0.04, z + 0.02))
+        red, white = _arm(self.arm_m, self.elbow_m) if self.is_raised else _level(0.0, -self.arm_m, _PIVOT_M)
+        arm_z = z + 0.07
+        hub = box_faces((-0.09, _PIVOT_M - 0.09, z), (0.09, _PIVOT_M + 0.09, arm_z - _ARM_M / 4))
+        return Asset(
+            (
+                make_part("Plinth", plinth, "kerb_concrete", collider=Collider.BOX),
+                make_part("Housing", housing, "machine_yellow", collider=Collider.BOX),
+                make_part("Cap", cap, "steel_dark", collider=Collider.BOX),
+                make_part("Hub", hub, "steel_dark"),
+                *(
+                    make_part(
+                        f"{name}{index}",
+                        [face + np.array((0.0, 0.0, arm_z)) for face in box],
+                        material,
+                        collider=Collider.BOX,
+                    )
+                    for name, boxes, material in (("Red", red, "sign_ring"), ("White", white, "sign_white"))
+                    for index, box in enumerate(boxes, start=1)
+                ),
+                *_ticket_column(),
+            ),
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Housing and ticket column on their plinths, and the arm as if it were down."""
+        return *_GATE, rectangle(-self.arm_m, _ARM_Z_M[0], _ARM_Z_M[1] - _ARM_Z_M[0], _ARM_Z_M[1])
+
+
+def _ticket_column() -> list[Part]:
+    """The column with a screen and a slot at a driver's window, 1.7 m before the barrier; it looks to -X."""
+    z = -1.7
+    plinth = box_faces((-0.17, 0.0, z - 0.2), (0.17, 0.1, z + 0.2))
+    body = box_faces((-0.12, 0.1, z - 0.15), (0.12, 1.3, z + 0.15))
+    screen = box_faces((-0.126, 1.0, z - 0.1), (-0.12, 1.2, z + 0.1), without="r")
+    slot = box_faces((-0.126, 0.84, z - 0.06), (-0.12, 0.88, z + 0.06), without="r")
+    return [
+        make_part("TicketPlinth", plinth, "kerb_concrete", collider=Collider.BOX),
+        make_part("TicketColumn", body, "machine_yellow", collider=Collider.BOX),
+        make_part("Screen", screen, "screen_glow"),
+        make_part("Slot", slot, "steel_dark"),
+    ]
+
+
+def _level(start_m: float, end_m: float, height_m: float) -> tuple[list[list[Face]], list[list[Face]]]:
+    """A level piece of arm from `start_m` to the left, in red and white boxes by turns."""
+    count = max(1, round((start_m - end_m) / _ARM_PITCH_M))
+    ends = np.linspace(start_m, end_m, count + 1).tolist()
+    half = _ARM_M / 2
+    boxes = [
+        box_faces((left, height_m - half, -half / 2), (right, height_m + half, half / 2))
+        for right, left in pairwise(ends)
+    ]
+    return boxes[1::2], boxes[0::2]
+
+
+def _arm(arm_m: float, elbow_m: float) -> tuple[list[list[Face]], list[list[Face]]]:
+    """A raised arm that folds at its elbow."""
+    half, upright = _ARM_M / 2, elbow_m - _PIVOT_M
+    red, white = _level(half, half - (arm_m - upright), elbow_m)
+    count = max(1, round(upright / _ARM_PITCH_M))
+    ends = np.linspace(_PIVOT_M, elbow_m - half, count + 1).tolist()
+    stack = [box_faces((-half, low, -half / 2), (half, high, half / 2)) for low, high in pairwise(ends)][::-1]
+    return red + stack[0::2], white + stack[1::2]

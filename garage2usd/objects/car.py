@@ -1,0 +1,55 @@
+"""Parked cars."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+from garage2usd.assets.cars import car
+from garage2usd.assets.mesh import Asset
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.objects.kind import Kind, Look, Spec, VariantSet
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "PAINT_SET", "CarSpec"]
+
+KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY)
+
+PAINT_SET = "paint"
+"""Variant set of every car's asset."""
+_BODIES = {body.name: body for body in CAR_BODIES}
+_ARCHES_M = 0.01
+"""How far the wheel arches stand out of a car's body."""
+_MIRRORS_FROM_NOSE_M = (1.05, 1.75)
+"""Where the mirrors of all bodies are."""
+
+
+@dataclass(frozen=True)
+class CarSpec(Spec, kind=KIND):
+    """A parked car; origin in the middle of its footprint, nose to -Z."""
+
+    body: str
+    paint: str
+
+    @property
+    def shape(self) -> Self:
+        """The same body in the first paint, as the paints are variants of one asset."""
+        return replace(self, paint=PAINTS[0])
+
+    @property
+    def look(self) -> Look:
+        """Its paint."""
+        return ((PAINT_SET, self.paint),)
+
+    def asset(self) -> Asset:
+        """The body with its wheels, in every paint."""
+        return car(_BODIES[self.body])
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Its body with the wheel arches, and its mirrors."""
+        body = _BODIES[self.body]
+        side, end, mirrors, (first, last) = (
+            body.width_m / 2 + _ARCHES_M,
+            body.length_m / 2,
+            body.overall_width_m / 2,
+            _MIRRORS_FROM_NOSE_M,
+        )
+        return rectangle(-side, -end, side, end), rectangle(-mirrors, first - end, mirrors, last - end)

@@ -1,0 +1,26 @@
+"""The ceiling slab over one square."""
+
+from dataclasses import dataclass
+
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, make_part
+from garage2usd.objects.kind import Kind, Spec, VariantSet
+
+__all__ = ["KIND", "CeilingSpec"]
+
+KIND = Kind("ceiling", number=3, label="ceiling", cityscapes="building", follows=VariantSet.CEILING)
+
+
+@dataclass(frozen=True)
+class CeilingSpec(Spec, kind=KIND):
+    """A ceiling slab; origin in the middle of its underside."""
+
+    width_m: float
+    depth_m: float
+    thickness_m: float
+
+    def asset(self) -> Asset:
+        """The slab."""
+        x, z = self.width_m / 2, self.depth_m / 2
+        faces = box_faces((-x, 0, -z), (x, self.thickness_m, z))
+        return Asset((make_part("Slab", faces, "ceiling_concrete", collider=Collider.BOX),))

@@ -1,0 +1,47 @@
+"""Traffic cones."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+from garage2usd.assets.faces import box_faces, upright_lathe_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, square
+
+__all__ = ["KIND", "ConeSpec"]
+
+KIND = Kind("cone", number=15, label="traffic_cone", cityscapes="static")
+
+_FOOT_M = 0.38
+_BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
+"""Heights where its colours change, orange first."""
+
+
+@dataclass(frozen=True)
+class ConeSpec(Spec, kind=KIND):
+    """A traffic cone; origin in the middle of its foot."""
+
+    def asset(self) -> Asset:
+        """An orange cone 0.75 m high with two reflective bands on a rubber foot."""
+        side = _FOOT_M / 2
+        foot = box_faces((-side, 0.0, -side), (side, 0.03, side))
+        orange: list[Face] = []
+        white: list[Face] = []
+        for index, (low, high) in enumerate(pairwise(_BANDS_M)):
+            piece = upright_lathe_faces([(low, _radius_m(low)), (high, _radius_m(high))], segments=20)
+            (white if index % 2 else orange).extend(piece)
+        return Asset(
+            (
+                make_part("Foot", foot, "rubber_black", collider=Collider.CONVEX_HULL),
+                make_part("Body", orange, "sign_orange", collider=Collider.CONVEX_HULL),
+                make_part("Bands", white, "sign_white"),
+            ),
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Its foot."""
+        return (square(_FOOT_M),)
+
+
+def _radius_m(height_m: float) -> float:
+    return 0.14 - 0.11 * (height_m - _BANDS_M[0]) / (_BANDS_M[-1] - _BANDS_M[0])

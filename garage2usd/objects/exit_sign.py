@@ -1,0 +1,89 @@
+"""Lit exit signs over the aisles."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.objects.kind import Kind, Spec, VariantSet
+
+__all__ = ["KIND", "ExitSignSpec", "Turn"]
+
+KIND = Kind("exit_sign", number=24, label="exit_sign", cityscapes="traffic sign", follows=VariantSet.CEILING)
+
+
+class Turn(StrEnum):
+    """Where a sign's arrow sends who reads it."""
+
+    LEFT = "left"
+    AHEAD = "ahead"
+    RIGHT = "right"
+
+
+_ARROW_DEG = {Turn.LEFT: -90.0, Turn.AHEAD: 0.0, Turn.RIGHT: 90.0}
+_SIGN_WIDTH_M = 0.8
+_SIGN_DEPTH_M = 0.05
+# strokes of E, X, I and T as quadrilaterals in a cell of 1 x 1, counter-clockwise
+_BAR = 0.2
+_LETTERS: dict[str, list[tuple[tuple[float, float], ...]]] = {
+    "E": [((0, 0), (_BAR, 0), (_BAR, 1), (0, 1))]
+    + [((_BAR + 0.01, y), (0.75, y), (0.75, y + _BAR), (_BAR + 0.01, y + _BAR)) for y in (0.0, 0.4, 0.8)],
+    "X": [
+        ((0, 0), (0.24, 0), (0.8, 1), (0.56, 1)),
+        ((0.56, 0), (0.8, 0), (0.5, 0.44), (0.38, 0.32)),
+        ((0.3, 0.56), (0.42, 0.68), (0.24, 1), (0, 1)),
+    ],
+    "I": [((0.3, 0), (0.5, 0), (0.5, 1), (0.3, 1))],
+    "T": [((0.3, 0), (0.5, 0), (0.5, 0.79), (0.3, 0.79)), ((0, 0.8), (0.8, 0.8), (0.8, 1), (0, 1))],
+}
+
+
+@dataclass(frozen=True)
+class ExitSignSpec(Spec, kind=KIND):
+    """A lit exit sign that looks to +Z; origin on the ceiling over its middle, its top `top_m` below that."""
+
+    turn: Turn
+    top_m: float
+    height_m: float
+
+    def asset(self) -> Asset:
+        """A green box on two rods, with an arrow and the word EXIT."""
+        half, low = _SIGN_WIDTH_M / 2, -self.top_m - self.height_m
+        box = box_faces((-half, low, -_SIGN_DEPTH_M / 2), (half, -self.top_m, _SIGN_DEPTH_M / 2))
+        rods: list[Face] = []
+        for x in (-half * 0.8, half * 0.8):
+            rods += box_faces((x - 0.008, -self.top_m, -0.008), (x + 0.008, 0.0, 0.008))
+        front, middle = _SIGN_DEPTH_M / 2 + 0.002, low + self.height_m / 2
+        return Asset(
+            (
+                make_part("Box", box, "exit_green", collider=Collider.BOX),
+                make_part("Rods", rods, "steel_dark"),
+                *_arrow(_ARROW_DEG[self.turn], 0.24, middle, front, self.height_m * 0.4),
+                *_letters(middle, front, self.height_m * 0.5),
+            ),
+        )
+
+
+def _arrow(turn_deg: float, x: float, y: float, z: float, reach: float) -> list[Part]:
+    """The sign's arrow: a shaft and a head."""
+    angle = -np.radians(turn_deg)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    shaft = [(-0.018, -reach), (0.018, -reach), (0.018, 0.1 * reach), (-0.018, 0.1 * reach)]
+    head = [(-0.06, 0.1 * reach), (0.06, 0.1 * reach), (0.0, reach)]
+    faces = [np.column_stack([np.array(shape) @ turn + (x, y), np.full(len(shape), z)]) for shape in (shaft, head)]
+    return [
+        make_part(name, [face], "exit_white") for name, face in zip(("ArrowShaft", "ArrowHead"), faces, strict=True)
+    ]
+
+
+def _letters(y: float, z: float, size: float) -> list[Part]:
+    """The word EXIT on the left part of a sign, a part for each stroke."""
+    parts = []
+    for index, letter in enumerate("EXIT"):
+        left = -0.34 + index * size * 0.95
+        for number, stroke in enumerate(_LETTERS[letter], start=1):
+            face = np.array([(left + px * size, y + (py - 0.5) * size, z) for px, py in stroke])
+            parts.append(make_part(f"Letter{letter}{number}", [face], "exit_white"))
+    return parts

@@ -1,0 +1,128 @@
+"""Fire hydrant cabinets on walls and columns, with valve, hose and nozzle behind glass."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely import affinity
+
+from garage2usd.assets.faces import box_faces, lathe_faces, ring_faces, upright_lathe_faces
+from garage2usd.assets.flat import upright_triangles
+from garage2usd.assets.glyphs import text_shape
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.mounted import Mounted
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "MOUNTED", "HydrantCabinetSpec"]
+
+KIND = Kind("hydrant_cabinet", number=27, label="hydrant_cabinet", cityscapes="static", group="FireProtection")
+
+_WIDTH_M, _HEIGHT_M, _DEPTH_M = 0.65, 0.80, 0.24
+"""The smallest cabinet of GB/T 14561-2019."""
+_FOOT_M = 0.88
+"""From the floor up to it: the outlet is at 1.10 m then, and the top below the letters of zones."""
+_OUTLET_M = 1.10
+_SHEET_M, _DOOR_M, _FRAME_M = 0.012, 0.022, 0.055
+_PANEL_M = 0.26
+"""Height of the steel panel under the glass."""
+_REEL_M = 0.20
+_PIPE_M = 0.038
+
+
+@dataclass(frozen=True)
+class HydrantCabinetSpec(Spec, kind=KIND):
+    """A cabinet fed by a pipe from the floor; origin on the floor in the middle of its back, its front to +Z."""
+
+    def asset(self) -> Asset:
+        """A red cabinet with a framed glass door, lettered on the panel below, with what is in it, and its pipe."""
+        x, low, high, front = _WIDTH_M / 2, _FOOT_M, _FOOT_M + _HEIGHT_M, _DEPTH_M - _DOOR_M
+        inside = (-x + _SHEET_M, low + _SHEET_M, 0.0), (x - _SHEET_M, high - _SHEET_M, front)
+        back = box_faces(inside[0], (inside[1][0], inside[1][1], _SHEET_M))
+        pipe_x, pipe_z = -x + 0.13, 0.11
+        pipe = [
+            face + np.array((pipe_x, 0.0, pipe_z))
+            for face in upright_lathe_faces([(0, _PIPE_M), (low, _PIPE_M)], segments=16)
+        ]
+        return Asset(
+            (
+                make_part("Sides", ring_faces(*inside, _SHEET_M), "pipe_red", collider=Collider.BOX),
+                make_part("Back", back, "housing_white"),
+                make_part("Pipe", pipe, "pipe_red", collider=Collider.CONVEX_HULL),
+                *_door(x, low, high, front),
+                *_fittings(pipe_x, pipe_z),
+            )
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """The cabinet with its handle."""
+        return (rectangle(-_WIDTH_M / 2, 0.0, _WIDTH_M / 2, _DEPTH_M + 0.03),)
+
+
+MOUNTED = Mounted(
+    HydrantCabinetSpec(), setting="hydrant_cabinets", clause="hydrant_reach", reach_m=27.1, count=2, is_walked=False
+)
+
+
+def _door(x: float, low: float, high: float, back: float) -> list[Part]:
+    """The door leaf: a frame, the glass, the lettered panel under it, a handle and two hinges."""
+    frame = _FRAME_M
+    opening = (-x + frame, low + frame, back), (x - frame, high - frame, _DEPTH_M)
+    sill = low + frame + _PANEL_M
+    panel = box_faces((opening[0][0], opening[0][1], back + 0.004), (opening[1][0], sill, _DEPTH_M - 0.003))
+    glass = box_faces((opening[0][0], sill, back + 0.008), (opening[1][0], opening[1][1], back + 0.013))
+    handle = box_faces((x - 0.036, low + 0.36, _DEPTH_M), (x - 0.020, low + 0.48, _DEPTH_M + 0.028))
+    hinges: list[Face] = []
+    for at in (low + 0.10, high - 0.16):
+        hinges += box_faces((-x + 0.004, at, _DEPTH_M), (-x + 0.018, at + 0.06, _DEPTH_M + 0.008))
+    middle = low + frame + _PANEL_M / 2
+    letters = shapely.union_all(
+        [
+            affinity.translate(text_shape("HYDRANT", 0.088), 0.0, -0.048),
+            affinity.translate(text_shape("119", 0.075), 0.0, 0.062),
+        ]
+    )
+    text = upright_triangles(letters, middle_m=middle, front_m=_DEPTH_M - 0.001)
+    return [
+        make_part("Door", ring_faces(*opening, frame), "pipe_red", collider=Collider.BOX),
+        make_part("Panel", panel, "pipe_red"),
+        make_part("Glass", glass, "cabinet_glass"),
+        make_part("Handle", handle, "chrome"),
+        make_part("Hinges", hinges, "steel_dark"),
+        make_part("Letters", text, "sign_white"),
+    ]
+
+
+def _fittings(pipe_x: float, pipe_z: float) -> list[Part]:
+    """The riser's end with its valve and hand wheel, the hose on its reel, and the nozzle."""
+    top = _OUTLET_M + 0.06
+    riser = upright_lathe_faces([(_FOOT_M + _SHEET_M, _PIPE_M), (top, _PIPE_M)], segments=16)
+    # the outlet looks to +Z, the wheel's stem to the top
+    outlet = [
+        face[:, [1, 2, 0]]
+        for face in lathe_faces([(0.0, 0.0), (0.0, 0.032), (0.075, 0.032), (0.075, 0.0)], segments=16)
+    ]
+    outlet = [face + np.array((0.0, _OUTLET_M, 0.02)) for face in outlet]
+    wheel = upright_lathe_faces(
+        [(top, 0.012), (top + 0.05, 0.012), (top + 0.051, 0.05), (top + 0.066, 0.05)], segments=16
+    )
+    reel_y, reel_z = _FOOT_M + _HEIGHT_M - 0.29, _SHEET_M + 0.03
+    # turns of flat hose: a groove between each and the next
+    turns = [(depth, _REEL_M - at * 0.033) for at in range(6) for depth in (0.065, 0.058)]
+    section = [(0.0, 0.0), (0.0, _REEL_M), *turns, (0.058, 0.0)]
+    coils = [face[:, [1, 2, 0]] + np.array((0.08, reel_y, reel_z)) for face in lathe_faces(section, segments=20)]
+    hub = [
+        face[:, [1, 2, 0]] + np.array((0.08, reel_y, _SHEET_M))
+        for face in lathe_faces([(0.0, 0.0), (0.0, 0.03), (0.11, 0.03), (0.11, 0.0)], segments=12)
+    ]
+    nozzle = upright_lathe_faces([(0.0, 0.026), (0.05, 0.026), (0.06, 0.019), (0.26, 0.011)], segments=14)
+    nozzle = [face + np.array((0.24, _FOOT_M + _SHEET_M + 0.01, 0.14)) for face in nozzle]
+    at_pipe = np.array((pipe_x, 0.0, pipe_z))
+    return [
+        make_part("Riser", [face + at_pipe for face in riser], "pipe_red"),
+        make_part("Valve", [face + at_pipe for face in outlet], "brass"),
+        make_part("Wheel", [face + at_pipe for face in wheel], "sign_ring"),
+        make_part("Hose", coils, "hose"),
+        make_part("Hub", hub, "steel_dark"),
+        make_part("Nozzle", nozzle, "brass"),
+    ]

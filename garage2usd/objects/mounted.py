@@ -1,0 +1,45 @@
+"""Objects that hang on walls and columns, so many that every place in a garage has some within reach."""
+
+from dataclasses import dataclass
+
+from garage2usd.objects.kind import Kind, Spec
+
+__all__ = ["Mounted"]
+
+
+@dataclass(frozen=True)
+class Mounted:
+    """What a module declares as ``MOUNTED`` beside its kind, so that the layout places it.
+
+    Attributes
+    ----------
+    spec
+        The shape; origin on the floor, in the middle of its back, which touches what it hangs on; it looks to +Z.
+    setting
+        Name of its switch in the fittings.
+    clause
+        Name of the profile's clause on how far it serves.
+    reach_m
+        The same where the profile has none.
+    count
+        How many serve each place.
+    is_walked
+        Whether that distance is measured as people walk between rows of cars, along X and then along Z; else straight.
+    """
+
+    spec: Spec
+    setting: str
+    clause: str
+    reach_m: float
+    count: int = 1
+    is_walked: bool = True
+
+    @property
+    def kind(self) -> Kind:
+        """What it is."""
+        return self.spec.kind
+
+    @property
+    def norm(self) -> int:
+        """The Minkowski norm of its distance: 1 if it is walked along both axes, 2 if it is straight."""
+        return 1 if self.is_walked else 2

@@ -1,0 +1,91 @@
+"""Concrete blocks and stair cores."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from garage2usd.assets.faces import box_faces, frame_faces
+from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "ObstacleSpec"]
+
+KIND = Kind("obstacle", number=6, label="obstacle", cityscapes="building", group="Obstacles")
+
+_STRIPE_M = 0.12
+_SIGN_OVER_DOOR_M = (2.3, 2.6)
+"""Lower and upper edge of the sign over a core's door."""
+_CORE_DOOR_M = (1.2, 0.09)
+"""Width of the door of a stair core with its frame, and how far it stands out of the wall."""
+
+
+@dataclass(frozen=True)
+class ObstacleSpec(Spec, kind=KIND):
+    """A concrete core; origin in the middle of its foot, its door in the middle of the side that looks to +Z."""
+
+    width_m: float
+    depth_m: float
+    height_m: float
+    has_door: bool = True
+
+    def asset(self) -> Asset:
+        """A block with a hazard band around its foot; a core has a door, with an exit sign where there is room."""
+        x, z = self.width_m / 2, self.depth_m / 2
+        band = box_faces((-x, 0, -z), (x, _STRIPE_M * 3, z), without="tb")
+        body = box_faces((-x, _STRIPE_M * 3, -z), (x, self.height_m, z), without="b")
+        block = (
+            make_part("Band", band, "hazard", collider=Collider.BOX),
+            make_part("Core", body, "wall_concrete", collider=Collider.BOX),
+        )
+        if not self.has_door:
+            return Asset(block)
+        door = box_faces((-0.5, 0.0, z), (0.5, 2.1, z + 0.03), without="n")
+        frame = frame_faces(0.5, 2.1, 0.08, z + 0.001, z + 0.045)
+        handle = box_faces((0.34, 1.0, z + 0.03), (0.44, 1.03, z + 0.08))
+        return Asset(
+            (
+                *block,
+                make_part("Door", door, "door_steel", collider=Collider.BOX),
+                make_part("Frame", frame, "steel_dark", collider=Collider.MESH),
+                make_part("Handle", handle, "steel_galvanised", collider=Collider.BOX),
+                *_exit_sign(z, self.height_m),
+            ),
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """The block, and its door with the frame."""
+        x, z = self.width_m / 2, self.depth_m / 2
+        block = rectangle(-x, -z, x, z)
+        if not self.has_door:
+            return (block,)
+        half = min(_CORE_DOOR_M[0] / 2, x)
+        return block, rectangle(-half, z, half, z + _CORE_DOOR_M[1])
+
+
+def _exit_sign(face_m: float, height_m: float) -> list[Part]:
+    """A green plate over a core's door with who runs through a doorway; none where the ceiling leaves no room."""
+    low, high = _SIGN_OVER_DOOR_M
+    if high > height_m - _STRIPE_M:
+        return []
+    half, front, side = (high - low), face_m + 0.03, high - low
+    plate = box_faces((-half, low, face_m), (half, high, front), without="n")
+    strokes = [
+        shapely.Point(-0.18, 0.80).buffer(0.09, quad_segs=3),  # head, body, arms and legs, then the doorway
+        shapely.LineString([(-0.22, 0.66), (-0.30, 0.40)]).buffer(0.07, cap_style="flat"),
+        shapely.LineString([(-0.50, 0.46), (-0.42, 0.62), (-0.22, 0.62), (-0.06, 0.50)]).buffer(
+            0.035, cap_style="flat"
+        ),
+        shapely.LineString([(-0.30, 0.42), (-0.12, 0.34), (-0.14, 0.12)]).buffer(0.045, cap_style="flat"),
+        shapely.LineString([(-0.30, 0.42), (-0.36, 0.22), (-0.58, 0.20)]).buffer(0.045, cap_style="flat"),
+        shapely.box(0.22, 0.10, 0.62, 0.90),
+    ]
+    drawn = shapely.get_parts(shapely.union_all(strokes, grid_size=1e-3))
+    faces = [
+        np.array([(x * side, low + y * side, front + 0.004) for x, y in list(triangle.exterior.coords)[-2::-1]])
+        for shape in drawn
+        for triangle in shapely.get_parts(shapely.constrained_delaunay_triangles(shape))
+    ]
+    faces = [face if np.cross(face[1] - face[0], face[2] - face[0])[2] > 0 else face[::-1] for face in faces]
+    return [make_part("Sign", plate, "sign_green"), make_part("Pictogram", faces, "sign_white")]

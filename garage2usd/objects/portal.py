@@ -1,0 +1,109 @@
+"""Walls with a vehicle door."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from garage2usd.assets.faces import box_faces, frame_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.config.site import DOOR_FRAME_M
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "PortalSpec"]
+
+KIND = Kind("portal", number=5, label="vehicle_door", cityscapes="wall", group="Walls")
+
+_FRAME_PROUD_M = 0.02
+_LAMELLA_M = 0.12
+_GROOVE_M = 0.012
+_LEAST_SIGN_M = 0.06
+
+
+@dataclass(frozen=True)
+class PortalSpec(Spec, kind=KIND):
+    """A wall with a vehicle door; origin and direction as `WallSpec`."""
+
+    length_m: float
+    height_m: float
+    thickness_m: float
+    door_width_m: float
+    door_height_m: float
+    is_entrance: bool
+    is_open: bool = False
+    """Whether its roller door is up, because a ramp lies behind it."""
+
+    def asset(self) -> Asset:
+        """A roller door set back in the wall, closed or up, a steel frame and a lit sign."""
+        half, jamb, back = self.length_m / 2, self.door_width_m / 2, -self.thickness_m
+        concrete = box_faces((-half, 0, back), (-jamb, self.height_m, 0))
+        concrete += box_faces((jamb, 0, back), (half, self.height_m, 0))
+        lintel = box_faces((-jamb, self.door_height_m, back), (jamb, self.height_m, 0), without="lr")
+        opening, head = jamb - DOOR_FRAME_M, self.door_height_m - DOOR_FRAME_M
+        frame = frame_faces(opening, head, DOOR_FRAME_M, back, _FRAME_PROUD_M)
+        door = (
+            []
+            if self.is_open
+            else [
+                make_part("Door", _lamellae(opening, head, -self.thickness_m / 2), "door_steel", collider=Collider.BOX)
+            ]
+        )
+        return Asset(
+            (
+                make_part("LeftJamb", concrete[:6], "wall_concrete", collider=Collider.BOX),
+                make_part("RightJamb", concrete[6:], "wall_concrete", collider=Collider.BOX),
+                make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
+                make_part("Frame", frame, "hazard", collider=Collider.MESH),
+                *door,
+                *_door_sign(self.door_height_m + 0.08, self.height_m - 0.04, is_entrance=self.is_entrance),
+            ),
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """The wall on both sides of its opening, and the frame that stands out of it."""
+        half, opening = self.length_m / 2, self.door_width_m / 2 - DOOR_FRAME_M if self.is_open else 0.0
+        return (
+            rectangle(-half, -self.thickness_m, -opening, _FRAME_PROUD_M),
+            rectangle(opening, -self.thickness_m, half, _FRAME_PROUD_M),
+        )
+
+
+def _door_sign(low_m: float, top_m: float, *, is_entrance: bool) -> list[Part]:
+    """The lit sign over a door, with an arrow up or down; none where the lintel has no room for it."""
+    high_m = min(low_m + 0.28, top_m)
+    if high_m - low_m < _LEAST_SIGN_M:
+        return []
+    sign = box_faces((-0.6, low_m, 0), (0.6, high_m, 0.06))
+    middle, reach = (low_m + high_m) / 2, (high_m - low_m) * 0.36
+    tip = -reach if is_entrance else reach
+    arrow = [
+        _upright([(-0.05, -tip), (0.05, -tip), (0.05, 0.0), (-0.05, 0.0)], middle),
+        _upright([(-0.16, 0.0), (0.16, 0.0), (0.0, tip)], middle),
+    ]
+    return [
+        make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
+        make_part("Arrow", arrow, "sign_white"),
+    ]
+
+
+def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:
+    """The front of a roller door: flat slats with a groove under each, one sheet from the floor to the head."""
+    count = max(1, int(height_m / _LAMELLA_M))
+    step = height_m / count
+    profile = [(0.0, front_m - _GROOVE_M)]
+    for index in range(count):
+        low = index * step
+        profile += [(low + _GROOVE_M, front_m - _GROOVE_M), (low + _GROOVE_M, front_m)]
+        profile += [(low + step, front_m), (low + step, front_m - _GROOVE_M)]
+    return [
+        np.array([(-half_m, y0, z0), (half_m, y0, z0), (half_m, y1, z1), (-half_m, y1, z1)])
+        for (y0, z0), (y1, z1) in pairwise(profile)
+    ]
+
+
+def _upright(outline: list[tuple[float, float]], middle_m: float) -> Face:
+    """An outline (x, y) on the front of a door's sign, turned counter-clockwise."""
+    face = np.array([(x, y + middle_m, 0.064) for x, y in outline])
+    normal = np.cross(face[1] - face[0], face[2] - face[0])
+    return face if normal[2] > 0 else face[::-1]

@@ -1,0 +1,146 @@
+"""Ramps to the ground outside."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Point, Polygon, rectangle
+
+__all__ = ["KIND", "RampSpec"]
+
+KIND = Kind("ramp", number=17, label="ramp", cityscapes="road", group="Ramps")
+
+Profile = Sequence[tuple[float, float]]
+_GROOVE_PITCH_M = 0.25
+_GROOVE_WIDTH_M = 0.05
+_GROOVE_DEPTH_M = 0.008
+_KERB_WIDTH_M = 0.18
+_KERB_HEIGHT_M = 0.15
+_BAND_TOP_M = 1.1
+_STRIPE_M = 0.12
+_PROUD_M = 0.004
+_HEADER_M = 0.3
+_DRAIN_M = 0.2
+_SLAT_M = 0.04
+
+
+@dataclass(frozen=True)
+class RampSpec(Spec, kind=KIND):
+    """A straight ramp up to the ground outside; origin and direction as `PortalSpec`, rising towards -Z.
+
+    Attributes
+    ----------
+    width_m
+        Between its side walls.
+    wall_m
+        Thickness of the side walls.
+    threshold_width_m
+        Of the floor in the door's opening.
+    profile
+        (run, height) along the floor, from the back of the door's wall to the far end.
+    cover_end_m, cover_height_m
+        Run where the slab over its foot ends, and height of that slab's underside.
+    wall_top_m
+        Height of the side walls.
+    """
+
+    width_m: float
+    wall_m: float
+    threshold_width_m: float
+    profile: tuple[Point, ...]
+    cover_end_m: float
+    cover_height_m: float
+    wall_top_m: float
+
+    def asset(self) -> Asset:
+        """A grooved floor with kerbs, side walls, a slab over its foot and a drain."""
+        half, (start, _), (end, _) = self.width_m / 2, self.profile[0], self.profile[-1]
+        cover_end, cover_low, cover_high = self.cover_end_m, self.cover_height_m, self.profile[-1][1]
+        threshold = _strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
+        slab = box_faces((-half, cover_low, -cover_end + _HEADER_M), (half, cover_high, -start))
+        header = box_faces((-half, cover_low, -cover_end), (half, self.wall_top_m, -cover_end + _HEADER_M))
+        parts = [
+            make_part("Threshold", threshold, "floor_concrete", collider=Collider.MESH),
+            make_part("Floor", _strip(half, _grooved(self.profile)), "floor_concrete", collider=Collider.MESH),
+            make_part("Cover", slab, "ceiling_concrete", collider=Collider.BOX),
+            make_part("Header", header, "wall_concrete", collider=Collider.BOX),
+            make_part("Drain", _drain(half - _KERB_WIDTH_M, start), "steel_dark"),
+        ]
+        for name, side in (("Left", -1.0), ("Right", 1.0)):
+            inner, outer = sorted((side * half, side * (half + self.wall_m)))
+            wall = box_faces((inner, 0.0, -end), (outer, self.wall_top_m, -start))
+            face, kerb = side * (half - _PROUD_M), _kerb(half, side, self.profile)
+            parts += [
+                make_part(f"{name}Wall", wall, "wall_concrete", collider=Collider.BOX),
+                make_part(f"{name}Band", _ribbon(face, self.profile, 0.0, _BAND_TOP_M), "wall_band"),
+                make_part(
+                    f"{name}Stripe", _ribbon(face, self.profile, _BAND_TOP_M, _BAND_TOP_M + _STRIPE_M), "band_stripe"
+                ),
+                make_part(f"{name}Kerb", kerb, "hazard", collider=Collider.MESH),
+            ]
+        return Asset(tuple(parts))
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Its side walls."""
+        inner, outer = self.width_m / 2, self.width_m / 2 + self.wall_m
+        near, far = -self.profile[0][0], -self.profile[-1][0]
+        return rectangle(-outer, far, -inner, near), rectangle(inner, far, outer, near)
+
+
+def _strip(half_m: float, profile: Profile) -> list[Face]:
+    """The floor along a profile, seen from above."""
+    return [
+        np.array([(-half_m, y0, -r0), (half_m, y0, -r0), (half_m, y1, -r1), (-half_m, y1, -r1)])
+        for (r0, y0), (r1, y1) in pairwise(profile)
+    ]
+
+
+def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Face]:
+    """An upright ribbon at `x` that follows a profile and looks to the ramp's middle."""
+    faces = [
+        np.array([(x, y0 + low_m, -r0), (x, y0 + high_m, -r0), (x, y1 + high_m, -r1), (x, y1 + low_m, -r1)])
+        for (r0, y0), (r1, y1) in pairwise(profile)
+    ]
+    return faces if x > 0 else [face[::-1] for face in faces]
+
+
+def _kerb(half_m: float, side: float, profile: Profile) -> list[Face]:
+    """The kerb at the foot of a side wall."""
+    outer, inner, up = side * half_m, side * (half_m - _KERB_WIDTH_M), np.array((0.0, _KERB_HEIGHT_M, 0.0))
+    faces = _ribbon(inner, profile, 0.0, _KERB_HEIGHT_M)
+    low, high = sorted((inner, outer))
+    middle = np.array(((low + high) / 2, 0.0, 0.0))
+    faces += [face + middle + up for face in _strip((high - low) / 2, profile)]
+    (start, y), _ = profile[0], profile[1]
+    faces += box_faces((low, y, -start - 1), (high, y + _KERB_HEIGHT_M, -start), without="lrbtn")
+    return faces
+
+
+def _grooved(profile: Profile) -> list[tuple[float, float]]:
+    """A profile with grooves across its slopes, for grip."""
+    runs, heights = zip(*profile, strict=True)
+    grooved = [profile[0]]
+    half, edge = _GROOVE_WIDTH_M / 2, 0.004
+    for (r0, y0), (r1, y1) in pairwise(profile):
+        count = int((r1 - r0) / _GROOVE_PITCH_M) if y1 > y0 else 0
+        for middle in (r0 + (np.arange(count) + 0.5) * (r1 - r0) / max(count, 1)).tolist():
+            for offset, depth in ((-half, 0.0), (-half + edge, _GROOVE_DEPTH_M)):
+                grooved.append((middle + offset, float(np.interp(middle + offset, runs, heights)) - depth))
+            for offset, depth in ((half - edge, _GROOVE_DEPTH_M), (half, 0.0)):
+                grooved.append((middle + offset, float(np.interp(middle + offset, runs, heights)) - depth))
+        grooved.append((r1, y1))
+    return grooved
+
+
+def _drain(half_m: float, start_m: float) -> list[Face]:
+    """The slats of the channel drain across the ramp's foot."""
+    faces: list[Face] = []
+    for index in range(int(_DRAIN_M / _SLAT_M)):
+        far = start_m + 0.1 + index * _SLAT_M
+        faces += box_faces((-half_m, 0.0, -far - _SLAT_M * 0.6), (half_m, 0.004, -far), without="b")
+    return faces

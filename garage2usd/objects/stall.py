@@ -1,0 +1,12 @@
+"""The floor of stalls."""
+
+from garage2usd.objects.kind import Kind
+from garage2usd.objects.panel import PanelSpec
+
+__all__ = ["KIND", "StallSpec"]
+
+KIND = Kind("stall", number=2, label="parking_stall", cityscapes="parking", is_solid=False)
+
+
+class StallSpec(PanelSpec, kind=KIND):
+    """The floor of a stall."""

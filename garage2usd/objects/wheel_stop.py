@@ -1,0 +1,34 @@
+"""Wheel stops."""
+
+from dataclasses import dataclass
+
+from garage2usd.assets.mesh import Asset
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.striped import striped
+
+__all__ = ["KIND", "WheelStopSpec"]
+
+KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static")
+
+WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
+
+
+@dataclass(frozen=True)
+class WheelStopSpec(Spec, kind=KIND):
+    """A wheel stop, long along X; origin in the middle of its foot."""
+
+    length_m: float
+
+    def asset(self) -> Asset:
+        """A rubber bar 0.15 m wide and 0.10 m high."""
+        z, y = WHEEL_STOP_WIDTH_M / 2, WHEEL_STOP_HEIGHT_M
+        profile = [(-z, 0.0), (-z, 0.03), (-z * 0.62, y - 0.01), (-z * 0.45, y), (z * 0.45, y), (z * 0.62, y - 0.01)]
+        profile += [(z, 0.03), (z, 0.0)]
+        count = max(3, round(self.length_m / 0.33))
+        return striped(profile, -self.length_m / 2, self.length_m / count, count)
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Its foot."""
+        x, z = self.length_m / 2, WHEEL_STOP_WIDTH_M / 2
+        return (rectangle(-x, -z, x, z),)

@@ -1,0 +1,95 @@
+"""Shapes of every kind of object, by a name for each case."""
+
+import string
+
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.objects.barrier import BarrierSpec
+from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
+from garage2usd.objects.cable_tray import CableTraySpec
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.ceiling import CeilingSpec
+from garage2usd.objects.charger import ChargerSpec
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.cone import ConeSpec
+from garage2usd.objects.duct import DuctSpec
+from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
+from garage2usd.objects.floor import FloorSpec
+from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.mirror import MirrorSpec
+from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.obstacle import ObstacleSpec
+from garage2usd.objects.panel import Marking, Surface
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.ramp import RampSpec
+from garage2usd.objects.sky import SkySpec
+from garage2usd.objects.speed_bump import SpeedBumpSpec
+from garage2usd.objects.sprinkler import SprinklerSpec
+from garage2usd.objects.stall import StallSpec
+from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.objects.wall import WallPostSpec, WallSpec
+from garage2usd.objects.wheel_stop import WheelStopSpec
+from garage2usd.objects.zone_plate import ZonePlateSpec
+
+MARKINGS = (
+    Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW),
+    Marking(((0.0, 0.0), (1.0, 1.0), (0.2, 2.0)), Surface.PAINT_WHITE),
+    Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE),
+)
+OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
+RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
+
+SPECS = {
+    "floor": FloorSpec(8.1, 6.5, Surface.LANE, MARKINGS, (OPENING,)),
+    "stall": StallSpec(2.5, 5.3, Surface.STALL),
+    "wall": WallSpec(8.1, 3.2, 0.3),
+    "post": WallPostSpec(0.3, 3.2),
+    "entrance": PortalSpec(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True),
+    "exit": PortalSpec(5.4, 3.0, 0.3, door_width_m=4.2, door_height_m=2.4, is_entrance=False),
+    "open_door": PortalSpec(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True, is_open=True),
+    "ramp": RampSpec(
+        width_m=6.2,
+        wall_m=0.3,
+        threshold_width_m=5.84,
+        profile=RISE,
+        cover_end_m=9.3,
+        cover_height_m=3.2,
+        wall_top_m=4.8,
+    ),
+    "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
+    "raised_barrier": BarrierSpec(arm_m=6.1, is_raised=True, elbow_m=2.75),
+    "closed_barrier": BarrierSpec(arm_m=6.1, is_raised=False, elbow_m=2.75),
+    "obstacle": ObstacleSpec(8.1, 5.4, 3.2),
+    "block": ObstacleSpec(8.1, 5.4, 3.2, has_door=False),
+    "column": ColumnSpec(0.6, 3.2),
+    "ceiling": CeilingSpec(8.1, 8.1, 0.25),
+    "tube": TubeLightSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
+    "beam": BeamSpec(7.5, 0.4, 0.4),
+    "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),
+    "duct": DuctSpec(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),
+    "branch": DuctSpec(0.65, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(0.1,)),
+    "tray": CableTraySpec(8.1, 0.3, 0.06, 0.5, rods_at_m=(-2.0, 2.0)),
+    "cone": ConeSpec(),
+    "bump": SpeedBumpSpec(7.2),
+    "stop": WheelStopSpec(1.65),
+    "sign": NoParkingSignSpec(),
+    "sprinkler": SprinklerSpec(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
+    "pipe": SprinklerSpec(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),
+    **{f"exit_sign_{turn}": ExitSignSpec(turn, 0.58, 0.2) for turn in Turn},
+    "mirror": MirrorSpec(0.25, arm_m=0.12),
+    "charger": ChargerSpec(),
+    "hydrant_cabinet": HydrantCabinetSpec(),
+    "fire_extinguisher": FireExtinguisherSpec(),
+    "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
+    "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
+    **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
+    **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88"]},
+    **{
+        f"plate_{text}": ZonePlateSpec(text, 0.6, 0.38)
+        for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
+    },
+    **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
+}
+"""One shape at least of each class of `garage2usd.objects.Spec`."""

@@ -1,0 +1,90 @@
+"""What every kind of object declares, whichever it is: nothing here names one but for exceptions."""
+
+import numpy as np
+import pytest
+import shapely
+from object_specs import SPECS
+
+from garage2usd.objects import KINDS, Kind, Spec, _in_order
+from garage2usd.objects.kind import VariantSet
+
+DRIVEN_OVER = {"Floor", "Threshold", "LeftKerb", "RightKerb"}
+"""Parts of ramps that wheels touch."""
+HEAD_M, FOOT_M = 2.0, 0.06
+"""Between a car's roof and what a wheel goes over."""
+CITYSCAPES = {
+    "road", "sidewalk", "parking", "building", "wall", "fence", "guard rail", "pole", "traffic sign", "car", "sky",
+    "static", "dynamic", "ground",
+}  # fmt: skip
+
+
+def spec_classes(base=Spec):
+    for cls in base.__subclasses__():
+        if hasattr(cls, "kind") and cls.__module__.startswith("garage2usd."):
+            yield cls
+        yield from spec_classes(cls)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_a_kind_declares_what_labels_need(kind):
+    assert kind.label.islower()
+    assert kind.cityscapes in CITYSCAPES
+    assert not (kind.scattered and kind.is_solid)  # point instancers lose colliders
+    assert kind.follows in {None, *VariantSet}
+
+
+def test_every_class_of_shapes_belongs_to_a_kind_and_has_a_case():
+    classes = set(spec_classes())
+    assert {cls.kind for cls in classes} == set(KINDS)
+    assert {type(spec) for spec in SPECS.values()} == classes
+
+
+def test_numbers_of_classes_stay_as_they_are_in_data_sets():
+    assert [kind.number for kind in KINDS] == list(range(1, len(KINDS) + 1))
+    assert [kind.label for kind in KINDS][:26] == [
+        "floor", "parking_stall", "ceiling", "wall", "vehicle_door", "obstacle", "column", "light", "beam", "duct",
+        "cable_tray", "speed_bump", "wheel_stop", "traffic_sign", "traffic_cone", "car", "ramp", "sky", "barrier",
+        "stall_number", "zone_plate", "charger", "sprinkler", "exit_sign", "mirror", "floor_stain",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("field", ["number", "name", "label"])
+def test_two_kinds_cannot_share_a_number_a_name_or_a_label(field):
+    first, second = (
+        {"name": name, "number": number, "label": f"class_{name}", "cityscapes": "static"}
+        for name, number in (("a", 1), ("b", 2))
+    )
+    with pytest.raises(ValueError, match=str(first[field])):
+        _in_order([Kind(**first), Kind(**{**second, field: first[field]})])
+    assert [kind.name for kind in _in_order([Kind(**second), Kind(**first)])] == ["a", "b"]
+
+
+def touched(spec):
+    """Outlines (x, z) of what a car could touch of each part with a collider: of its faces below a car's roof."""
+    for part in spec.asset().parts:
+        if part.collider is None or part.name in DRIVEN_OVER:
+            continue
+        for corners in np.split(part.points[part.face_indices].astype(float), np.cumsum(part.face_counts)[:-1]):
+            if corners[:, 1].min() < HEAD_M and corners[:, 1].max() > FOOT_M:
+                yield shapely.MultiPoint(corners[:, [0, 2]]).convex_hull
+
+
+def hangs(kind):
+    return kind.name == "mirror" or kind.follows in {VariantSet.CEILING, VariantSet.LIGHTS}
+
+
+@pytest.mark.parametrize("case", SPECS)
+def test_the_outline_on_the_ground_holds_what_a_car_could_touch_and_little_more(case):
+    spec = SPECS[case]
+    outlines = [shapely.Polygon(outline) for outline in spec.outlines()]
+    assert all(outline.is_valid and outline.area > 0 for outline in outlines)
+    assert all(outline.convex_hull.area == pytest.approx(outline.area) for outline in outlines)
+    ground = shapely.union_all(outlines)
+    stands = [] if hangs(spec.kind) else list(touched(spec))
+    assert bool(stands) == bool(outlines)
+    if case == "raised_barrier":
+        return  # its arm counts as if it were down
+    for shape in stands:
+        assert shapely.within(shape, ground.buffer(2e-3)), shape.bounds
+    points = np.concatenate([part.points[:, [0, 2]] for part in spec.asset().parts])
+    assert shapely.within(ground, shapely.MultiPoint(points).envelope.buffer(0.11, join_style="mitre")) or not stands
