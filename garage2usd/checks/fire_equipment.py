@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,9 @@ from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.subject import Subject
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.profiles import Length, Profile
-from garage2usd.reading.ground import Point
+
+if TYPE_CHECKING:
+    from garage2usd.reading.ground import Point
 
 __all__ = ["BOOK"]
 
