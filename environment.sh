@@ -47,7 +47,7 @@ fi
 
 extra=""
 [ "$goal" = demo ] || extra="[test]"
-stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/browser.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
+stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/support/browser.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
@@ -58,7 +58,7 @@ if [ ! -e "$stamp" ]; then
             npm=.venv/bin/npm
             PATH=$PWD/.venv/bin:$PATH
         }
-        three=$(sed -n 's/^THREE_VERSION = "\(.*\)"$/\1/p' tests/browser.py)
+        three=$(sed -n 's/^THREE_VERSION = "\(.*\)"$/\1/p' tests/support/browser.py)
         "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pictures import difference, read_png, store, stored
-from places import assert_same_places
 from pxr import Usd
-from sample_files import REPOSITORY, each_build
-from stage_textures import texture_names
+from support.pictures import difference, read_png, store, stored
+from support.places import assert_same_places
+from support.sample_files import REPOSITORY, each_build
+from support.stage_textures import texture_names
 
 from garage2usd.stage.prototypes import asset_of
 

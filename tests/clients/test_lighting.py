@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sample_files import SAMPLES
+from support.sample_files import SAMPLES
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux

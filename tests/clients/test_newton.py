@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from places import MILLIMETRE, assert_same_places
-from sample_files import REPOSITORY, SAMPLES
+from support.places import MILLIMETRE, assert_same_places
+from support.sample_files import REPOSITORY, SAMPLES
 
 from garage2usd.assets import Collider
 from garage2usd.layout.placement import to_world

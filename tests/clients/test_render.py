@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd
-from rays import Rays
-from sample_files import REPOSITORY
+from support.rays import Rays
+from support.sample_files import REPOSITORY
 
 from garage2usd.render import Picture, render_stage
 

@@ -3,7 +3,7 @@
 import pytest
 from PIL import Image
 from pxr import Usd, UsdPhysics
-from sample_files import each_build
+from support.sample_files import each_build
 
 from garage2usd.checks import check
 from garage2usd.checks.consistency import BOOK as CONSISTENCY

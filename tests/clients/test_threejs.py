@@ -7,13 +7,13 @@ from pathlib import PurePosixPath
 
 import numpy as np
 import pytest
-from browser import THREE_VERSION, find_browser, find_three, load_in_three
-from pictures import coarse, difference, read_png, store, stored
 from PIL import Image, ImageOps
-from places import MILLIMETRE, assert_same_places
 from pxr import Usd
-from sample_files import REPOSITORY, SAMPLES
-from stage_textures import texture_names
+from support.browser import THREE_VERSION, find_browser, find_three, load_in_three
+from support.pictures import coarse, difference, read_png, store, stored
+from support.places import MILLIMETRE, assert_same_places
+from support.sample_files import REPOSITORY, SAMPLES
+from support.stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
 from garage2usd.stage.arrangement import arrange

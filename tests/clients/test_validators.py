@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from pxr import Sdf, Usd, UsdValidation
-from sample_files import SAMPLES, each_build, each_format, each_sample
+from support.sample_files import SAMPLES, each_build, each_format, each_sample
 
 from garage2usd import GarageConfig, build
 

@@ -5,10 +5,10 @@ import json
 
 import numpy as np
 import pytest
-from browser import find_browser
 from PIL import Image
-from sample_files import REPOSITORY
-from viewer_page import viewed
+from support.browser import find_browser
+from support.sample_files import REPOSITORY
+from support.viewer_page import viewed
 
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.labels import OBJECT_LABELS

@@ -4,7 +4,7 @@ import shutil
 import subprocess
 
 import pytest
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 SOURCE = REPOSITORY / "garage2usd" / "view" / "web"
 BUILT = REPOSITORY / "garage2usd" / "view" / "page"

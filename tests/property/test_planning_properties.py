@@ -3,7 +3,7 @@
 import networkx as nx
 import numpy as np
 import pytest
-from planning_reference import BAY, feasible, random_site, score
+from support.planning_reference import BAY, feasible, random_site, score
 
 from garage2usd.config import PlanConfig
 from garage2usd.planning import evaluate, is_feasible, plan_lanes, play, principles, rank_of, tape_at, tape_of

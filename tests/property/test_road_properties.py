@@ -3,7 +3,7 @@
 import networkx as nx
 import numpy as np
 import pytest
-from overlaps import assert_solid_objects_keep_apart
+from support.overlaps import assert_solid_objects_keep_apart
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.fittings import CEILING_ROOM_M

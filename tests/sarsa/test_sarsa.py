@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from following import check_states, property_of
 from hypothesis import Phase
-from sample_files import REPOSITORY
 from sarsa_mutants import MUTANTS
+from support.sample_files import REPOSITORY
 
 from garage2usd.planning import sarsa
 

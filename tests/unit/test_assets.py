@@ -4,7 +4,7 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
-from object_specs import SPECS
+from support.object_specs import SPECS
 
 from garage2usd.assets import MATERIALS, Collider
 from garage2usd.config.vehicles import CAR_BODIES

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from PIL import Image
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination

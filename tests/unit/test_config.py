@@ -3,7 +3,7 @@ import json
 import jsonschema
 import numpy as np
 import pytest
-from sample_files import each_sample
+from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig, config_from_mapping, config_schema, load_config
 from garage2usd.errors import ConfigError

@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
 from scipy import ndimage
+from support.footprints import footprint
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
+from support.footprints import footprint
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import StallUse, lay_out

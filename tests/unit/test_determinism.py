@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 SCRIPT = """
 import sys

@@ -10,8 +10,8 @@ from collections import Counter
 from importlib import import_module
 
 import pytest
-from documentation import PAGES, README, RUN, SHOWN, Reader, blocks, check_unrun, follow_page
-from sample_files import REPOSITORY
+from support.documentation import PAGES, README, RUN, SHOWN, Reader, blocks, check_unrun, follow_page
+from support.sample_files import REPOSITORY
 
 EVERY_BLOCK = [block for page in PAGES for block in blocks(page)]
 # test_wheel.py follows the README, as someone who has the wheel alone

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from gymnasium.error import InvalidAction, ResetNeeded
 from gymnasium.utils.env_checker import check_env
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.config import GarageConfig

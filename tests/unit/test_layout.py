@@ -4,9 +4,9 @@ import math
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
-from overlaps import Solids
-from sample_files import each_sample
+from support.footprints import footprint
+from support.overlaps import Solids
+from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES

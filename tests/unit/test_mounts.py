@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
-from overlaps import assert_solid_objects_keep_apart, carriageways
 from scipy.spatial.distance import cdist
-from small_garage import PLAN as SMALL
+from support.footprints import footprint
+from support.overlaps import assert_solid_objects_keep_apart, carriageways
+from support.small_garage import PLAN as SMALL
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out, mounts

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from object_specs import SPECS
+from support.object_specs import SPECS
 
 from garage2usd.objects import KINDS, Kind, Spec, _in_order
 from garage2usd.objects.kind import VariantSet

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
-from overlaps import HANGING, assert_solid_objects_keep_apart
-from sample_files import each_sample
 from scipy.spatial.distance import pdist
+from support.footprints import footprint
+from support.overlaps import HANGING, assert_solid_objects_keep_apart
+from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.layout import lay_out

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import shapely
 from click.testing import CliRunner
-from footprints import footprint
 from PIL import Image
-from sample_files import REPOSITORY
+from support.footprints import footprint
+from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig, load_config

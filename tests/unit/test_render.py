@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Gf, Usd, UsdGeom
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError, StageError

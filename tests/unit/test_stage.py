@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS

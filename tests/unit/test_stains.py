@@ -6,8 +6,8 @@ from collections import defaultdict
 import numpy as np
 import pytest
 import shapely
-from footprints import footprint
-from sample_files import each_sample
+from support.footprints import footprint
+from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.layout import StallUse

@@ -7,8 +7,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from documentation import README
-from sample_files import REPOSITORY
+from support.documentation import README
+from support.sample_files import REPOSITORY
 
 
 def pip(*arguments):

@@ -8,7 +8,6 @@ import subprocess
 import numpy as np
 import pytest
 import reader
-from documentation import blocks
 from layer import (
     EDITOR,
     LAYER,
@@ -20,7 +19,8 @@ from layer import (
     sources_of,
 )
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
-from sample_files import REPOSITORY, SAMPLES
+from support.documentation import blocks
+from support.sample_files import REPOSITORY, SAMPLES
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from layer import from_usd
 from reader import PACKAGE
-from sample_files import SAMPLES
+from support.sample_files import SAMPLES
 
 from garage2usd.structure.stalls import Edge
 

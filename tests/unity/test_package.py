@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from make_meta import guid_of, meta_text, seen_by_unity
 from reader import PACKAGE
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.version import VERSION

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from layer import axes_of, from_usd, place_of, world_vertices
-from places import assert_same_places
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
-from sample_files import SAMPLES
+from support.places import assert_same_places
+from support.sample_files import SAMPLES
 
 from garage2usd.assets.mesh import Collider
 from garage2usd.objects import KINDS

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
-from sample_files import SAMPLES
+from support.sample_files import SAMPLES
 
 PAPER = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
 

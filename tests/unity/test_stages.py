@@ -4,8 +4,8 @@ import pytest
 import stages_of_pxr
 import values_of_pxr
 from pxr import Sdf, Tf, Usd, UsdUtils
-from sample_files import SAMPLES, each_sample
 from small_stages import SMALL_STAGES
+from support.sample_files import SAMPLES, each_sample
 from test_layers import STAGES, installed
 
 

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from small_garage import PLAN, SETTINGS
+from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
 from garage2usd.checks import Severity, check, check_file

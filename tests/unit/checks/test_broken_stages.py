@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSemantics, Vt
-from small_garage import SETTINGS
+from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
 from garage2usd.checks import check

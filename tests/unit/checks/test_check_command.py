@@ -6,7 +6,7 @@ import time
 import pytest
 from click.testing import CliRunner
 from pxr import Usd
-from small_garage import PLAN, SETTINGS
+from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
 from garage2usd.cli import main

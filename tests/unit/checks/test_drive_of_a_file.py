@@ -5,7 +5,7 @@ import json
 import pytest
 from click.testing import CliRunner
 from pxr import Usd, UsdGeom, UsdSemantics
-from small_garage import SETTINGS
+from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
 from garage2usd.cli import main

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_garage import SETTINGS
+from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig
 from garage2usd.checks import fire_equipment

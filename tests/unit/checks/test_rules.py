@@ -3,7 +3,7 @@
 import importlib.util
 import re
 
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 from garage2usd.checks import RULES
 from garage2usd.profiles import Profile

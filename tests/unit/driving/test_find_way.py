@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from driving_flood import has_way_out
-from driving_simulation import outlines, simulate
+from support.driving_flood import has_way_out
+from support.driving_simulation import outlines, simulate
 
 from garage2usd.driving import DesignCar, Gear, LanePose, Limits, Manoeuvre, Obstacles, Pose, find_way
 from garage2usd.errors import ConfigError

@@ -8,9 +8,9 @@ import networkx as nx
 import numpy as np
 import pytest
 import shapely
-from driving_simulation import World, drive_stalls, ground
 from pxr import Usd, UsdGeom
-from sample_files import REPOSITORY
+from support.driving_simulation import World, drive_stalls, ground
+from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.checks import check_file

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, G1, G2, G3, OPTIMUM, feasible, score, sown
+from support.planning_reference import BAY, G1, G2, G3, OPTIMUM, feasible, score, sown
 
 from garage2usd.config import PlanConfig, SiteConfig
 from garage2usd.planning import evaluate, plan_lanes

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, drawn, feasible, random_site, score, sown
+from support.planning_reference import BAY, drawn, feasible, random_site, score, sown
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.board import NO_VALUE, clear, dead_ends, lay, measure, new_board, value_now

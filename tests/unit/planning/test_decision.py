@@ -1,7 +1,7 @@
 """The decision process on small drawings, with rewards worked out by hand."""
 
 import pytest
-from planning_reference import BAY, drawn
+from support.planning_reference import BAY, drawn
 
 from garage2usd.config import PlanConfig
 from garage2usd.planning.decision import (

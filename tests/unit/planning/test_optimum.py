@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible
+from support.planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.site import DEFAULT_SIDE_M

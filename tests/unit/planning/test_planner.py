@@ -7,7 +7,19 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from planning_reference import BAY, G1, G2, G3, OPTIMUM, OPTIMUM_WITH_LOOPS, drawn, feasible, gates, random_site, score
+from support.planning_reference import (
+    BAY,
+    G1,
+    G2,
+    G3,
+    OPTIMUM,
+    OPTIMUM_WITH_LOOPS,
+    drawn,
+    feasible,
+    gates,
+    random_site,
+    score,
+)
 
 from garage2usd.config import PlanConfig
 from garage2usd.errors import GenerationError
@@ -135,7 +147,7 @@ def test_given_plan_is_taken_as_it_is():
 
 
 SCRIPT = """
-from planning_reference import BAY, G2, random_site
+from support.planning_reference import BAY, G2, random_site
 from garage2usd.config import PlanConfig
 from garage2usd.planning import plan_lanes
 for site in (G2, random_site(4)):

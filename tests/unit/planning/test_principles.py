@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from planning_reference import BAY, drawn, random_site
+from support.planning_reference import BAY, drawn, random_site
 
 from garage2usd.config import PlanConfig
 from garage2usd.planning import board as compiled

@@ -1,7 +1,7 @@
 """The score against figures worked out by hand."""
 
 import pytest
-from planning_reference import BAY, drawn, feasible, score
+from support.planning_reference import BAY, drawn, feasible, score
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import evaluate, is_feasible

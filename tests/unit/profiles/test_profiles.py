@@ -3,7 +3,7 @@
 import tomllib
 
 import pytest
-from sample_files import REPOSITORY
+from support.sample_files import REPOSITORY
 
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import PROFILE_NAMES, Confidence, Length, Profile, load_profile, read_profile

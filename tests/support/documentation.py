@@ -16,12 +16,12 @@ from pathlib import Path
 import click
 import pytest
 from click.testing import CliRunner
-from sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.profiles import read_profile
+from support.sample_files import REPOSITORY
 
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]

@@ -7,7 +7,8 @@ import math
 
 import numpy as np
 import shapely
-from driving_simulation import TRACK_M, TURNING_RADIUS_M, WHEELBASE_M, outlines
+
+from support.driving_simulation import TRACK_M, TURNING_RADIUS_M, WHEELBASE_M, outlines
 
 _RADIUS_M = math.sqrt(TURNING_RADIUS_M**2 - WHEELBASE_M**2) - TRACK_M / 2
 _HEADINGS = 144

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-FOLDER = Path(__file__).parent / "clients" / "pictures"
+FOLDER = Path(__file__).parents[1] / "clients" / "pictures"
 _STORED_SIZE = 320, 180
 _COARSE_SIZE = 32, 18
 

@@ -10,7 +10,7 @@ import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
-PAGE_FOLDER = Path(__file__).parent / "clients" / "threejs"
+PAGE_FOLDER = Path(__file__).parents[1] / "clients" / "threejs"
 THREE_VERSION = "0.187.0"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _ARGUMENTS = (
@@ -37,7 +37,7 @@ def find_browser():
 
 def find_three():
     """The folder of three.js: where environment.sh installs it, or THREEJS_FOLDER; None if it is not there."""
-    default = Path(__file__).parents[1] / ".venv" / "node" / "node_modules" / "three"
+    default = Path(__file__).parents[2] / ".venv" / "node" / "node_modules" / "three"
     folder = Path(os.environ.get("THREEJS_FOLDER", default))
     return folder if (folder / "package.json").is_file() else None
 

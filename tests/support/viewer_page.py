@@ -6,8 +6,9 @@ import subprocess
 import sys
 from contextlib import contextmanager
 
-from browser import find_browser
 from playwright.sync_api import sync_playwright
+
+from support.browser import find_browser
 
 _ARGUMENTS = [
     "--no-sandbox",

@@ -1,6 +1,6 @@
 """A kinematic bicycle among the stage's own meshes: drives what garage2usd.driving claims, with no code of its own.
 
-``python tests/driving_simulation.py 1000`` drives 1000 stalls of default garages, and says what it found.
+``python tests/support/driving_simulation.py 1000`` drives 1000 stalls of default garages, and says what it found.
 """
 
 import math
