@@ -46,12 +46,8 @@ class Action(IntEnum):
     STAY = 4
 
 
-_OPPOSITE = {
-    Action.UP: Action.DOWN,
-    Action.DOWN: Action.UP,
-    Action.LEFT: Action.RIGHT,
-    Action.RIGHT: Action.LEFT,
-}
+_MOVES = (Action.UP, Action.DOWN, Action.LEFT, Action.RIGHT)
+_OPPOSITE = dict(zip(_MOVES, (Action.DOWN, Action.UP, Action.RIGHT, Action.LEFT), strict=True))
 
 
 class Ending(Enum):
@@ -118,8 +114,7 @@ class DecisionProcess:
     @cached_property
     def horizon(self) -> int:
         """Actions after which an episode is cut off."""
-        free = sum(cell is Cell.FREE for cell in self.cells.values())
-        return self.parameters.max_steps_per_square * free
+        return self.parameters.max_steps_per_square * list(self.cells.values()).count(Cell.FREE)
 
 
 @dataclass(frozen=True)
@@ -167,10 +162,9 @@ def observe(process: DecisionProcess, state: State) -> Observation:
     """
     parameters, (row, col) = process.parameters, state.square
     reach = range(-parameters.window_radius_squares, parameters.window_radius_squares + 1)
+    steps = NEIGHBOUR_STEPS if parameters.sees_distances else ()
     return Observation(
-        distances=tuple(_distance(process, state, step) for step in NEIGHBOUR_STEPS)
-        if parameters.sees_distances
-        else (),
+        distances=tuple(_distance(process, state, step) for step in steps),
         window=tuple(int(_cell(process, state, (row + down, col + across))) for down in reach for across in reach),
         last_action=state.last_action,
     )
@@ -187,8 +181,7 @@ def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
     """
     if not process.parameters.masks_actions:
         return tuple(Action)
-    moves = (action for action in Action if action is not Action.STAY)
-    return tuple(move for move in moves if _cell(process, state, _ahead(state.square, move)) in {Cell.FREE, Cell.LANE})
+    return tuple(move for move in _MOVES if _cell(process, state, _ahead(state.square, move)) in {Cell.FREE, Cell.LANE})
 
 
 def transition(process: DecisionProcess, state: State, action: Action) -> State:
@@ -245,7 +238,7 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
 def terminal(process: DecisionProcess, state: State) -> bool:
     """Whether the episode is over: t = T of equation 15; also where the agent has no action left.
 
-    A driver of the process cuts episodes off after `DecisionProcess.horizon` actions besides.
+    Besides, whoever runs the process cuts episodes off after `DecisionProcess.horizon` actions.
     """
     return state.ending is not None or not actions(process, state)
 
@@ -285,8 +278,7 @@ def _lanes_beside_new(state: State, following: State) -> int:
     """How many lanes the new lane touches; 0 if the move coloured none."""
     if following.lanes == state.lanes:
         return 0
-    moves = (action for action in Action if action is not Action.STAY)
-    return sum(_ahead(following.square, move) in state.lanes for move in moves)
+    return sum(_ahead(following.square, move) in state.lanes for move in _MOVES)
 
 
 def _distance(process: DecisionProcess, state: State, step: Square) -> int:
