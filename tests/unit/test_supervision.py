@@ -5,6 +5,7 @@ import sys
 import time
 
 import pytest
+from support.signals import heed_all
 
 START = "import os, signal, sys, time\nfrom garage2usd.cli.supervision import supervise\n"
 
@@ -55,6 +56,7 @@ def test_the_command_gets_the_signals_that_ask_for_an_end(asked, code):
         [sys.executable, "-c", f"{START}def command():\n    {body}\nsupervise(command, name='view')\n"],
         stdout=subprocess.PIPE,
         text=True,
+        preexec_fn=heed_all,
     )
     assert process.stdout.readline() == "up\n"
     process.send_signal(asked)

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 import pytest
 from click.testing import CliRunner
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
+from support.signals import heed_all
 
 from garage2usd.cli import main
 from garage2usd.errors import OutputError
@@ -156,7 +157,13 @@ def test_a_signal_ends_it_and_frees_the_port(stage, stop, code):
     command = [sys.executable, "-m", "garage2usd", "view", str(stage), "--no-browser"]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        start_new_session=True,
+        preexec_fn=heed_all,
     ) as process:
         port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", process.stdout.readline())[1])
         assert "2 objects of 1 classes" in process.stdout.readline()
@@ -183,6 +190,7 @@ def test_it_ends_when_its_terminal_closes(stage):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        preexec_fn=heed_all,
     ) as process:
         os.close(terminal)
         assert "http://" in process.stdout.readline()
