@@ -1,4 +1,5 @@
 """The shell of a car body: rings of points lofted along the car, and places on its surface."""
+# Over 300 lines: the rings of a body are long rows of numbers, with the functions that read them.
 
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,4 +1,5 @@
 """Squares in metres: where each one lies, what surrounds it, and its floor and ceiling."""
+# Over 300 lines: a square's floor, markings and ceiling are drawn from the same tile and what surrounds it.
 
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator

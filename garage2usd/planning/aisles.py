@@ -1,4 +1,5 @@
 """Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - a decision is one loop over the squares of a run
 
 from itertools import pairwise, product

@@ -1,4 +1,5 @@
 """A board of lanes with its score: laid square by square, or measured whole. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0912 - a search or a walk is one loop over squares
 
 from typing import NamedTuple

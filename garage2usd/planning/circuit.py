@@ -1,4 +1,5 @@
 """Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0915, PLR2004 - moves are judged in loops over shared counters
 
 import numpy as np

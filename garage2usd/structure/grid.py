@@ -2,6 +2,7 @@
 
 Axes: ``row`` grows downwards in text and along +Z in the stage, ``col`` grows to the right and along +X.
 """
+# Over 300 lines: S, R and C are one value, and each of their errors names what is allowed.
 
 import hashlib
 from dataclasses import dataclass
