@@ -156,7 +156,7 @@ class _Walk:
             return
         mask = instancer.ComputeMaskAtTime(READ_AT) or [True] * len(indices)
         above = at.holder.label if at.holder else ""
-        for point, (index, place, is_shown) in enumerate(zip(indices.tolist(), places, mask, strict=True)):
+        for point, (index, place, is_shown) in enumerate(zip(indices.tolist(), places, mask, strict=False)):
             if is_shown and 0 <= index < len(roots) and roots[index]:
                 root, path = roots[index], f"{at.path}[{point}]"
                 matrix = np.array(place) @ at.matrix
@@ -179,6 +179,7 @@ class _Walk:
         """What a prototype of a point instancer holds; its own transform is the points'."""
         key = str(root.GetPath()), "", True
         if key not in self._prototypes:
+            self._prototypes[key] = _Prototype([], ())  # within itself it draws nothing
             purpose = UsdGeom.Imageable(root).ComputePurpose() if _is_imageable(root) else UsdGeom.Tokens.default_
             inside = _inside(str(purpose), is_held=True)
             if _is_visible(root) and root.IsA(UsdGeom.PointInstancer):

@@ -10,6 +10,7 @@ from support.foreign_stages import TRAPS, installed_stages
 
 from garage2usd.checks.scene import read_scene as scene_of_checks
 from garage2usd.reading.values import metres_y_up
+from garage2usd.reading.walk import placed_objects
 from garage2usd.render.scene import read_scene as scene_of_render
 from garage2usd.view.viewer.looks import Looks
 
@@ -108,3 +109,14 @@ def test_all_that_is_drawn_stands_where_usd_computes(stage):
         place.T @ turn for number, place in zip(scene.shape.tolist(), scene.to_world, strict=True) if solid[number]
     ]
     assert counted(of_render) == expected
+
+
+def test_an_instancer_that_is_its_own_prototype_ends():
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.Cube.Define(stage, "/World/Cube")
+    points = UsdGeom.PointInstancer.Define(stage, "/World/Points")
+    points.CreatePrototypesRel().SetTargets(["/World", "/World/Points"])
+    points.CreateProtoIndicesAttr([0, 1])
+    points.CreatePositionsAttr([(1, 0, 0), (2, 0, 0)])
+    found = placed_objects(stage, np.eye(4))
+    assert [placed.path for placed in found][:2] == ["/World/Cube", "/World/Points[0]"]
