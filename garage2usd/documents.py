@@ -36,7 +36,7 @@ _HEADERS: dict[tuple[int, int], Callable[[io.BytesIO], tuple[tuple[int, ...], bo
 }
 
 MAX_SETTINGS_BYTES = 16 * 1024 * 1024
-"""Configurations, profiles and structures are no larger."""
+"""Configurations, profiles and structures have at most so many bytes."""
 MAX_REPORT_BYTES = 512 * 1024 * 1024
 """Reports of builds list each stall."""
 
@@ -61,7 +61,7 @@ def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -
     Raises
     ------
     ConfigError
-        If it cannot be read, is no regular file (a pipe would never end), or is too large.
+        If it cannot be read, is not a regular file (a pipe would never end), or is too large.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
@@ -178,4 +178,4 @@ def _array(data: bytes) -> NDArray[Any]:
 
 
 def _refuse(constant: str) -> NoReturn:
-    raise ValueError(f"{constant} is no number")
+    raise ValueError(f"{constant} is not a number")

@@ -166,7 +166,7 @@ def read_report(path: Path) -> GarageConfig:
     ConfigError
         If the file cannot be read, or a setting in it is not allowed by this version.
     ReportError
-        If it is no report.
+        If it is not a report.
     """
     text = read_bytes(path, field="report", max_bytes=MAX_REPORT_BYTES)
     try:

@@ -46,7 +46,7 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     height_m
         What begins higher touches no car.
     left_out
-        Prim paths of things that are thought away.
+        Prim paths of objects to leave out.
 
     Notes
     -----

@@ -145,7 +145,7 @@ class Subject:
 
     @property
     def has_whole_graph(self) -> bool:
-        """Whether nodes and edges fit together, so that what is cut off is cut off."""
+        """Whether nodes and edges fit together, so that a node without a route is a finding and not a damaged file."""
         return all(fault.rule != "lane-graph" for fault in self.faults)
 
     def portals(self, *kinds: str) -> list[int]:

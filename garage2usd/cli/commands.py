@@ -35,6 +35,6 @@ class Commands(click.Group):
 
 
 def _is_of_usd(error: Exception) -> bool:
-    """Whether USD raised it, itself or in giving out a name of a damaged stage whose bytes are no text."""
+    """Whether USD raised it, itself or in giving out a name of a damaged stage whose bytes are not text."""
     tf = sys.modules.get("pxr.Tf")
     return tf is not None and isinstance(error, (tf.ErrorException, UnicodeDecodeError))

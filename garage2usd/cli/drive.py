@@ -108,7 +108,7 @@ def _describe(proofs: "Sequence[StallProof]") -> None:
         click.echo(f"{count:6}  with {number} change{'' if number == 1 else 's'} of gear on the way in")
     for proof in proven:
         if not proof.is_full:
-            click.echo(f"{proof.stall}: only with the stalls free that are free")
+            click.echo(f"{proof.stall}: only while the stalls that are empty now stay empty")
         if proof.backs_out:
             click.echo(f"{proof.stall}: backs out along a dead-end aisle")
     for proof in proofs:

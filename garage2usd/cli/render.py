@@ -27,7 +27,7 @@ class _Size(click.ParamType[tuple[int, int]]):
             return value
         found = _SIZE.fullmatch(str(value))
         if found is None:
-            self.fail(f"{value!r} is no size as 1280x720", param, ctx)
+            self.fail(f"{value!r} is not a size such as 1280x720", param, ctx)
         return int(found[1]), int(found[2])
 
 

@@ -173,7 +173,7 @@ def config_schema() -> dict[str, Any]:
 def _config_error(error: ValidationError) -> ConfigError:
     """Turn pydantic's first finding into one line of field, value, allowed."""
     finding = error.errors(include_url=False)[0]
-    # the branches of a union are named in the location too; they are no keys of the user's
+    # the branches of a union are named in the location too; they are not keys of the user's
     known = set().union(*(model.model_fields for model in (GarageConfig, *_SECTIONS)))
     extra = finding["type"] == "extra_forbidden"
     keys = [part for part in finding["loc"] if extra or isinstance(part, int) or part in known]

@@ -27,7 +27,7 @@ def designed_settings(profile: Profile, settings: Mapping[str, Any]) -> dict[str
     profile
         What the garage is designed to.
     settings
-        The user's sections, as mappings or models; what is no section's is left to their validation.
+        The user's sections, as mappings or models; anything else is left to their validation.
 
     Notes
     -----
@@ -94,7 +94,7 @@ def _design(profile: Profile, settings: Mapping[str, Any]) -> Iterator[tuple[str
         ("site", "exits"): _exits(profile, settings, side_m, column_m, width_m),
     }
     if side_m != DEFAULT_SIDE_M and not _is_given(settings, "bay", "square_side_m"):
-        # a side that only the profile asks for is no wish for a uniform grid
+        # a side that only the profile asks for is not a wish for a uniform grid
         yield "bay", "dimensioned", _default(BayConfig, "dimensioned")
     models: dict[str, type[Settings]] = {"bay": BayConfig, "fittings": FittingsConfig, "site": SiteConfig}
     for (section, key), value in chosen.items():

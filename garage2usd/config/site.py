@@ -162,7 +162,7 @@ class BayConfig(Settings):
 
     @property
     def carriageway_setback_m(self) -> float:
-        """How far the carriageway stays from squares that are no lane: half a column and a margin."""
+        """How far the carriageway stays from squares that are not lanes: half a column and a margin."""
         return self.column_size_m / 2 + CARRIAGEWAY_MARGIN_M
 
     @property

@@ -35,7 +35,7 @@ def compartments_of(structure: Structure, clause: Area | None) -> NDArray[np.int
     Notes
     -----
     Recursive bisection: a part that is too large is cut along a line of squares into two that need as few
-    compartments as possible, hang together, and are most alike in area and least drawn out.
+    compartments as possible, are each connected, most alike in area and least elongated.
     """
     inside = structure.cells != Cell.OBSTACLE
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2

@@ -124,7 +124,7 @@ class TileGrid:
     def __init__(
         self, structure: Structure, graph: LaneGraph, bay: BayConfig, *, left_out: Collection[str] = ()
     ) -> None:
-        """Place every square of `structure` and look at what surrounds it; `left_out` names stalls that are none."""
+        """Place every square of `structure` and look at what surrounds it; `left_out` names stalls to leave out."""
         self.structure = structure
         self.setback_m = bay.carriageway_setback_m
         self.stall_places = _stall_places(graph.stall_rows, left_out)

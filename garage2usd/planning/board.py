@@ -315,7 +315,7 @@ def faults_cost(ground: Ground, board: Board) -> float:
 
 @compiled
 def mark_network(ground: Ground, board: Board, first: int) -> int:
-    """Set `near` to 1 on all lanes and portals that hang together with a lane, to 0 elsewhere; how many lanes."""
+    """Set `near` to 1 on all lanes and portals that are connected to a lane, to 0 elsewhere; returns how many lanes."""
     cells, reached, queue = board.cells, board.near, board.queue
     reached[:] = 0
     queue[0], reached[first] = first, 1

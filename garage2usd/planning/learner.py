@@ -72,7 +72,7 @@ def learn_squares(
 def _learn_once(
     ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress
 ) -> Learnt:
-    """Run all episodes in batches, between which progress is told and signals are heard."""
+    """Run all episodes in batches, between which progress is reported and signals are handled."""
     from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415 - only planning pays for it
     from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
 

@@ -21,7 +21,7 @@ _THROUGH_SHARE, _ENDS_STAY_SHARE = 0.3, 0.3
 
 @compiled
 def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> bool:
-    """Draw a move into the draft, some of them where rules are broken; False where what is drawn is no move."""
+    """Draw a move into the draft, some of them where rules are broken; False where what is drawn is not a move."""
     cells, stride = board.cells, ground.stride
     draft.size[0] = 0
     q = ground.squares[below(random, len(ground.squares))]

@@ -68,7 +68,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     opposite to its formula; the formula stands. Deviation: by default the agent has the preset ``tuned``: it sees less,
     cannot bump, goes on from what was good before and starts several times, as it finds better plans so; ``paper`` is
     the paper's agent. Deviation: the best plans are polished after learning, unless ``climb`` is false. Deviation:
-    where no episode joined all portals, shortest ways between them are the lanes. Deviation: plans are asked to
+    where no episode joined all portals, shortest paths between them are the lanes. Deviation: plans are asked to
     circulate (``circulation``): what breaks a rule costs stalls when plans are compared, and one that keeps the rules
     is taken before any that does not; the reported score has no such term. Deviation: where R and C are chosen, plans
     are compared by the floor that a stall takes.
@@ -119,7 +119,7 @@ def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed
 def anneal_alone(
     site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, starts: "Iterable[Structure]" = ()
 ) -> Plan:
-    """Plan without learning, as a control: repair, climb and anneal given lanes, or shortest ways between the portals.
+    """Plan without learning, as a control: repair, climb and anneal given lanes, or shortest paths between the portals.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def _archived(
 
 
 def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[Ranked]:
-    """Lanes with shortest ways between what is apart, and the portals; empty if there are none."""
+    """Lanes connected with each other and the portals by shortest paths; empty if there are none."""
     from garage2usd.planning.board import NO_VALUE, measure  # noqa: PLC0415
     from garage2usd.planning.polish import connect  # noqa: PLC0415
 

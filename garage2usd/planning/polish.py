@@ -17,7 +17,7 @@ _SETTLING_PASSES = 2
 
 @compiled
 def connect(ground: Ground, board: Board) -> bool:
-    """Join all lanes and portals to one network by shortest ways over free squares; False if there is none.
+    """Connect all lanes and portals by shortest paths over free squares; False if there are none.
 
     Starts at the first portal; lanes that no way reaches are taken off.
     """

@@ -55,7 +55,7 @@ class Sizes(NamedTuple):
     least_mm
         int64, shape (2, lines): the least side of lines with a vehicle door across their end.
     is_floor
-        bool, shape (padded,): squares inside the contour that are no obstacle.
+        bool, shape (padded,): squares inside the contour that are not obstacles.
     area_m2
         float64, shape (1,): floor of all those squares.
     hint

@@ -19,7 +19,7 @@ _MAX_PACKAGE_FILES = 100_000
 _LEAST_S, _OPENING_S_PER_MB, _READING_S_PER_MB = 1.5, 4.0, 60.0
 """Processor time for the root layer, and then for all that is done with the stage, by the size of the files."""
 _REASON_CHARACTERS = 300
-_NO_TEXT = "it holds bytes that are no text"
+_NO_TEXT = "it holds bytes that are not text"
 _SAID = re.compile(r"at line \d+ in file \S+ : '(.*?)'(?= Error in |$)")
 
 
@@ -29,7 +29,7 @@ def open_stage(path: Path) -> Usd.Stage:
     Raises
     ------
     StageError
-        If it is no regular file of a known kind and size, a package that USD would not read (compressed or encrypted
+        If it is not a regular file of a known kind and size, a package that USD would not read (compressed or encrypted
         entries, entries that leave it, one that stands there twice), or it or a layer that it names is damaged.
     """
     _check_file(path)
@@ -79,7 +79,7 @@ def usd_reason(error: Exception) -> str:
 
 
 def usd_text(read: Callable[[], str]) -> str:
-    """A text of USD in one line, which may repeat bytes of a file that are none."""
+    """A text of USD in one line, which may quote bytes of a file that are not text."""
     try:
         return " ".join(read().split())
     except UnicodeDecodeError:
@@ -88,13 +88,13 @@ def usd_text(read: Callable[[], str]) -> str:
 
 def _check_file(path: Path) -> None:
     if path.suffix not in STAGE_SUFFIXES:
-        raise StageError(path, f"no stage; a stage ends in {', '.join(STAGE_SUFFIXES)}")
+        raise StageError(path, f"not a stage: a stage ends in {', '.join(STAGE_SUFFIXES)}")
     try:
         status = path.stat()
     except (OSError, ValueError) as error:
         raise StageError(path, (error.strerror if isinstance(error, OSError) else None) or str(error)) from None
     if not stat.S_ISREG(status.st_mode):
-        raise StageError(path, "no regular file")
+        raise StageError(path, "not a regular file")
     if not 0 < status.st_size <= _MAX_FILE_BYTES:
         raise StageError(path, f"{status.st_size} bytes; a stage has 1 to {_MAX_FILE_BYTES}")
 
@@ -105,7 +105,7 @@ def _check_package(path: Path) -> None:
         with zipfile.ZipFile(path) as package:
             entries = package.infolist()
     except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile) as error:
-        raise StageError(path, f"no package ({error})") from None
+        raise StageError(path, f"not a package ({error})") from None
     if not 0 < len(entries) <= _MAX_PACKAGE_FILES:
         raise StageError(path, f"a package of {len(entries)} files; it may have 1 to {_MAX_PACKAGE_FILES}")
     names = set()

@@ -193,7 +193,7 @@ def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> Non
 
 
 def _simplify(tree: bpy.types.NodeTree) -> None:
-    """Take what textures press into normals away, and make each point opaque or not there: Cycles would draw lots."""
+    """Remove normal maps, and round opacity to 0 or 1, which Cycles would otherwise sample at random."""
     for node in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]:
         for link in node.inputs["Normal"].links:
             tree.links.remove(link)

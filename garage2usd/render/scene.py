@@ -91,7 +91,7 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
 
 
 def write_shapes(stage: Usd.Stage, scene: Scene, path: Path) -> None:
-    """Write a layer over a stage in which each shape is no instance and carries its number as a custom property."""
+    """Write a layer over a stage in which no shape is an instance and each carries its number as a custom property."""
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
     over = Usd.Stage.Open(layer)

@@ -39,7 +39,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
 
 
 def route_of(graph: LaneGraph, stall: Stall) -> Route:
-    """The shortest ways from any entrance to a stall and from it to any exit, through no other portal."""
+    """The shortest routes from any entrance to a stall and from it to any exit, not through another portal."""
     squares = graph.graph.nodes
     lanes = [square for square in squares if graph.kind(square) not in _PORTALS]
 

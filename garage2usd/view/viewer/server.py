@@ -188,7 +188,7 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         """Keep quiet."""
 
     def handle(self) -> None:
-        """Answer until the other side goes, which is no error."""
+        """Answer until the other side goes, which is not an error."""
         try:
             super().handle()
         except (ConnectionError, TimeoutError):

@@ -63,9 +63,9 @@ def test_what_is_no_stage_is_refused_with_its_reason(tmp_path):
     assert reason(tmp_path / "text.usda").startswith("USD cannot read it (")
     assert "/opt/" not in reason(tmp_path / "text.usda")
     assert reason(tmp_path / "empty.usdc").startswith("0 bytes")
-    assert reason(tmp_path / "folder.usdz") == reason(tmp_path / "pipe.usda") == "no regular file"
+    assert reason(tmp_path / "folder.usdz") == reason(tmp_path / "pipe.usda") == "not a regular file"
     assert "symbolic links" in reason(tmp_path / "circle.usda")
-    assert reason(tmp_path / "picture.png").startswith("no stage; a stage ends in .usd")
+    assert reason(tmp_path / "picture.png").startswith("not a stage: a stage ends in .usd")
     assert reason(tmp_path / "missing.usda") == "No such file or directory"
 
 

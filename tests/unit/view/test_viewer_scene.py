@@ -322,7 +322,7 @@ def test_a_component_is_one_object_with_its_lights_and_colliders(tmp_path, read)
     ("name", "text", "said"),
     [
         ("missing.usda", None, "No such file"),
-        ("stage.obj", "o box", "no stage"),
+        ("stage.obj", "o box", "not a stage"),
         ("broken.usda", "#usda 1.0\ndef {", "USD cannot read it"),
         ("broken.usdc", "PXR-USDC?", "USD cannot read it"),
         ("empty.usda", '#usda 1.0\ndef Xform "World" {}', "nothing in it can be drawn"),
