@@ -1,9 +1,9 @@
 """The canonical random process of a structure: the tape of an agent's actions, and its rank.
 
-A seed is not a random process that a structure determines: many seeds give one structure. What corresponds one to one is
-the structure's lanes and the actions of an agent that steps from the first entrance onto the lanes, visits them depth
-first in the order up, down, left, right, steps back where nothing is left, and stays: its tape. The tape is a number in
-base 5.
+A seed is not a random process that a structure determines: many seeds give one structure. What corresponds one to one
+are the structure's lanes and the actions of an agent that steps from the first entrance onto the lanes, visits them
+depth first in the order up, down, left, right, steps back where nothing is left, and stays: its tape. The tape is a
+number in base 5.
 """
 
 from collections.abc import Iterator

@@ -323,7 +323,7 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
         ("a.json", '{"config": {"sed": 1}, "S": ["E=X"], "R": 8.1, "C": 8.1}', "sed"),
         ("a.json", '{"S": ["E=X"], "R": NaN, "C": 8.1}', "NaN"),
         ("a.usda", "#usda 2.0", "USD cannot read it"),
-        ("a.usdz", "PK", "no package"),
+        ("a.usdz", "PK", "not a package"),
     ],
 )
 def test_what_is_no_plan_is_refused_in_one_line(name, text, said, tmp_path):

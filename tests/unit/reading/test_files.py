@@ -81,7 +81,7 @@ def test_packages_store_their_files_once_and_inside(tmp_path):
         twice = packed(tmp_path / "twice.usdz", [("root.usda", layer), ("root.usda", layer)])
     assert "twice" in reason(twice)
     (tmp_path / "none.usdz").write_bytes(b"PK")
-    assert reason(tmp_path / "none.usdz").startswith("no package")
+    assert reason(tmp_path / "none.usdz").startswith("not a package")
 
 
 def test_layers_in_circles_open(tmp_path):
@@ -124,7 +124,7 @@ def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
 
 def test_what_usd_says_is_one_line_of_text_whatever_it_repeats():
     assert usd_text(lambda: " two\n lines ") == "two lines"
-    assert usd_text(b"\x80".decode) == "it holds bytes that are no text"
+    assert usd_text(b"\x80".decode) == "it holds bytes that are not text"
 
 
 def test_a_name_that_is_no_text_ends_a_command_in_one_line(tmp_path):
@@ -147,4 +147,4 @@ def test_a_name_that_is_no_text_ends_a_command_in_one_line(tmp_path):
 
     ended = CliRunner().invoke(program, ["names"])
     assert (ended.exit_code, ended.stdout) == (1, "")
-    assert ended.stderr == "Error: USD cannot read the stage (it holds bytes that are no text)\n"
+    assert ended.stderr == "Error: USD cannot read the stage (it holds bytes that are not text)\n"
