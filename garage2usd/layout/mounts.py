@@ -148,19 +148,25 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
     served = [np.array(found) for found in KDTree(places).query_ball_point(at, reach_m, p=mounted.norm)]
     within = beside.query_ball_point(places, reach_m, p=mounted.norm, return_sorted=True)
     needed = np.full(len(places), mounted.count)
+    left, right, depth = _extent_m(mounted)
+    foot = rectangle(left, _TOUCH_M, right, depth)
+    grounds = np.array([_ground(foot, face.place, face.yaw_rad) for face in faces], dtype=object)
+    by_ground = shapely.STRtree(grounds)
     chosen: dict[int, _Face] = {}
     near: set[int] = set()
+    covered: set[int] = set()
 
     def worth(face: int) -> tuple[bool, bool, int]:
         return not faces[face].is_on_lane, face not in near, int((needed[served[face]] > 0).sum())
 
     for place in range(len(places)):
         while needed[place] > 0:
-            open_faces = [face for face in within[place] if face not in chosen]
+            open_faces = [face for face in within[place] if face not in covered]
             if not open_faces:
                 break
             best = max(open_faces, key=worth)
             chosen[best] = faces[best]
+            covered.update(by_ground.query(grounds[best], predicate="intersects").tolist())
             near.update(beside.query_ball_point(at[best], _APART * reach_m))
             needed[served[best]] -= 1
     return list(chosen.values())

@@ -151,7 +151,7 @@ def sides_mm(sides_m: ArrayLike, *, field: str, shape: tuple[int, ...], axis: in
         given = np.full(shape[axis], float(given))
     if given.shape != (shape[axis],):
         raise ConfigError(field, f"shape {given.shape}", f"a number, shape ({shape[axis]},) or shape {tuple(shape)}")
-    if not ((given * _MM_PER_M >= _MIN_SIDE_MM) & (given * _MM_PER_M <= _MAX_SIDE_MM)).all():
+    if not ((given >= _MIN_SIDE_MM / _MM_PER_M) & (given <= _MAX_SIDE_MM / _MM_PER_M)).all():
         raise ConfigError(field, given.tolist(), "sides of 1 to 50 m")
     whole: NDArray[np.int64] = np.rint(given * _MM_PER_M).astype(np.int64)
     return whole

@@ -21,7 +21,8 @@ import garage2usd
 from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.profiles import read_profile
-from support.sample_files import REPOSITORY
+
+REPOSITORY = Path(__file__).parents[2]  # it is a program too, which finds no other helper
 
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]

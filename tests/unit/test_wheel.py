@@ -75,7 +75,11 @@ def test_commands_run_where_there_is_no_checkout(installed, tmp_path):
 
 def test_the_readme_can_be_followed_with_the_wheel_alone(installed, tmp_path):
     run = installed(
-        sys.executable, str(REPOSITORY / "tests" / "documentation.py"), str(README), str(tmp_path), folder=tmp_path
+        sys.executable,
+        str(REPOSITORY / "tests" / "support" / "documentation.py"),
+        str(README),
+        str(tmp_path),
+        folder=tmp_path,
     )
     assert run.returncode == 0, run.stderr
     assert Path(run.stdout.splitlines()[-1]).is_relative_to(installed.packages)

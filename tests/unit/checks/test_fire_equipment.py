@@ -18,7 +18,7 @@ CN, US = load_profile("cn-jgj100"), load_profile("us-ada")
 @pytest.fixture(scope="module")
 def subject():
     garage = generate(GarageConfig(**SETTINGS))
-    return layout_subject(garage.layout, garage.graph, garage.config, source="layout", kind="plan")
+    return layout_subject(garage.layout, garage.graph, source="layout", kind="plan")
 
 
 LABELS = {"hydrant_cabinet", "fire_extinguisher"}
