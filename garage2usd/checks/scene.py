@@ -1,6 +1,8 @@
 """All objects and lights of a stage in metres, Y up, as the rules look at them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +11,7 @@ from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
 from garage2usd.errors import StageError
+from garage2usd.reading.objects import PlacedObject, once_for_each_look
 from garage2usd.reading.values import READ_AT, metres_y_up, number_of
 from garage2usd.reading.walk import placed_objects
 
@@ -59,24 +62,35 @@ def read_scene(stage: Usd.Stage) -> Scene:
     """
     things: list[Thing] = []
     lights: list[RectLight] = []
-    shapes: dict[str, Shape | None] = {}
+    shape_of = cache(_shape)
+    look_of = once_for_each_look(lambda placed: _look(placed, shape_of))
     for placed in placed_objects(stage, metres_y_up(stage)):
-        bodies = []
-        for part in placed.parts:
-            matrix = part.matrix @ placed.matrix
-            if part.prim.IsA(UsdLux.RectLight):
-                lights.append(_light(UsdLux.RectLight(part.prim), matrix))
-            elif part.prim.IsA(UsdGeom.Gprim):
-                source = str(part.prim.GetPath())
-                if source not in shapes:
-                    shapes[source] = _shape(part.prim)
-                shape = shapes[source]
-                if shape is not None:
-                    bodies.append(Body(shape, matrix, part.prim.HasAPI(UsdPhysics.CollisionAPI)))
-        if bodies:
+        look = look_of(placed)
+        lights += [_light(light, matrix @ placed.matrix) for light, matrix in look.lights]
+        if look.bodies:
+            bodies = (Body(shape, matrix @ placed.matrix, touches) for shape, matrix, touches in look.bodies)
             things.append(Thing(placed.path, placed.label, tuple(bodies)))
     _check_reach(stage, things, lights)
     return Scene(tuple(things), tuple(lights))
+
+
+class _Look(NamedTuple):
+    """What an object consists of in its own space."""
+
+    bodies: list[Body]
+    lights: list[tuple[UsdLux.RectLight, Array]]
+
+
+def _look(placed: PlacedObject, shape_of: Callable[[Usd.Prim], Shape | None]) -> _Look:
+    look = _Look([], [])
+    for prim, _, matrix in placed.parts:
+        if prim.IsA(UsdLux.RectLight):
+            look.lights.append((UsdLux.RectLight(prim), matrix))
+        elif prim.IsA(UsdGeom.Gprim):
+            shape = shape_of(prim)
+            if shape is not None:
+                look.bodies.append(Body(shape, matrix, prim.HasAPI(UsdPhysics.CollisionAPI)))
+    return look
 
 
 def _check_reach(stage: Usd.Stage, things: list[Thing], lights: list[RectLight]) -> None:

@@ -15,7 +15,7 @@ from garage2usd.layout.lighting import direct_lux, lane_points_of
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.ground import Point
-from garage2usd.reading.lanes import Lanes, read_lanes
+from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
@@ -55,7 +55,7 @@ def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
         compartments=_compartments(stage, structure),
         lane_lux=lane_lux,
         stall_lux=stall_lux,
-        faults=tuple(ground.faults),
+        faults=(*ground.faults, *moved_stalls(stage, ground)),
         stage=stage,
     )
 

@@ -5,7 +5,6 @@ import shapely
 
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.layout import Layout, Placement
-from garage2usd.layout.placement import to_world
 
 __all__ = ["fixed_objects", "object_name", "parked_cars"]
 
@@ -40,12 +39,7 @@ def _named_shapes(placements: tuple[Placement, ...] | list[Placement]) -> Obstac
     return Obstacles.of(
         (
             object_name(place),
-            shapely.MultiPolygon(
-                [
-                    shapely.Polygon([to_world(corner, place.position_m[::2], place.yaw_rad) for corner in outline])
-                    for outline in place.spec.outlines()
-                ]
-            ),
+            shapely.MultiPolygon([shapely.Polygon(outline) for outline in place.outlines()]),
         )
         for place in placements
     )

@@ -37,13 +37,17 @@ _TOUCH_M = 1e-3
 
 
 class _Face(NamedTuple):
-    """A place on a column or a wall: the foot of its middle, the way that it looks, its width, its name."""
+    """A place on a column or a wall: the foot of its middle, the way that it looks, its width, its name.
+
+    Of a free one also whether it is beside a lane, and the ground that what hangs there takes.
+    """
 
     place: Point
     yaw_rad: float
     width_m: float
     name: str
     is_on_lane: bool = False
+    foot: shapely.Polygon | None = None
 
 
 def mounted_objects(
@@ -76,7 +80,7 @@ def mounted_objects(
     driven = [_carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
     used = [shapely.Polygon(stall.corners_m()).buffer(-_LINE_M, join_style="mitre") for stall in stalls]
     used += [_ground(_core_and_landing(core), core.centre_m, edge_yaw_rad(core.edge)) for core in cores]
-    used += [outline for place in (*pillars, *walls, *standing) for outline in _outlines(place)]
+    used += _outlines((*pillars, *walls, *standing))
     places = np.array([stall.centre_m for stall in stalls] + [_middle(tile) for tile in grid if tile.cell is Cell.LANE])
     placed: list[Placement] = []
     for mounted in MOUNTED:
@@ -85,7 +89,7 @@ def mounted_objects(
             clause = getattr(config.standard, mounted.clause)
             reach_m = (clause.amount if clause else mounted.reach_m) - _SLACK_M
             hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, free, places)]
-            used += [outline for place in hung for outline in _outlines(place)]
+            used += _outlines(hung)
             placed += hung
     return placed
 
@@ -129,14 +133,20 @@ def _free_faces(
     wide = [face for face in faces if face.width_m >= right - left]
     foot = rectangle(left, _TOUCH_M, right, depth)
     before = rectangle(left, _TOUCH_M, right, depth + _APPROACH_M)
-    taken: set[int] = set()
-    for outline, tree in ((foot, driven), (before, used)):
-        grounds = np.array([_ground(outline, face.place, face.yaw_rad) for face in wide], dtype=object)
-        taken.update(tree.query(grounds, predicate="intersects")[0].tolist())
-    free = [face for index, face in enumerate(wide) if index not in taken]
-    grounds = np.array([_ground(before, face.place, face.yaw_rad) for face in free], dtype=object)
-    on_lanes = set(driven.query(grounds, predicate="intersects")[0].tolist())
-    return [face._replace(is_on_lane=index in on_lanes) for index, face in enumerate(free)]
+    feet, approaches = (
+        np.array([_ground(outline, face.place, face.yaw_rad) for face in wide], dtype=object)
+        for outline in (foot, before)
+    )
+
+    def met(grounds: NDArray[np.object_], tree: shapely.STRtree) -> set[int]:
+        return set(tree.query(grounds, predicate="intersects")[0].tolist())
+
+    taken, on_lanes = met(feet, driven) | met(approaches, used), met(approaches, driven)
+    return [
+        face._replace(is_on_lane=index in on_lanes, foot=feet[index])
+        for index, face in enumerate(wide)
+        if index not in taken
+    ]
 
 
 def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: NDArray[np.float64]) -> list[_Face]:
@@ -148,10 +158,7 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
     served = [np.array(found) for found in KDTree(places).query_ball_point(at, reach_m, p=mounted.norm)]
     within = beside.query_ball_point(places, reach_m, p=mounted.norm, return_sorted=True)
     needed = np.full(len(places), mounted.count)
-    left, right, depth = _extent_m(mounted)
-    foot = rectangle(left, _TOUCH_M, right, depth)
-    grounds = np.array([_ground(foot, face.place, face.yaw_rad) for face in faces], dtype=object)
-    by_ground = shapely.STRtree(grounds)
+    feet = shapely.STRtree([face.foot for face in faces])
     chosen: dict[int, _Face] = {}
     near: set[int] = set()
     covered: set[int] = set()
@@ -166,7 +173,7 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
                 break
             best = max(open_faces, key=worth)
             chosen[best] = faces[best]
-            covered.update(by_ground.query(grounds[best], predicate="intersects").tolist())
+            covered.update(feet.query(faces[best].foot, predicate="intersects").tolist())
             near.update(beside.query_ball_point(at[best], _APART * reach_m))
             needed[served[best]] -= 1
     return list(chosen.values())
@@ -189,9 +196,8 @@ def _core_and_landing(core: Core) -> Polygon:
     return rectangle(-x, -z, x, z + core.recess_m)
 
 
-def _outlines(place: Placement) -> list[shapely.Polygon]:
-    origin = (place.position_m[0], place.position_m[2])
-    return [_ground(outline, origin, place.yaw_rad) for outline in place.spec.outlines()]
+def _outlines(placements: Iterable[Placement]) -> list[shapely.Polygon]:
+    return [shapely.Polygon(outline) for place in placements for outline in place.outlines()]
 
 
 def _ground(outline: Polygon, origin: Point, yaw_rad: float) -> shapely.Polygon:

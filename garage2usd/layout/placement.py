@@ -63,6 +63,11 @@ class Placement:
         """Name of its kind of object, one of `garage2usd.objects.KINDS`."""
         return self.spec.kind.name
 
+    def outlines(self) -> list[tuple[tuple[float, float], ...]]:
+        """Convex outlines (x, z) in the garage of what a car could touch of it; empty where a car touches nothing."""
+        origin = self.position_m[0], self.position_m[2]
+        return [tuple(to_world(corner, origin, self.yaw_rad) for corner in outline) for outline in self.spec.outlines()]
+
 
 @dataclass(frozen=True, slots=True)
 class Stall:

@@ -177,11 +177,10 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64]) -> None:
     variant, side, *_ = drawn[_LANE_SLOTS - 1].tolist()
     kind = int(variant * _WEAR_VARIANTS) if mark is StainMark.WEAR_STRAIGHT else 0
     if mark is StainMark.WEAR_STRAIGHT and side < 1 / 2:
-        yaw = edge_yaw_rad(_OPPOSITE[towards])
+        yaw = edge_yaw_rad(towards.opposite)
     floor.put("Wear", StainSpec(mark, kind, width, depth), (0.0, 0.0), yaw, _WEAR_LIFT_M)
 
 
-_OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
 _RIGHT_OF = {Edge.DOWN: Edge.RIGHT, Edge.RIGHT: Edge.UP, Edge.UP: Edge.LEFT, Edge.LEFT: Edge.DOWN}
 """The edge that lies on +X where the first one lies on +Z."""
 
@@ -192,7 +191,7 @@ def _way(ways: list[Edge]) -> tuple[StainMark, Edge]:
     if not missing:
         return StainMark.WEAR_CROSS, Edge.DOWN
     if len(missing) == 1:
-        return StainMark.WEAR_T, _OPPOSITE[missing[0]]
+        return StainMark.WEAR_T, missing[0].opposite
     bends = [edge for edge in ways if _RIGHT_OF[edge] in ways]
     return (StainMark.WEAR_BEND, bends[0]) if bends else (StainMark.WEAR_STRAIGHT, ways[0])
 
@@ -254,7 +253,7 @@ def _lies_within(tile: Tile, box: Box, setback_m: float, mouth: Edge) -> bool:
         Edge.RIGHT: tile.half_x_m - box[2],
         Edge.DOWN: tile.half_z_m - box[3],
     }
-    return all(room >= (0.0 if edge is _OPPOSITE[mouth] else setback_m) for edge, room in limits.items())
+    return all(room >= (0.0 if edge is mouth.opposite else setback_m) for edge, room in limits.items())
 
 
 def _stain(mark: StainMark, variant: float) -> StainSpec:

@@ -41,7 +41,6 @@ __all__ = [
 ]
 
 CEILING_THICKNESS_M = 0.25
-_OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
 _SIDES = {Edge.UP: (Edge.LEFT, Edge.RIGHT), Edge.LEFT: (Edge.UP, Edge.DOWN)}
 _SIDES |= {Edge.DOWN: _SIDES[Edge.UP], Edge.RIGHT: _SIDES[Edge.LEFT]}
 
@@ -129,7 +128,7 @@ class TileGrid:
         self.setback_m = bay.carriageway_setback_m
         self.stall_places = _stall_places(graph.stall_rows, left_out)
         mouths = {
-            (*neighbour(square, place.row.edge), _OPPOSITE[place.row.edge])
+            (*neighbour(square, place.row.edge), place.row.edge.opposite)
             for square, places in self.stall_places.items()
             for place in places
         }
@@ -298,7 +297,7 @@ def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
 def _portal_markings(tile: Tile) -> tuple[Marking, ...]:
     """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
     inwards = lane_edges(tile)[0]
-    return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else _OPPOSITE[inwards]),)
+    return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else inwards.opposite),)
 
 
 def neighbour(square: Square, edge: Edge) -> Square:

@@ -13,7 +13,7 @@ from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, Point, StallOut
 from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
 from garage2usd.structure.lane_graph import LaneKind
 
-__all__ = ["Lanes", "read_lanes"]
+__all__ = ["Lanes", "moved_stalls", "read_lanes"]
 
 _GRAPH = "LaneGraph"
 _CORNERS = 4
@@ -35,6 +35,8 @@ class Lanes:
         The lane graph, and the stalls that it serves.
     squares
         (row, col) of each node.
+    listed
+        Ids of all stalls, also of those that are left out.
     faults
         What contradicts itself; the curves concerned are left out.
     """
@@ -43,6 +45,7 @@ class Lanes:
     edges: list[LaneEdge] = field(default_factory=list)
     stalls: list[StallOutline] = field(default_factory=list)
     squares: list[tuple[int, int]] = field(default_factory=list)
+    listed: set[str] = field(default_factory=set)
     faults: list[Fault] = field(default_factory=list)
 
 
@@ -66,8 +69,37 @@ def read_lanes(stage: Usd.Stage) -> Lanes:
     _read_nodes(curves["Nodes"], lanes)
     _read_edges(curves["Edges"], lanes)
     _read_stalls(curves["Stalls"], lanes)
-    _compare_prims(stage, lanes, listed=set(map(str, curves["Stalls"].values("garage:stall:id"))))
+    lanes.listed.update(map(str, curves["Stalls"].values("garage:stall:id")))
     return lanes
+
+
+def moved_stalls(stage: Usd.Stage, lanes: Lanes) -> list[Fault]:
+    """Find prims of stalls that were moved without their outlines, or the other way round.
+
+    Parameters
+    ----------
+    stage
+        The stage; every prim of it is looked at.
+    lanes
+        What `read_lanes` found in it.
+    """
+    if not lanes.listed and not lanes.nodes:
+        return []
+    outlines = {stall.name: stall for stall in lanes.stalls}
+    to_metres, cache = metres_y_up(stage), UsdGeom.XformCache(READ_AT)
+    faults = []
+    for prim in stage.Traverse():
+        attribute = prim.GetAttribute("garage:stall:id")
+        name = attribute.Get(READ_AT) if attribute else None
+        if not isinstance(name, str):
+            continue
+        place = _point((np.array(cache.GetLocalToWorldTransform(prim)) @ to_metres)[3, :3])
+        if name not in lanes.listed:
+            faults.append(Fault("stall-outline", str(prim.GetPath()), place, "the lane graph has no such stall"))
+        elif name in outlines and math.dist(place, outlines[name].centre) > _MOVED_M:
+            message = "the stall's prim does not lie where the lane graph has its outline"
+            faults.append(Fault("stall-outline", str(prim.GetPath()), place, message))
+    return faults
 
 
 def _graph(stage: Usd.Stage, root: Usd.Prim) -> Usd.Prim | None:
@@ -164,23 +196,6 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             facts = tuple((fact, value if isinstance(value, int) else str(value)) for fact, value in said)
             outline = (left, right, rear_right, rear_left)
             lanes.stalls.append(StallOutline(place, outline, StallUse(use), int(access), facts))
-
-
-def _compare_prims(stage: Usd.Stage, lanes: Lanes, *, listed: set[str]) -> None:
-    """Find stalls that were moved without their outlines, or the other way round."""
-    outlines = {stall.name: stall for stall in lanes.stalls}
-    to_metres, cache = metres_y_up(stage), UsdGeom.XformCache(READ_AT)
-    for prim in stage.Traverse():
-        attribute = prim.GetAttribute("garage:stall:id")
-        name = attribute.Get(READ_AT) if attribute else None
-        if not isinstance(name, str):
-            continue
-        place = _point((np.array(cache.GetLocalToWorldTransform(prim)) @ to_metres)[3, :3])
-        if name not in listed:
-            lanes.faults.append(Fault("stall-outline", str(prim.GetPath()), place, "the lane graph has no such stall"))
-        elif name in outlines and math.dist(place, outlines[name].centre) > _MOVED_M:
-            message = "the stall's prim does not lie where the lane graph has its outline"
-            lanes.faults.append(Fault("stall-outline", str(prim.GetPath()), place, message))
 
 
 def _incomplete(curves: _Curves, lanes: Lanes, names: str) -> None:

@@ -1,14 +1,16 @@
 """The objects of a composed stage: what each is, where it stands, and which prims draw it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-__all__ = ["Matrix", "Part", "PlacedObject"]
+__all__ = ["Matrix", "Part", "PlacedObject", "once_for_each_look"]
+
+_Read = TypeVar("_Read")
 
 Matrix = NDArray[np.float64]
 """A transform for points as rows; float64, shape (4, 4)."""
@@ -58,3 +60,15 @@ class PlacedObject:
     square: str
     matrix: Matrix
     parts: Sequence[Part] = field(default_factory=list)
+
+
+def once_for_each_look(read: Callable[[PlacedObject], _Read]) -> Callable[[PlacedObject], _Read]:
+    """The same function, called for the first of all objects that share their parts; the others get its result."""
+    known: dict[int, tuple[Sequence[Part], _Read]] = {}  # the parts are held, so that none takes another's id
+
+    def remembered(placed: PlacedObject) -> _Read:
+        if id(placed.parts) not in known:
+            known[id(placed.parts)] = placed.parts, read(placed)
+        return known[id(placed.parts)][1]
+
+    return remembered

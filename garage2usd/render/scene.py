@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
+from garage2usd.reading.objects import Part, PlacedObject, once_for_each_look
 from garage2usd.reading.walk import placed_objects
 
 __all__ = ["SHAPE_PROPERTY", "Scene", "read_scene", "write_shapes"]
@@ -68,7 +69,10 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
     materials: set[Sdf.Path] = set()
     domes: list[Sdf.Path] = []
     drawn: list[tuple[int, int, NDArray[np.float64]]] = []
-    for placed in placed_objects(stage, np.diag([metres, metres, metres, 1.0])):
+
+    def look_of(placed: PlacedObject) -> list[tuple[int, Part]]:
+        """The parts that stand somewhere, each with the number of its shape."""
+        look = []
         for part in placed.parts:
             twin = Sdf.Path(placed.twin + part.path)
             if any(part.prim.IsA(dome) for dome in _DOMES):
@@ -78,6 +82,12 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
             if number == len(shapes):
                 shapes.append(twin)
                 materials.update(_materials(stage.GetPrimAtPath(twin)))
+            look.append((number, part))
+        return look
+
+    remembered = once_for_each_look(look_of)
+    for placed in placed_objects(stage, np.diag([metres, metres, metres, 1.0])):
+        for number, part in remembered(placed):
             drawn.append((number, _owner(placed.path + part.path, ids), (part.matrix @ placed.matrix).T))
     shape, instance, to_world = zip(*drawn, strict=True) if drawn else ((), (), ())
     return Scene(

@@ -7,8 +7,6 @@ from garage2usd.structure.stalls import Edge
 
 __all__ = ["door_edges"]
 
-_OPPOSITE = {Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}
-
 
 def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
     """The edge with the door of each portal (row, col) that has an edge on the outside.
@@ -25,7 +23,7 @@ def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
     doors = {}
     for row, col in np.argwhere(cells >= Cell.ENTRANCE).tolist():
         outer = [edge for edge in Edge if outside[beyond(row, col, edge)]]
-        opposite = [edge for edge in outer if lane[beyond(row, col, _OPPOSITE[edge])]]
+        opposite = [edge for edge in outer if lane[beyond(row, col, edge.opposite)]]
         if outer:
             doors[row, col] = (opposite or outer)[0]
     return doors

@@ -95,9 +95,8 @@ class LaneGraph:
     @cached_property
     def middles_m(self) -> NDArray[np.float64]:
         """(x, z) of the middle of each node's square; float64, shape (nodes, 2)."""
-        x, z = ((edges[:-1] + edges[1:]) / 2 for edges in (self.structure.column_edges_m, self.structure.row_edges_m))
-        rows, cols = self.squares.T
-        return np.stack([x[cols], z[rows]], axis=1)
+        nodes = (self.graph.nodes[square] for square in self.number_of)
+        return np.array([(node["x_m"], node["z_m"]) for node in nodes], dtype=np.float64).reshape(-1, 2)
 
     @cached_property
     def sides_m(self) -> NDArray[np.float64]:

@@ -26,6 +26,11 @@ class Edge(IntEnum):
     LEFT = 2
     RIGHT = 3
 
+    @property
+    def opposite(self) -> "Edge":
+        """The edge across the square."""
+        return Edge(self ^ 1)
+
 
 @dataclass(frozen=True, eq=False)
 class CapacityTable:

@@ -70,7 +70,7 @@ def test_nothing_hangs_where_cars_drive_or_park_or_people_leave(width_m, sides, 
     others = shapely.union_all([footprint(place) for place in solid])
     inside = shapely.union_all([footprint(place) for place in layout.of_kind("ceiling")])
     faces = shapely.union_all([footprint(place).boundary for place in solid if place.kind in {"column", "wall"}])
-    grounds = [mounts._outlines(place)[0] for place in hung]
+    grounds = [shapely.Polygon(place.outlines()[0]) for place in hung]
     for ground in grounds:
         assert ground.intersection(ways).area < 1e-6
         assert ground.intersection(stalls).area < 1e-6

@@ -1,13 +1,10 @@
 """What the objects of a stage look like: every mesh, surface and shape once."""
 
 from collections import Counter
-from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
 from pxr import Usd, UsdShade
 
-from garage2usd.reading.objects import Part
+from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
 from garage2usd.reading.values import READ_AT
 from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
@@ -17,8 +14,6 @@ from garage2usd.view.viewer.scene import UNLABELLED, Collider, Light, Placed, Sh
 from garage2usd.view.viewer.surfaces import PLAIN, Surface, surface_of
 
 __all__ = ["Looks"]
-
-Matrix = NDArray[np.float64]
 
 
 class Looks:
@@ -41,32 +36,25 @@ class Looks:
         self._mesh_of: dict[bytes, int] = {}
         self._triangles_of: dict[tuple[object, ...], Triangles | None] = {}
         self._shape_of: dict[tuple[object, ...], int] = {}
-        self._shape_of_parts: dict[int, tuple[Sequence[Part], tuple[int, int] | None]] = {}
         self._palette_of: dict[tuple[int, ...], int] = {}
         self._surface_of: dict[Surface, int] = {}
         self._surface_of_material: dict[str, int] = {}
 
     def objects(self, stage: Usd.Stage, to_metres: Matrix) -> list[Placed]:
         """Every object of a stage that can be drawn; `to_metres` leads from the stage's space to metres, Y up."""
-        found = []
+        found, numbers_of = [], once_for_each_look(self._shape)
         for placed in placed_objects(stage, to_metres):
-            numbers = self._numbers_of(placed.parts)
+            numbers = numbers_of(placed)
             if numbers is not None:
                 found.append(Placed(placed.path, placed.label or UNLABELLED, placed.square, *numbers, placed.matrix))
         return found
 
-    def _numbers_of(self, parts: Sequence[Part]) -> tuple[int, int] | None:
-        """Numbers of the shape and the palette of an object's parts; None where nothing of it can be drawn."""
-        key = id(parts)  # instances of one prototype share their parts
-        if key not in self._shape_of_parts:
-            self._shape_of_parts[key] = parts, self._shape(parts)
-        return self._shape_of_parts[key][1]
-
-    def _shape(self, parts: Sequence[Part]) -> tuple[int, int] | None:
+    def _shape(self, placed: PlacedObject) -> tuple[int, int] | None:
+        """Numbers of the shape and the palette of an object; None where nothing of it can be drawn."""
         meshes: list[tuple[int, Matrix, int]] = []  # mesh, place, surface
         colliders: list[tuple[int, str, Matrix]] = []
         lights: list[Light] = []
-        for part in parts:
+        for part in placed.parts:
             kind = part.prim.GetTypeName()
             if kind in DRAWN_TYPES:
                 approximation = collider_of(part.prim)
