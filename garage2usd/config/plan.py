@@ -118,8 +118,8 @@ _PRESETS = {
         starts=1,
     ),
     "tuned": SarsaParameters(
-        alpha=0.5,
-        gamma=0.7,
+        alpha=0.1,
+        gamma=0.9,
         epsilon_start=1.0,
         epsilon_min=0.05,
         epsilon_decay=0.997,

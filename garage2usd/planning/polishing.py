@@ -48,7 +48,7 @@ _ANNEALED, _ANNEALED_MIDDLE = (6, 6_000_000, (3.0, 0.5)), (6, 48_000_000, (2.0, 
 
 # annealing under rules: how many runs, more while none keeps the rules, and how many moves in each
 _LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 6, 3, 10
-_LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 350, (160_000, 450_000), 4
+_LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 350, (160_000, 400_000), 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), ((8.0, 40.0, 8.0, 30.0), (4.0, 40.0, 5.0, 20.0))
 """Heats, and prices of faults, of which the runs take turns: which end better differs from site to site."""
 

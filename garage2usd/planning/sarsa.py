@@ -86,16 +86,10 @@ def _row(memory: Memory, key: np.uint64) -> int:
 
 @compiled
 def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
-    """Hash of the state S_t = (D, M, A_{t-1}).
-
-    Notes
-    -----
-    Deviation: the last action and the square at the upper right of M enter the hash in the same bits, so that states
-    that differ in both may share their values, which the plans of a seed depend on.
-    """
+    """Hash of the state S_t = (D, M, A_{t-1})."""
     cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
     prime = np.uint64(0x9E3779B97F4A7C15)
-    key = np.uint64(previous + 1)
+    key = np.uint64(previous + 1) << np.uint64(32)  # above the squares of any row of M
     packed = np.uint64(0)
     for row in range(-radius, radius + 1):
         first = square + row * stride - radius

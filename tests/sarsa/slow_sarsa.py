@@ -87,7 +87,7 @@ class SlowSarsa:
         earned = float(stalls(process, state))
         previous, prize = None, 0.0  # the pair (S_t, A_t) that waits for q(S_{t+1}, A_{t+1}), and R_{t+1}
         while len(tape) < process.horizon and not terminal(process, state):
-            seen = table_key(observe(process, state))
+            seen = observe(process, state)
             action = self._choose(q[seen], actions(process, state))
             if previous:
                 self._learn(previous, prize + p.gamma * q[seen][action])
@@ -171,14 +171,6 @@ class SlowSarsa:
         self.epsilon = max(self.epsilon * p.epsilon_decay, p.epsilon_min)
         if self.unchanged >= p.patience_episodes:
             self.epsilon, self.unchanged = p.epsilon_refresh, 0
-
-
-def table_key(observation):
-    """What the compiled table tells states apart by: see the deviation of `garage2usd.planning.sarsa`."""
-    distances, window, last_action = observation
-    corner = round(len(window) ** 0.5) - 1
-    mixed = (last_action + 1) ^ (window[corner] + 1)
-    return distances, window[:corner], mixed, window[corner + 1 :]
 
 
 def faults(process, plan, structure):
