@@ -231,4 +231,4 @@ def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
 def _foot_exits(grid: TileGrid, cores: Iterable[Core]) -> list[Point]:
     """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
     exits = (grid.tiles[square] for square in grid.structure.where(Cell.EXIT)[:1])
-    return [core.door_m for core in cores] or [(tile.x_m, tile.z_m) for tile in exits]
+    return [core.door_m for core in cores] or [tile.middle_m for tile in exits]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.layout.clearance import check_clear_width
-from garage2usd.layout.placement import Placement, edge_yaw_rad
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.portal import PortalSpec
@@ -79,8 +79,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
             (down, right), *_ = np.argwhere(around).tolist()
             x = float(structure.column_edges_m[col]) + (0.5 - right) * thickness
             z = float(structure.row_edges_m[row]) + (0.5 - down) * thickness
-            name = f"Post_r{row:02d}_c{col:02d}"
-            walls.append(Placement(name, post, (round(x, 6), 0.0, round(z, 6))))
+            walls.append(placed(f"Post_r{row:02d}_c{col:02d}", post, (x, z)))
     return walls
 
 
@@ -106,6 +105,5 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
     # the inner face looks back over the edge into the square
-    yaw = edge_yaw_rad({Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}[edge])
     name = f"{'Portal' if has_door else 'Wall'}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
-    return Placement(name, spec, (round(x, 6), 0.0, round(z, 6)), yaw)
+    return placed(name, spec, (x, z), yaw_rad=edge_yaw_rad(edge.opposite))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout.placement import Placement, edge_yaw_rad, stall_name, to_world
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed, stall_name, to_world
 from garage2usd.layout.tiles import Tile, neighbour
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Box, Point
@@ -129,8 +129,7 @@ def core_placements(structure: Structure, cores: list[Core], height_m: float) ->
         kind = "Core" if core.recess_m else "Obstacle"
         name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
         spec = ObstacleSpec(core.width_m, core.depth_m, height_m)
-        position = (round(core.centre_m[0], 6), 0.0, round(core.centre_m[1], 6))
-        placements.append(Placement(name, spec, position, edge_yaw_rad(core.edge)))
+        placements.append(placed(name, spec, core.centre_m, yaw_rad=edge_yaw_rad(core.edge)))
     return placements
 
 

@@ -8,7 +8,7 @@ import networkx as nx
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, edge_yaw_rad
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.mirror import MirrorSpec
@@ -61,10 +61,9 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
     turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
     x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
     z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
-    position = (round(x, 6), ceiling_m, round(z, 6))
     spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
-    return Placement(name, spec, position, edge_yaw_rad(edge), tile.square)
+    return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
 
 
 def mirrors(
@@ -86,8 +85,8 @@ def mirrors(
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
-    placed: list[Placement] = []
+    height = round(min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest), 6)
+    found: list[Placement] = []
     for tile in grid:
         if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
@@ -102,12 +101,11 @@ def mirrors(
             side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
             x = tile.x_m + side_x * (tile.half_x_m - inset)
             z = tile.z_m + side_z * (tile.half_z_m - inset)
-            position = (round(x, 6), round(height, 6), round(z, 6))
             name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
             yaw = round(math.atan2(-side_x, -side_z), 6)
             spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
-            placed.append(Placement(name, spec, position, yaw, tile.square))
-    return placed
+            found.append(placed(name, spec, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
+    return found
 
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:

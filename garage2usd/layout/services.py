@@ -14,7 +14,7 @@ from garage2usd.layout.ceiling import (
     TRAY_WIDTH_M,
     CeilingLevels,
 )
-from garage2usd.layout.placement import Placement
+from garage2usd.layout.placement import Placement, placed
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.duct import DuctSpec
@@ -105,43 +105,42 @@ def ducts(structure: Structure, grid: TileGrid, ceiling_m: float, levels: Ceilin
     """Ventilation ducts along the aisles, on the side where no pipe hangs."""
     if levels.duct_top_m is None:
         return []
-    placed = []
+    lines = []
     for piece in _pieces(_DUCT, structure, grid):
         hangers = _hangers_at_m(piece, grid.setback_m)
         spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
-        placed.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
+    return lines
 
 
 def sprinklers(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Sprinkler pipes along the aisles, on the side where no duct hangs, over ducts where they cross."""
     if levels.pipe_drop_m is None:
         return []
-    placed = []
+    lines = []
     for piece in _pieces(_PIPE, structure, grid):
         heads = () if piece.joins else _heads_at_m(piece.length_m, grid.setback_m)
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
-        placed.append(_place(piece, spec, ceiling_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
 
 
 def cable_trays(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Cable trays along the aisles, beside the pipes and over them and the ducts where they cross."""
     if levels.tray_drop_m is None:
         return []
-    placed = []
+    lines = []
     for piece in _pieces(_TRAY, structure, grid):
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
-        placed.append(_place(piece, spec, ceiling_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
 
 
 def _place(piece: _Piece, spec: Spec, height_m: float) -> Placement:
-    x, z = piece.middle_m
-    position = (round(x, 6), round(height_m, 6), round(z, 6))
-    return Placement(piece.name, spec, position, _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square)
+    yaw, square = _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square
+    return placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw, square=square)
 
 
 def _pieces(line: _Line, structure: Structure, grid: TileGrid) -> Iterator[_Piece]:

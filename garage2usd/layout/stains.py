@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, placed, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.kind import Spec
@@ -90,8 +90,8 @@ class _Floor:
         if any(lift_m == height and _overlap(box, other) for height, other in self.boxes):
             return
         self.boxes.append((lift_m, box))
-        position = (round(self.tile.x_m + place[0], 6), lift_m, round(self.tile.z_m + place[1], 6))
-        self.placed.append(Placement(name, spec, position, yaw_rad, self.tile.square))
+        point = self.tile.x_m + place[0], self.tile.z_m + place[1]
+        self.placed.append(placed(name, spec, point, height_m=lift_m, yaw_rad=yaw_rad, square=self.tile.square))
 
 
 def floor_stains(
@@ -160,7 +160,7 @@ def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64]
 
 
 def _on_tile(tile: Tile, stall: Stall, local: Point) -> Point:
-    x, z = to_world(local, stall.centre_m, stall.yaw_rad)
+    x, z = stall.to_world(local)
     return x - tile.x_m, z - tile.z_m
 
 

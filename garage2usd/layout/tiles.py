@@ -23,7 +23,7 @@ from garage2usd.layout.markings import (
 from garage2usd.layout.placement import Placement, stall_name
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.floor import FloorSpec
-from garage2usd.objects.outline import Box, Polygon, rectangle
+from garage2usd.objects.outline import Box, Point, Polygon, rectangle
 from garage2usd.objects.panel import Marking, Surface
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -73,6 +73,11 @@ class Tile:
     depth_m: float
     drivable: tuple[bool, bool, bool, bool]
     stall_mouths: tuple[bool, bool, bool, bool]
+
+    @property
+    def middle_m(self) -> Point:
+        """(x, z) of its middle."""
+        return self.x_m, self.z_m
 
     @property
     def half_x_m(self) -> float:
