@@ -94,28 +94,31 @@ def _axis(shape: UsdGeom.Gprim, time: Usd.TimeCode) -> int:
 
 
 def _cube(half: float) -> _Corners:
-    positions, normals = [], []
-    for axis in range(3):
-        for sign in (-1.0, 1.0):
-            normal = np.zeros(3)
-            normal[axis] = sign
-            across, along = np.roll(np.eye(3), 1, axis=0)[axis], np.roll(np.eye(3), 2, axis=0)[axis]
-            across, along = (across, along) if np.dot(np.cross(across, along), normal) > 0 else (along, across)
-            square = [normal + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            positions += [square[corner] for corner in (0, 1, 2, 0, 2, 3)]
-            normals += [normal] * 6
-    return (np.array(positions) * half).astype(np.float32), np.array(normals, dtype=np.float32)
+    axes = np.eye(3)
+    sides = [
+        _square(sign * half * axes[axis], sign * axes[axis], half * axes[axis - 1], half * axes[axis - 2])
+        for axis in range(3)
+        for sign in (-1.0, 1.0)
+    ]
+    positions, normals = (np.concatenate(values) for values in zip(*sides, strict=True))
+    return positions, normals
 
 
 def _plane(half_width: float, half_length: float, axis: int) -> _Corners:
     # width runs along x, or y for the axis x; length along y, or z for the axes x and y
-    spans = {0: (2, 1), 1: (0, 2), 2: (0, 1)}[axis]
-    normal = np.eye(3)[axis]
-    across, along = np.eye(3)[spans[0]] * half_width, np.eye(3)[spans[1]] * half_length
+    across, along = {0: (2, 1), 1: (0, 2), 2: (0, 1)}[axis]
+    axes = np.eye(3)
+    return _square(np.zeros(3), axes[axis], half_width * axes[across], half_length * axes[along])
+
+
+def _square(
+    middle: NDArray[np.float64], normal: NDArray[np.float64], across: NDArray[np.float64], along: NDArray[np.float64]
+) -> _Corners:
+    """The two triangles of a rectangle by its middle and the vectors from there to its sides."""
     if np.dot(np.cross(across, along), normal) < 0:
         across, along = along, across
-    square = [a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    positions = np.array([square[corner] for corner in (0, 1, 2, 0, 2, 3)], dtype=np.float32)
+    corners = [middle + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    positions = np.array([corners[corner] for corner in (0, 1, 2, 0, 2, 3)], dtype=np.float32)
     return positions, np.tile(normal, (6, 1)).astype(np.float32)
 
 
