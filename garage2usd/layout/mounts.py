@@ -8,6 +8,7 @@ import shapely
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from garage2usd.assets import pascal_case
 from garage2usd.config import GarageConfig
 from garage2usd.layout.cores import Core
 from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, of_spec, placed, rounded, to_world
@@ -177,8 +178,7 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
 
 
 def _hung(mounted: Mounted, face: _Face) -> Placement:
-    kind = "".join(word.capitalize() for word in mounted.kind.name.split("_"))
-    return placed(f"{kind}_{face.name}", mounted.spec, face.place, yaw_rad=face.yaw_rad)
+    return placed(f"{pascal_case(mounted.kind.name)}_{face.name}", mounted.spec, face.place, yaw_rad=face.yaw_rad)
 
 
 def _extent_m(mounted: Mounted) -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
 from garage2usd.layout import Layout
-from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
+from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -41,14 +41,10 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
     It takes the shortest way from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
     rounded corners, looking 4 m ahead; its first frame is 0.
     """
-    layer = Sdf.Layer.CreateNew(str(path))
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = DRIVE_NAME
+    with new_layer(path, default_prim=DRIVE_NAME) as layer:
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
         last_frame = _drive(camera, layer, _way(layout, graph))
         set_frames(layer, last_frame)
-    layer.Save()
     return last_frame
 
 
@@ -103,18 +99,17 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     reached = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))))
     frames = int(reached[-1] / _SPEED_M_S * FRAMES_PER_SECOND)
 
-    def at(distance: float) -> tuple[float, float]:
-        return tuple(float(np.interp(distance, reached, way[:, axis])) for axis in (0, 1))  # type: ignore[return-value]
-
-    step = _SPEED_M_S / FRAMES_PER_SECOND
+    driven = np.arange(frames + 1) * (_SPEED_M_S / FRAMES_PER_SECOND)
+    here, ahead = (
+        np.stack([np.interp(arc_m, reached, way[:, axis]) for axis in (0, 1)], axis=1).tolist()
+        for arc_m in (driven, driven + _LOOK_AHEAD_M)
+    )
     start = (float(way[0, 0]), _EYE_M, float(way[0, 1]))
     moves = operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*start))
     turns = operation(camera, "rotateY", Sdf.ValueTypeNames.Float, 0.0)
     order_operations(camera, ["translate", "rotateY"])
     yaw = 0.0
-    for frame in range(frames + 1):
-        x, z = at(frame * step)
-        ahead_x, ahead_z = at(frame * step + _LOOK_AHEAD_M)
+    for frame, ((x, z), (ahead_x, ahead_z)) in enumerate(zip(here, ahead, strict=True)):
         if math.hypot(ahead_x - x, ahead_z - z) > 1e-3:  # noqa: PLR2004 - at the end it looks on as before
             target = math.degrees(math.atan2(x - ahead_x, z - ahead_z))
             yaw += math.remainder(target - yaw, 360.0)
