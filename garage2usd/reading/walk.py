@@ -148,7 +148,7 @@ class _Walk:
         """Find what a point instancer draws."""
         instancer = UsdGeom.PointInstancer(prim)
         roots = [self._stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
-        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64, time=READ_AT)
+        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64)
         places = instancer.ComputeInstanceTransformsAtTime(
             READ_AT, READ_AT, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
         )

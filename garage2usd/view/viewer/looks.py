@@ -7,13 +7,12 @@ from typing import Generic, TypeVar
 from pxr import Usd, UsdShade
 
 from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
-from garage2usd.reading.values import READ_AT
 from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
 from garage2usd.view.viewer.meshes import DRAWN_TYPES, Triangles, display_colour, face_sets, triangles_of
 from garage2usd.view.viewer.scene import UNLABELLED, Light, Piece, Placed, Shape
-from garage2usd.view.viewer.surfaces import PLAIN, Surface, surface_of
+from garage2usd.view.viewer.surfaces import Surface, surface_of
 
 __all__ = ["Looks", "Numbered"]
 
@@ -74,7 +73,7 @@ class Looks:
                 collider = collider_of(part.prim)
                 meshes += [(mesh, part.matrix, surface, collider) for mesh, surface in self._meshes(part.prim)]
             elif kind in LIGHT_TYPES:
-                lights.append(light_of(part.prim, READ_AT).moved(part.matrix))
+                lights.append(light_of(part.prim).moved(part.matrix))
             else:
                 self.undrawn[kind] += 1
         return self._numbered(meshes, lights) if meshes or lights else None
@@ -93,11 +92,11 @@ class Looks:
     def _meshes(self, prim: Usd.Prim) -> list[tuple[int, int]]:
         """Numbers of the meshes and surfaces that a prim consists of."""
         found = []
-        for faces in face_sets(prim, READ_AT):
-            surface = self._surface(faces.prim, prim)
+        for bound, faces in face_sets(prim):
+            surface = self._surface(bound, prim)
             triangles = self._triangles(prim, self.surfaces.values[surface].coordinate_name)
-            if triangles is not None and faces.faces is not None:
-                triangles = triangles.of_faces(faces.faces)
+            if triangles is not None and faces is not None:
+                triangles = triangles.of_faces(faces)
             if triangles is not None and len(triangles.indices):
                 found.append((self.meshes.number(triangles, triangles.key()), surface))
         return found
@@ -106,7 +105,7 @@ class Looks:
         # prims made of the same opinions are the same: prototypes that differ in a variant share most of theirs
         key = coordinate_name, *((spec.layer.identifier, str(spec.path)) for spec in prim.GetPrimStack())
         if key not in self._triangles_of:
-            self._triangles_of[key] = triangles_of(prim, READ_AT, coordinate_name=coordinate_name)
+            self._triangles_of[key] = triangles_of(prim, coordinate_name=coordinate_name)
         return self._triangles_of[key]
 
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:
@@ -114,13 +113,8 @@ class Looks:
         path = str(material.GetPath()) if material else ""
         if path and path in self._surface_of_material:
             return self._surface_of_material[path]
-        surface = surface_of(material, READ_AT) if material else _plain(display_colour(prim, READ_AT))
+        surface = surface_of(material) if material else Surface(colour_rgb=display_colour(prim))
         number = self.surfaces.number(surface, surface)
         if path:
             self._surface_of_material[path] = number
         return number
-
-
-def _plain(colour_rgb: tuple[float, float, float] | None) -> Surface:
-    """What has no material looks like."""
-    return PLAIN if colour_rgb is None else Surface(colour_rgb=colour_rgb)
