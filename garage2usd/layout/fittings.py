@@ -16,7 +16,7 @@ from garage2usd.objects.outline import Point
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.randomness import Step, generator
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
@@ -70,7 +70,7 @@ def tube_lights(
 def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
     if tile.cell is Cell.FREE:
         places = grid.stall_places.get(tile.square)
-        return not places or NEIGHBOUR_STEPS[places[0].row.edge][0] != 0
+        return not places or places[0].row.edge.along_x
     return tile.axis_is_x is not False
 
 

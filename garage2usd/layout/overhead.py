@@ -9,7 +9,7 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
@@ -44,12 +44,12 @@ def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, level
     for tile in grid:
         if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
             continue
-        ways = {edge: distance.get(neighbour(tile.square, edge), math.inf) for edge in lane_edges(tile)}
+        ways = {edge: distance.get(edge.beyond(tile.square), math.inf) for edge in lane_edges(tile)}
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways
-            if edge is not out and graph.kind(neighbour(tile.square, edge)) is not LaneKind.EXIT
+            if edge is not out and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
         ]
     return signs
 
@@ -110,8 +110,7 @@ def mirrors(
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
     """Whether who comes in over an edge sees a way to the side only from inside the square."""
-    sides = (Edge.LEFT, Edge.RIGHT) if edge in {Edge.UP, Edge.DOWN} else (Edge.UP, Edge.DOWN)
-    between = (grid.neighbour(tile, edge, side) for side in sides if tile.drivable[side])
+    between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
 
 

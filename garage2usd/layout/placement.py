@@ -7,12 +7,22 @@ from enum import StrEnum
 from typing import TypeVar
 
 from garage2usd.objects.kind import Spec
-from garage2usd.objects.outline import Point, Polygon
-from garage2usd.structure.grid import NEIGHBOUR_STEPS
+from garage2usd.objects.outline import Box, Point, Polygon
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["Placement", "Stall", "StallUse", "edge_yaw_rad", "of_spec", "placed", "rounded", "stall_name", "to_world"]
+__all__ = [
+    "Placement",
+    "Stall",
+    "StallUse",
+    "box_inside",
+    "edge_yaw_rad",
+    "of_spec",
+    "placed",
+    "rounded",
+    "stall_name",
+    "to_world",
+]
 
 _S = TypeVar("_S", bound=Spec)
 
@@ -120,8 +130,7 @@ class Stall:
     @property
     def access_square(self) -> Square:
         """(row, col) of the lane square beyond the mouth."""
-        step = NEIGHBOUR_STEPS[self.edge]
-        return self.square[0] + step[0], self.square[1] + step[1]
+        return self.edge.beyond(self.square)
 
     @property
     def yaw_rad(self) -> float:
@@ -163,6 +172,33 @@ def of_spec(placements: Iterable[Placement], spec: type[_S]) -> Iterator[tuple[P
 def rounded(point: Point) -> Point:
     """A point to the micrometre."""
     return round(point[0], 6), round(point[1], 6)
+
+
+def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m: tuple[float, float]) -> Box:
+    """A box on a square, by where it lies along an edge, from the edge's middle, and how far inside the edge.
+
+    Parameters
+    ----------
+    edge
+        An edge of the square.
+    half_m
+        Half the square's extent along X and Z.
+    along_m, depth_m
+        From where to where.
+
+    Returns
+    -------
+    Box
+        Left, top, right and bottom, from the square's middle.
+    """
+    x, z = half_m
+    (start, end), (near, far) = along_m, depth_m
+    return {
+        Edge.UP: (start, near - z, end, far - z),
+        Edge.DOWN: (start, z - far, end, z - near),
+        Edge.LEFT: (near - x, start, far - x, end),
+        Edge.RIGHT: (x - far, start, x - near, end),
+    }[edge]
 
 
 def edge_yaw_rad(edge: Edge) -> float:

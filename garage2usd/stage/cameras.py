@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
 from garage2usd.layout import Layout
-from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
+from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -41,10 +41,14 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
     It takes the shortest way from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
     rounded corners, looking 4 m ahead; its first frame is 0.
     """
-    with new_layer(path, default_prim=DRIVE_NAME) as layer:
+    layer = Sdf.Layer.CreateNew(str(path))
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = DRIVE_NAME
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
         last_frame = _drive(camera, layer, _way(layout, graph))
         set_frames(layer, last_frame)
+    layer.Save()
     return last_frame
 
 

@@ -135,7 +135,7 @@ class LaneGraph:
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
-        return float(self.clear_m[self.number_of[square], 1 if edge in {Edge.UP, Edge.DOWN} else 0])
+        return float(self.clear_m[self.number_of[square], 1 if edge.along_x else 0])
 
     def kind(self, square: Square) -> LaneKind:
         """Kind of one lane or portal."""
@@ -227,11 +227,7 @@ def _check_reachability(structure: Structure, graph: "nx.Graph[Square]", rows: t
         touched = {int(cells[portal]) for lane in piece for portal in graph[lane]}
         if {Cell.ENTRANCE, Cell.EXIT} <= touched:
             served |= piece
-    unreached = set()
-    for stalls in rows:
-        dr, dc = NEIGHBOUR_STEPS[stalls.edge]
-        if (stalls.row + dr, stalls.col + dc) not in served:
-            unreached.add((stalls.row, stalls.col))
+    unreached = {stalls.square for stalls in rows if stalls.edge.beyond(stalls.square) not in served}
     if unreached:
         lines = [list(line) for line in str(structure).splitlines()]
         for row, col in unreached:

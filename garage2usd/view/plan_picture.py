@@ -11,7 +11,6 @@ from garage2usd.layout import Layout, Placement, Stall, StallUse
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
-from garage2usd.structure.stalls import Edge
 from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
@@ -147,8 +146,7 @@ def _number(stall: Stall) -> Text:
     # all digits as wide as the widest, so that few are measured
     width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
-    is_level = stall.edge in {Edge.UP, Edge.DOWN}
-    inwards = _NUMBER_FROM_MOUTH_M if is_level else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
+    inwards = _NUMBER_FROM_MOUTH_M if stall.edge.along_x else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
     return Text(stall.to_world((0.0, stall.length_m / 2 - inwards)), stall.number, height, INK, kind="number")
 
 
