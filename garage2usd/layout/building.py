@@ -51,7 +51,7 @@ def ground_inside(structure: Structure) -> shapely.Geometry:
     return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
-def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
+def outer_walls(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
     """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
 
     In a reflex corner the wall along X gives way to the one along Z by its thickness.
@@ -61,7 +61,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     ConfigError
         If a portal's square is too narrow for a door that cars get through.
     """
-    thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
+    thickness, height, structure = fittings.wall_thickness_m, fittings.ceiling_height_m, grid.structure
     outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
     doors = door_edges(structure.cells)
     walls: list[Placement] = []
@@ -69,7 +69,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
         walls += [
             _wall(tile, edge, outside, fittings, has_door=doors.get(tile.square) is edge)
             for edge in Edge
-            if outside[tile.square[0] + 1 + NEIGHBOUR_STEPS[edge][0], tile.square[1] + 1 + NEIGHBOUR_STEPS[edge][1]]
+            if outside[edge.beyond((tile.square[0] + 1, tile.square[1] + 1))]
         ]
     post = WallPostSpec(thickness, height)
     rows, cols = structure.shape
