@@ -73,16 +73,6 @@ class _Piece:
 
     Attributes
     ----------
-    name
-        Of the piece on its square.
-    tile
-        The square that it belongs to.
-    middle_m
-        (x, z).
-    length_m
-        Its length.
-    along_x
-        Whether it is long along X.
     half_square_m
         Half the extent along it of the square that it hangs over.
     step

@@ -4,7 +4,6 @@ import math
 from itertools import pairwise
 from pathlib import Path
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
@@ -13,7 +12,7 @@ from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
 
@@ -84,18 +83,13 @@ def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:
 
     There is one, as stalls are reached.
     """
-    lanes = [square for square in graph.graph if layout.structure.cells[square] == Cell.LANE]
-    ways: list[list[Square]] = []
-    for entrance in layout.structure.where(Cell.ENTRANCE):
-        for exit_ in layout.structure.where(Cell.EXIT):
-            # a car does not drive through other portals
-            roads = graph.graph.subgraph([*lanes, entrance, exit_])
-            if nx.has_path(roads, entrance, exit_):
-                ways.append(nx.shortest_path(roads, entrance, exit_, weight="length_m"))
-        if ways:
-            break
-    squares = min(ways, key=lambda way: nx.path_weight(graph.graph, way, "length_m"))
-    return np.array([(graph.graph.nodes[square]["x_m"], graph.graph.nodes[square]["z_m"]) for square in squares])
+    exits = layout.structure.where(Cell.EXIT)
+    found = (
+        list(filter(None, (graph.shortest_way(entrance, exit_) for exit_ in exits)))
+        for entrance in layout.structure.where(Cell.ENTRANCE)
+    )
+    way = min(next(filter(None, found)), key=graph.length_m)
+    return graph.middles_m[[graph.number_of[square] for square in way]]
 
 
 def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> int:

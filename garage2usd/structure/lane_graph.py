@@ -1,6 +1,7 @@
 """The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -136,6 +137,18 @@ class LaneGraph:
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
         return float(self.clear_m[self.number_of[square], 1 if edge.along_x else 0])
+
+    def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
+        """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""
+        portals = {square for square in self.graph if self.kind(square) in {LaneKind.ENTRANCE, LaneKind.EXIT}}
+        roads = self.graph.subgraph(self.graph.nodes - (portals - {start, end}))
+        if not nx.has_path(roads, start, end):
+            return None
+        return list(nx.shortest_path(roads, start, end, weight="length_m"))
+
+    def length_m(self, way: Sequence[Square]) -> float:
+        """Metres from the first to the last square of a route, from middle to middle."""
+        return float(nx.path_weight(self.graph, way, "length_m"))
 
     def kind(self, square: Square) -> LaneKind:
         """Kind of one lane or portal."""
