@@ -124,7 +124,7 @@ def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, fl
 
 
 def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArray[np.int64]:
-    """The numbers of a contour's points between two places at which a patch has columns, lest it cut corners."""
+    """Numbers of a contour's points between two places at which a patch needs columns so as not to cut corners."""
     numbers = np.arange(1 - len(contour.line), len(contour.line))
     arcs = contour.arc_at_points(numbers)
     numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]

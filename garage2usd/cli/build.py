@@ -32,7 +32,7 @@ _RULES_NAMED = 3
     metavar="N",
     type=click.IntRange(0, 200),
     default=0,
-    help="Draw so many of the best plans as well (a_best.png).",
+    help="Draw the N best plans as well (a_best.png).",
 )
 @click.option(
     "--output",
@@ -139,11 +139,11 @@ def _checked(made: "Build") -> str:
         return f"not done here for so many stalls: garage2usd check {made.report}"
     counts = Counter(finding.severity.value for finding in made.findings)
     words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
-    told = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
-    if not told:
+    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
+    if not parts:
         return f"nothing found {against}"
     rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
-    return f"{', '.join(told)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
+    return f"{', '.join(parts)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
 
 
 def _dropped(made: "Build") -> str:

@@ -43,7 +43,7 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
         kinds = tuple(part.strip() for part in str(value).split(","))
         unknown = [kind for kind in kinds if kind not in _PICTURES]
         if unknown:
-            self.fail(f"{unknown[0]!r} is none of {', '.join(_PICTURES)}", param, ctx)
+            self.fail(f"{unknown[0]!r} is not one of {', '.join(_PICTURES)}", param, ctx)
         return kinds
 
     def shell_complete(self, _ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:

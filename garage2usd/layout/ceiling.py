@@ -153,7 +153,7 @@ def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float
 
 @lru_cache(maxsize=64)
 def _node_boxes(inside: tuple[bool, bool, bool, bool], size_m: float, width_m: float) -> tuple[Box, ...]:
-    """The rectangles (left, top, right, bottom) of a node, told which of the squares around it are inside.
+    """The rectangles (left, top, right, bottom) of a node, from which of the squares around it are inside.
 
     An arm along X from end to end as far as it goes, and arms along Z up to it.
     """

@@ -14,11 +14,11 @@ __all__ = ["compartment_name", "compartments_of"]
 
 _MM2_PER_M2 = 1e6
 _LEAST_SHARE, _MOST_LINES = 0.3, 24
-"""A cut leaves so much of the floor on both sides; of a large floor, so many lines are tried along each axis."""
+"""Least share of the floor on each side of a cut; most lines along each axis that are tried on a large floor."""
 
 
 def compartment_name(number: int) -> str:
-    """As people say it: ``F1``."""
+    """Name of a compartment: ``F1``."""
     return f"F{number}"
 
 
@@ -79,7 +79,7 @@ def _best_cut(part: Mask, areas: NDArray[np.float64], limit: float) -> Mask:
 
 
 def _lines(areas: NDArray[np.float64]) -> list[int]:
-    """Numbers of the lines with a third of the area before them at least, and behind them; all where there are none."""
+    """Numbers of the lines that leave at least 0.3 of the area on both sides; of all lines if no line does."""
     before = np.cumsum(areas)[:-1] / areas.sum()
     middle = np.flatnonzero((before >= _LEAST_SHARE) & (before <= 1 - _LEAST_SHARE)) + 1
     lines = middle if len(middle) else np.arange(1, len(areas))
@@ -96,6 +96,6 @@ def _pieces(mask: Mask) -> list[Mask]:
 
 
 def _stretch(piece: Mask) -> float:
-    """How drawn out a piece is: the long side of its box over the short one."""
+    """Elongation of a piece: the long side of its bounding box over the short one."""
     rows, cols = (int(np.ptp(indices)) + 1 for indices in np.nonzero(piece))
     return max(rows, cols) / min(rows, cols)

@@ -17,7 +17,7 @@ __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
 
 _ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25
-"""Garages of so many stalls have an accessible one at least."""
+"""Garages with at least this many stalls have an accessible one."""
 _CHARGER_FROM_REAR_M = 0.055
 _SYMBOL_Z_M = 0.35
 
@@ -84,7 +84,7 @@ def _is_standard_beside(index: int, other: int, stalls: tuple[Stall, ...], uses:
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:
-    """The white symbol of a stall's use, upright for who drives in; none for a standard stall."""
+    """The white symbol of a stall's use, upright for a driver who enters; empty for a standard stall."""
     if use is StallUse.EV:
         bolt = ((0.12, -0.75), (-0.38, 0.12), (-0.04, 0.12), (-0.16, 0.75), (0.38, -0.18), (0.03, -0.18))
         return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE),)

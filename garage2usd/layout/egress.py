@@ -22,7 +22,7 @@ Points = NDArray[np.float64]
 _EXITS = 2
 """Exits of a compartment where the profile asks for no number."""
 _STALLS_FOR_ONE = 10
-"""Cores stand on one in so many stalls at most, so that a small garage is not all stairs."""
+"""Cores take at most one stall in this many, so that a small garage is not all stairs."""
 _STALL_WORTH_M = 12.0
 """How far from the best place a core stands to save a stall."""
 _OFF_STRAIGHT_M = 8.0
@@ -69,9 +69,9 @@ def plan_egress(structure: Structure, graph: LaneGraph, config: GarageConfig, *,
     Notes
     -----
     Obstacles beside lanes are cores already. For one more core after another, places are spread over the stalls of a
-    compartment by Lloyd's algorithm from farthest-first seeds, and each goes to the candidate that is nearest, where
-    every stall that it costs counts as twelve metres; the first number with which all stalls have a door in reach is
-    kept.
+    compartment by Lloyd's algorithm (1982) from farthest-first seeds (Gonzalez 1985). Each place goes to the nearest
+    candidate, where every stall that it costs counts as twelve metres. The first number of cores with which all stalls
+    have a door in reach is kept.
     """
     profile = config.standard
     area = profile.fire_compartment_area_sprinklered if sprinklered else profile.fire_compartment_area
@@ -107,7 +107,7 @@ def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, r
 
 
 def _spread(points: Points, fixed: Points, count: int) -> Points:
-    """So many places that lie spread over points, beside some that are fixed."""
+    """Spread `count` places over points, given some places that are fixed."""
     centres = fixed
     for _ in range(count):
         if len(centres):
@@ -126,7 +126,7 @@ def _spread(points: Points, fixed: Points, count: int) -> Points:
 
 
 def _snapped(places: _Places, centres: Points) -> list[int]:
-    """The candidate for each place, no two on one square."""
+    """Numbers of the candidates nearest to the places, no two on one square."""
     chosen: list[int] = []
     for centre in centres:
         taken = {square for index in chosen for square in (places.cores[index].square, places.cores[index].lane)}

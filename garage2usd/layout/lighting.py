@@ -124,7 +124,7 @@ def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np
 
 
 def lane_points_of(squares: Iterable[tuple[float, float, float, float]]) -> NDArray[np.float64]:
-    """Nine points (x, z) on each lane square, told by its middle (x, z) and its extent along X and Z."""
+    """Nine points (x, z) on each lane square, given by its middle (x, z) and its extent along X and Z."""
     shares = (np.arange(_POINTS_A_SIDE) + 0.5) / _POINTS_A_SIDE - 0.5
     points = [(x + u * width, z + v * depth) for x, z, width, depth in squares for u in shares for v in shares]
     return np.array(points).reshape(-1, 2)

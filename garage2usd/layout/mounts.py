@@ -73,8 +73,9 @@ def mounted_objects(
 
     Notes
     -----
-    A greedy set cover: the first stall or lane in reading order that is not yet served gets, of all free faces within
-    reach, the one that serves most of the places which need more. A place that no free face serves stays unserved.
+    A greedy set cover (Chvatal 1979): of all free faces within reach of the first stall or lane in reading order that
+    is not yet served, the one that serves most of the places in need is taken. A place without a free face in reach
+    stays unserved.
     """
     pillars, walls = tuple(pillars), tuple(walls)
     faces = [*_column_faces(pillars), *_wall_faces(walls)]

@@ -30,7 +30,7 @@ def no_parking_signs(
 ) -> list[Placement]:
     """A sign in the middle of some of the free squares that hold nothing, before each core, and beside each door.
 
-    There are none at all where the share of such squares is 0.
+    A garage whose share of such squares is 0 has no signs.
     """
     rng = generator(seed, Step.SIGNS)
     built_on = {core.square for core in cores}

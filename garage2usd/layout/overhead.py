@@ -31,9 +31,9 @@ _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
 def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
-    """A lit sign over each way into a junction, that points along the shortest way to an exit.
+    """Lit signs over the lanes into each junction, which point along the shortest route to an exit.
 
-    There are none where the ceiling leaves no room over the clear height.
+    A ceiling without room over the clear height has no signs.
     """
     foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
     if not fittings.exit_signs or foot < fittings.clear_height_m:
@@ -55,7 +55,7 @@ def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, level
 
 
 def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
-    """The sign over one edge of a junction, looking out over it at who comes in."""
+    """The sign over one edge of a junction, which faces the drivers who enter there."""
     (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
     # the driver comes along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
     turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
@@ -77,9 +77,9 @@ def mirrors(
 
     Notes
     -----
-    Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
-    that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
-    There are none where the ceiling leaves no room over the clear height.
+    A driver who enters over an edge cannot see into another lane if no lane lies in the corner between the two. A
+    mirror shows that lane to drivers from either of the edges opposite its corner. Corners are chosen greedily, so that
+    few mirrors serve all edges. A ceiling without room over the clear height has no mirrors.
     """
     highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
@@ -109,13 +109,13 @@ def mirrors(
 
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
-    """Whether who comes in over an edge sees a way to the side only from inside the square."""
+    """Whether a driver who enters over an edge sees a lane to the side only from inside the square."""
     between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
 
 
 def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
-    """The edges from which a driver has a corner before him."""
+    """The edges from which a driver faces a corner."""
     return set(Edge) - set(corner)
 
 

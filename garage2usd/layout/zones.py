@@ -35,7 +35,7 @@ class Zone(NamedTuple):
     number: int
 
     def __str__(self) -> str:
-        """As people say it: ``B2``."""
+        """Name of the zone: ``B2``."""
         return f"{self.letter}{self.number}"
 
 
@@ -53,9 +53,9 @@ class Zones:
 
 
 def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, ...]:
-    """The same stalls with their numbers, running through each zone, or through the garage where there are none.
+    """The same stalls with their numbers, counted through each zone, or through the garage if it has no zones.
 
-    Stalls that nobody parks in have none.
+    Stalls in which nobody parks get no number.
     """
     counts: Counter[Zone | None] = Counter()
     numbered = []

@@ -58,6 +58,6 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
 
 
 def lacks(attribute: Usd.Attribute, what: str) -> StageError:
-    """The error of an attribute that holds something else than it should."""
+    """The error of an attribute whose value is not of the type that its schema demands."""
     file = attribute.GetStage().GetRootLayer().realPath
-    return StageError(file, f"{attribute.GetPath()} holds no {what}")
+    return StageError(file, f"{attribute.GetPath()} does not hold {what}")

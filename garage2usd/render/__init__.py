@@ -96,7 +96,7 @@ def render_stage(
     pictures
         What is drawn.
     progress
-        Told how many samples are done.
+        Called with the number of samples that are done.
 
     Raises
     ------

@@ -26,7 +26,7 @@ _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
-"""What is outermost of every garage."""
+"""Kinds of objects that enclose every garage."""
 
 DRIVE_NAME = "Drive"
 """Name of the camera that drives, and of its asset."""
@@ -37,7 +37,7 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
 
     Notes
     -----
-    It takes the shortest way from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
+    It takes the shortest route from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
     rounded corners, looking 4 m ahead; its first frame is 0.
     """
     layer = Sdf.Layer.CreateNew(str(path))
@@ -119,7 +119,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The way with its corners cut again and again, by Chaikin."""
+    """The route with its corners rounded by Chaikin's corner cutting (1974)."""
     for _ in range(_CORNER_CUTS):
         cut = [way[0]]
         for one, other in pairwise(way):

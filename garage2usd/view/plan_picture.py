@@ -98,7 +98,7 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
 def _legend(
     layout: Layout, graph: LaneGraph, found: MeasuredCirculation, *, with_route: bool
 ) -> list[tuple[Colour, str]]:
-    """Only what there is."""
+    """Colours and names of what the plan shows."""
     uses = {stall.use for stall in layout.stalls}
     counts = layout.counts()
     entries = lane_legend(graph, found)
@@ -142,7 +142,7 @@ def _car_outline(car: Placement) -> list[Point]:
 
 
 def _number(stall: Stall) -> Text:
-    """Beside the mouth, level; the stall's middle stays clear."""
+    """The number of a stall, level and beside its mouth, so that the stall's middle stays clear."""
     # all digits as wide as the widest, so that few are measured
     width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
@@ -163,7 +163,7 @@ def _building(layout: Layout) -> Iterator[Area | Line]:
 
 
 def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
-    """Both ways on the right side of the lanes, and the stall with a frame."""
+    """Both routes on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()
     yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
@@ -181,7 +181,7 @@ def _way(
     *,
     is_reversed: bool = False,
 ) -> Iterator[Line]:
-    """From a portal to a stall, or reversed; with an arrow's head."""
+    """The line from a portal to a stall, or reversed, with an arrow head."""
     nodes = graph.graph.nodes
     middles = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in squares]
     # the lane before the stall is left where the mouth lies

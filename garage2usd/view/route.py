@@ -1,4 +1,4 @@
-"""The way to a stall and away from it, on lanes."""
+"""The routes to a stall and away from it, on lanes."""
 
 from dataclasses import dataclass
 
@@ -25,7 +25,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
     Raises
     ------
     ConfigError
-        If there is none.
+        If there is no such stall.
     """
     for stall in layout.stalls:
         if number in {stall.number, stall.name}:

@@ -177,7 +177,7 @@ def _normals(
 def _coordinates(
     prim: Usd.Prim, name: str, points: int, corners: NDArray[np.int64], fans: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero where there is none."""
+    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero without coordinates."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
     values = primvar.ComputeFlattened(READ_AT) if primvar and primvar.HasValue() else None
     found = None

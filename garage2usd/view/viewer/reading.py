@@ -33,7 +33,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     Raises
     ------
     StageError
-        If nothing in the stage can be drawn, or the table of labels is none.
+        If nothing in the stage can be drawn, or the file beside it is not a table of labels.
     """
     looks = Looks()
     objects = looks.objects(stage, metres_y_up(stage))
@@ -69,7 +69,7 @@ def _ids(path: Path) -> dict[str, int]:
     try:
         return {str(entry["path"]): int(entry["id"]) for entry in document["objects"]}
     except (ValueError, KeyError, TypeError, OverflowError) as error:
-        raise StageError(table, f"no table of labels ({error!r})") from None
+        raise StageError(table, f"not a table of labels ({error!r})") from None
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:

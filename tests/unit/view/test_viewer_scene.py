@@ -379,5 +379,5 @@ def test_values_of_another_kind_than_they_should_be_are_named(tmp_path, damaged)
     prim = layer.GetPrimAtPath(path.GetPrimPath())
     prim.RemoveProperty(layer.GetAttributeAtPath(path))
     Sdf.AttributeSpec(prim, path.name, Sdf.ValueTypeNames.TokenArray).default = WORDS
-    with pytest.raises(StageError, match=f"{damaged} holds no numbers"):
+    with pytest.raises(StageError, match=f"{damaged} does not hold numbers"):
         read_scene(stage, tmp_path / "values.usda")
