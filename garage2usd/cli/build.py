@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, profile_option, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.layout import Layout
@@ -110,8 +110,7 @@ def _describe(made: "Build") -> None:
         ("Unity", f"add the package unity_importer, then drop {_dropped(made)} into Assets"),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
-    for name, value in lines:
-        click.echo(f"{name:>10}  {value}")
+    echo_table(lines)
 
 
 def _learnt(made: "Build") -> list[tuple[str, str]]:
