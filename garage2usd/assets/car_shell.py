@@ -495,7 +495,10 @@ def both_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def needed(at: NDArray[np.float64], rows: NDArray[np.float64], tolerance: float) -> list[int]:
-    """Which rows of values suffice, so that between them no other is further than the tolerance off a straight line."""
+    """Numbers of the rows that represent all rows within a tolerance, with straight lines between them.
+
+    Uses the Ramer-Douglas-Peucker algorithm (1972).
+    """
     kept = [0, len(rows) - 1]
     spans = [(0, len(rows) - 1)]
     while spans:

@@ -41,19 +41,17 @@ def car(body: CarBody) -> Asset:
     """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
     shell = Shell(body, SHAPES[body.name])
     regions = shell.regions()
-    head, tail = _HeadLamps(shell), _TailLamps(shell)
+    (housings, lights), tail = _head_lamps(shell), _TailLamps(shell)
     parts = [
         make_part("Body", _flat(regions["body"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=32),
         make_part("Cabin", _flat(regions["cabin"]), "car_paint", collider=Collider.CONVEX_HULL, crease_deg=40),
         make_part("Glass", _flat(regions["glass"]), "glass", crease_deg=38),
         make_part("Pillars", _flat(regions["pillar"]), "trim_black", crease_deg=38),
         make_part("Underbody", _flat(regions["under"]), "trim_black"),
-        make_part("HeadLamps", _flat(head.lights()), "lamp_front", crease_deg=50),
+        make_part("HeadLamps", _flat(lights), "lamp_front", crease_deg=50),
         make_part("TailLamps", _flat(tail.lenses()), "lamp_rear", crease_deg=50),
         make_part("ReverseLamps", _flat(tail.reverse_lamps()), "lamp_front", crease_deg=50),
-        make_part(
-            "LampHousings", _flat(np.concatenate([head.housings(), tail.housings()])), "lamp_housing", crease_deg=50
-        ),
+        make_part("LampHousings", _flat(np.concatenate([housings, tail.housings()])), "lamp_housing", crease_deg=50),
         make_part("Trim", _flat(_end_trim(shell)), "trim_black"),
         make_part("Bright", _flat(_bright_trim(shell)), "chrome"),
         make_part("Arches", _flat(_arch_lips(shell)), "trim_black", crease_deg=50),
@@ -126,7 +124,7 @@ def _ends_at(rows: Sequence[Row], y: float, contour: Contour) -> tuple[float, fl
 
 
 def _turns(contour: Contour, first: float, last: float, skin_m: float) -> NDArray[np.int64]:
-    """The numbers of a contour's points between two places at which a patch has columns, lest it cut corners."""
+    """Numbers of a contour's points between two places at which a patch needs columns so as not to cut corners."""
     numbers = np.arange(1 - len(contour.line), len(contour.line))
     arcs = contour.arc_at_points(numbers)
     numbers = numbers[(arcs > first + _COLUMN_M) & (arcs < last - _COLUMN_M)]
@@ -160,31 +158,22 @@ def _polygon_patch(shell: Shell, middle: tuple[float, float], radius_m: float, *
     return _end_patch(shell, rows, rear=rear, skin_m=skin_m)
 
 
-class _HeadLamps:
-    """Head lamps around the corners of the nose: dark housings with two reflectors and a strip of daytime light."""
-
-    def __init__(self, shell: Shell) -> None:
-        self._shell = shell
-        self._half, self._top = shell.body.width_m / 2, shell.end_top(rear=False) - 0.022
-
-    def housings(self) -> Faces:
-        half, top = self._half, self._top
-        rows = [
-            (top - 0.135, _x(0.60 * half), _depth(0.17)),
-            (top - 0.115, _x(0.53 * half), _depth(0.24)),
-            (top - 0.055, _x(0.50 * half), _depth(0.33)),
-            (top, _x(0.52 * half), _depth(0.37)),
-        ]
-        return both_sides(_end_patch(self._shell, rows, rear=False, skin_m=_HOUSING_SKIN_M))
-
-    def lights(self) -> Faces:
-        shell, half, top = self._shell, self._half, self._top
-        strip = [(top - 0.022, _x(0.535 * half), _depth(0.33)), (top - 0.008, _x(0.545 * half), _depth(0.34))]
-        faces = [_end_patch(shell, strip, rear=False, skin_m=_LENS_SKIN_M)]
-        for share in (0.61, 0.735):
-            lens = (share * half, top - 0.077)
-            faces.append(_polygon_patch(shell, lens, 0.040, rear=False, skin_m=_LENS_SKIN_M))
-        return both_sides(np.concatenate(faces))
+def _head_lamps(shell: Shell) -> tuple[Faces, Faces]:
+    """Head lamps around the corners of the nose: dark housings, and two reflectors with a strip of daytime light."""
+    half, top = shell.body.width_m / 2, shell.end_top(rear=False) - 0.022
+    housing = [
+        (top - 0.135, _x(0.60 * half), _depth(0.17)),
+        (top - 0.115, _x(0.53 * half), _depth(0.24)),
+        (top - 0.055, _x(0.50 * half), _depth(0.33)),
+        (top, _x(0.52 * half), _depth(0.37)),
+    ]
+    strip = [(top - 0.022, _x(0.535 * half), _depth(0.33)), (top - 0.008, _x(0.545 * half), _depth(0.34))]
+    lights = [_end_patch(shell, strip, rear=False, skin_m=_LENS_SKIN_M)]
+    for share in (0.61, 0.735):
+        lens = (share * half, top - 0.077)
+        lights.append(_polygon_patch(shell, lens, 0.040, rear=False, skin_m=_LENS_SKIN_M))
+    housings = both_sides(_end_patch(shell, housing, rear=False, skin_m=_HOUSING_SKIN_M))
+    return housings, both_sides(np.concatenate(lights))
 
 
 class _TailLamps:

@@ -8,9 +8,24 @@ from numpy.typing import ArrayLike
 
 from garage2usd.assets.mesh import Face
 
-__all__ = ["box_faces", "disc_faces", "frame_faces", "lathe_faces", "ring_faces", "tube_faces", "upright_lathe_faces"]
+__all__ = [
+    "box_faces",
+    "disc_faces",
+    "frame_faces",
+    "lathe_faces",
+    "level_lathe_faces",
+    "moved",
+    "ring_faces",
+    "tube_faces",
+    "upright_lathe_faces",
+]
 
 _STRAIGHT = 1e-9
+
+
+def moved(faces: Sequence[Face], by: ArrayLike) -> list[Face]:
+    """The same faces elsewhere, by a vector (x, y, z)."""
+    return [face + np.asarray(by) for face in faces]
 
 
 def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Face]:
@@ -47,7 +62,13 @@ def lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> lis
     ]
 
 
-def upright_lathe_faces(profile: list[tuple[float, float]], *, segments: int) -> list[Face]:
+def level_lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
+    """Turn a profile of (z, radius) about the Z axis, as `lathe_faces` does about X."""
+    # a cyclic change of the axes keeps the winding
+    return [face[:, [1, 2, 0]] for face in lathe_faces(profile, segments=segments)]
+
+
+def upright_lathe_faces(profile: Sequence[tuple[float, float]], *, segments: int) -> list[Face]:
     """A closed solid of revolution about the Y axis from (height, radius) pairs, lowest first."""
     capped = [(profile[0][0], 0.0), *profile, (profile[-1][0], 0.0)]
     # from X to Y: a right-handed turn of the axes keeps the winding
@@ -56,8 +77,8 @@ def upright_lathe_faces(profile: list[tuple[float, float]], *, segments: int) ->
 
 def disc_faces(radius_m: float, back_m: float, front_m: float, centre_y_m: float) -> list[Face]:
     """A closed disc that looks to +Z."""
-    faces = lathe_faces([(back_m, 0.0), (back_m, radius_m), (front_m, radius_m), (front_m, 0.0)], segments=28)
-    return [face[:, [1, 2, 0]] + np.array((0.0, centre_y_m, 0.0)) for face in faces]
+    profile = [(back_m, 0.0), (back_m, radius_m), (front_m, radius_m), (front_m, 0.0)]
+    return moved(level_lathe_faces(profile, segments=28), (0.0, centre_y_m, 0.0))
 
 
 def tube_faces(points: Sequence[tuple[float, float, float]], radius_m: float, *, segments: int) -> list[Face]:

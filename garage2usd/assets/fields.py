@@ -20,7 +20,7 @@ _SLOPES = np.array(
 
 
 def noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Field:
-    """Periodic value noise with so many lattice cells down and across, 0 to 1."""
+    """Periodic value noise from a lattice of `cells` down and across, 0 to 1."""
     lattice = rng.integers(0, 1024, size=cells).astype(np.float64) / 1023.0
     (top, bottom, down), (left, right, across) = (
         _lattice_places(side, count) for side, count in zip(shape, cells, strict=True)
@@ -39,7 +39,7 @@ def _lattice_places(side: int, cells: int) -> tuple[NDArray[np.int64], NDArray[n
 
 
 def _gradient_noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Field:
-    """Periodic gradient noise, which shows its lattice less than value noise; 0 to 1, mostly near a half."""
+    """Periodic gradient noise (Perlin 1985), which shows its lattice less than value noise; 0 to 1, mostly near 0.5."""
     down_slope, across_slope = _SLOPES[rng.integers(len(_SLOPES), size=cells)].transpose(2, 0, 1)
     (top, bottom, low), (left, right, far) = (
         _lattice_places(side, count) for side, count in zip(shape, cells, strict=True)
@@ -55,7 +55,7 @@ def _gradient_noise(rng: np.random.Generator, shape: Shape, cells: Shape) -> Fie
 
 
 def clouds(rng: np.random.Generator, shape: Shape, cells: Shape, octaves: int) -> Field:
-    """Fractal sum of noise, 0 to 1, with mean near a half."""
+    """Fractal sum of `octaves` of gradient noise, 0 to 1, with a mean near 0.5."""
     total = np.zeros(shape)
     weight, weights = 1.0, 0.0
     for octave in range(octaves):

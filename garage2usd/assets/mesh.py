@@ -16,6 +16,7 @@ __all__ = [
     "Part",
     "RectLight",
     "make_part",
+    "pascal_case",
 ]
 
 Face = NDArray[np.float64]
@@ -104,6 +105,11 @@ class Asset:
     parts: tuple[Part, ...]
     light: RectLight | None = None
     paints: Mapping[str, str] = field(default_factory=dict)
+
+
+def pascal_case(key: str) -> str:
+    """The name of a prim for a key: ``WheelStop`` for ``wheel_stop``."""
+    return "".join(word.capitalize() for word in key.split("_"))
 
 
 def make_part(

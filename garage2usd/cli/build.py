@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, profile_option, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.layout import Layout
@@ -32,7 +32,7 @@ _RULES_NAMED = 3
     metavar="N",
     type=click.IntRange(0, 200),
     default=0,
-    help="Draw so many of the best plans as well (a_best.png).",
+    help="Draw the N best plans as well (a_best.png).",
 )
 @click.option(
     "--output",
@@ -110,8 +110,7 @@ def _describe(made: "Build") -> None:
         ("Unity", f"add the package unity_importer, then drop {_dropped(made)} into Assets"),
         ("seconds", ", ".join(f"{step} {value:.2f}" for step, value in made.seconds.items())),
     ]
-    for name, value in lines:
-        click.echo(f"{name:>10}  {value}")
+    echo_table(lines)
 
 
 def _learnt(made: "Build") -> list[tuple[str, str]]:
@@ -139,11 +138,11 @@ def _checked(made: "Build") -> str:
         return f"not done here for so many stalls: garage2usd check {made.report}"
     counts = Counter(finding.severity.value for finding in made.findings)
     words = (("error", "error"), ("warning", "warning"), ("info", "remark"))
-    told = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
-    if not told:
+    parts = [f"{counts[key]} {word}{'' if counts[key] == 1 else 's'}" for key, word in words if counts[key]]
+    if not parts:
         return f"nothing found {against}"
     rules = list(dict.fromkeys(finding.rule for finding in made.findings))[:_RULES_NAMED]
-    return f"{', '.join(told)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
+    return f"{', '.join(parts)} {against} ({', '.join(rules)}): garage2usd check {made.report}"
 
 
 def _dropped(made: "Build") -> str:

@@ -22,7 +22,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
     """Check a stage, a report or a plan against a standard.
 
     PATH is a stage, also one that other tools have edited, the report of a build, a configuration with a structure, or
-    a structure as text, JSON, .npy or .npz. The exit code is 1 if there are errors; warnings and remarks are none.
+    a structure as text, JSON, .npy or .npz. The exit code is 1 if there are errors, whatever the warnings and remarks.
 
     \b
     Examples:

@@ -1,6 +1,6 @@
-"""Parameters that several commands share, so that the same thing has the same name, help and completion."""
+"""What several commands share, so that the same thing has the same name, help, completion and look."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["INPUT_FILE", "profile_option", "refuse_seed", "seed_option"]
+__all__ = ["INPUT_FILE", "echo_table", "profile_option", "refuse_seed", "seed_option"]
 
 INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
 """A file that is read; one that is missing or damaged ends in 1, as whatever reads it says."""
@@ -24,6 +24,12 @@ def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., An
     """The standard; `text` says what for."""
     names = "cn-jgj100, de-garvo, uk-istructe, us-ada or a TOML file"
     return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
+
+
+def echo_table(lines: Iterable[tuple[str, str]]) -> None:
+    """Print (name, value) pairs, the names aligned to the right."""
+    for name, value in lines:
+        click.echo(f"{name:>10}  {value}")
 
 
 def refuse_seed(seed: int | None) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, refuse_seed, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_table, refuse_seed, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.pipeline import Garage
@@ -74,7 +74,7 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
                 to_image(drawing).save(made[-1], format="PNG")
         for file, output in zip(made, outputs, strict=True):
             publish([file], output.parent)
-            click.echo(f"{'picture':>10}  {output}")
+            echo_table([("picture", str(output))])
 
 
 def _marks(path: Path) -> "list[Mark]":

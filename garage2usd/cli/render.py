@@ -8,7 +8,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE
+from garage2usd.cli.parameters import INPUT_FILE, echo_table
 
 __all__ = ["render"]
 
@@ -43,7 +43,7 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
         kinds = tuple(part.strip() for part in str(value).split(","))
         unknown = [kind for kind in kinds if kind not in _PICTURES]
         if unknown:
-            self.fail(f"{unknown[0]!r} is none of {', '.join(_PICTURES)}", param, ctx)
+            self.fail(f"{unknown[0]!r} is not one of {', '.join(_PICTURES)}", param, ctx)
         return kinds
 
     def shell_complete(self, _ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
@@ -126,13 +126,7 @@ def render(
             pictures=[Picture(kind) for kind in pictures],
             progress=progress,
         )
-    for name, value in (
-        (
-            "frames",
-            f"{len(made.names)} ({made.names[0]} to {made.names[-1]})" if len(made.names) > 1 else made.names[0],
-        ),
-        ("pictures", ", ".join(made.pictures)),
-        ("folder", f"{made.folder}/"),
-        ("table", str(made.frames)),
-    ):
-        click.echo(f"{name:>10}  {value}")
+    names = made.names
+    drawn = f"{len(names)} ({names[0]} to {names[-1]})" if len(names) > 1 else names[0]
+    kinds, folder = ", ".join(made.pictures), f"{made.folder}/"
+    echo_table([("frames", drawn), ("pictures", kinds), ("folder", folder), ("table", str(made.frames))])

@@ -14,7 +14,7 @@ from garage2usd.limits import enforce
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
 SUPERVISED = frozenset({"check", "drive", "plan", "render", "view"})
-"""The commands that open stages which anybody may have written."""
+"""The commands that open stages from unknown sources."""
 CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
 _FAILED = 1
 
@@ -46,7 +46,7 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
         sys.exit(os.waitstatus_to_exitcode(status))
     number = os.WTERMSIG(status)
     if number == signal.SIGXCPU:
-        sys.stderr.write(f"Error: {name} takes too long for so small a stage: it composes without an end in sight\n")
+        sys.stderr.write(f"Error: {name} takes too long for so small a stage: its composition does not seem to end\n")
         sys.exit(_FAILED)
     if number in CRASHES:
         said = signal.strsignal(number) or f"signal {number}"

@@ -93,60 +93,51 @@ class SarsaParameters(NamedTuple):
     starts: int
 
 
-_PRESETS = {
-    "paper": SarsaParameters(
-        alpha=0.1,
-        gamma=0.95,
-        epsilon_start=1.0,
-        epsilon_min=0.01,
-        epsilon_decay=0.999,
-        epsilon_refresh=0.3,
-        patience_episodes=100,
-        turn_back_penalty=2.0,
-        interval_penalty=2.0,
-        min_run_squares=3,
-        wheeling_penalty=0.5,
-        loop_reward=0.0,
-        step_penalty=0.4,
-        failure_penalty=20.0,
-        window_radius_squares=2,
-        sees_distances=True,
-        masks_actions=False,
-        archives_prefixes=False,
-        revisit_rate=0.0,
-        max_steps_per_square=2,
-        starts=1,
-    ),
-    "tuned": SarsaParameters(
-        alpha=0.1,
-        gamma=0.9,
-        epsilon_start=1.0,
-        epsilon_min=0.05,
-        epsilon_decay=0.997,
-        epsilon_refresh=0.3,
-        patience_episodes=100,
-        turn_back_penalty=0.5,
-        interval_penalty=0.5,
-        min_run_squares=4,
-        wheeling_penalty=2.0,
-        loop_reward=0.0,
-        step_penalty=0.1,
-        failure_penalty=10.0,
-        window_radius_squares=1,
-        sees_distances=False,
-        masks_actions=True,
-        archives_prefixes=True,
-        revisit_rate=0.7,
-        max_steps_per_square=2,
-        starts=4,
-    ),
-}
-
-
+_PAPER = SarsaParameters(
+    alpha=0.1,
+    gamma=0.95,
+    epsilon_start=1.0,
+    epsilon_min=0.01,
+    epsilon_decay=0.999,
+    epsilon_refresh=0.3,
+    patience_episodes=100,
+    turn_back_penalty=2.0,
+    interval_penalty=2.0,
+    min_run_squares=3,
+    wheeling_penalty=0.5,
+    loop_reward=0.0,
+    step_penalty=0.4,
+    failure_penalty=20.0,
+    window_radius_squares=2,
+    sees_distances=True,
+    masks_actions=False,
+    archives_prefixes=False,
+    revisit_rate=0.0,
+    max_steps_per_square=2,
+    starts=1,
+)
+_TUNED = _PAPER._replace(
+    gamma=0.9,
+    epsilon_min=0.05,
+    epsilon_decay=0.997,
+    turn_back_penalty=0.5,
+    interval_penalty=0.5,
+    min_run_squares=4,
+    wheeling_penalty=2.0,
+    step_penalty=0.1,
+    failure_penalty=10.0,
+    window_radius_squares=1,
+    sees_distances=False,
+    masks_actions=True,
+    archives_prefixes=True,
+    revisit_rate=0.7,
+    starts=4,
+)
+_PRESETS = {"paper": _PAPER, "tuned": _TUNED}
 _STARTS_ALONE = 12
 """Starts of the preset 'tuned' without polish, which evens out on a small site where learning came to."""
 
-_AISLES = _PRESETS["tuned"]._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
+_AISLES = _TUNED._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
 
 
 class PlanConfig(Settings):

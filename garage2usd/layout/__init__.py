@@ -137,7 +137,7 @@ def lay_out(
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
-    shell = outer_walls(structure, grid, fittings)
+    shell = outer_walls(grid, fittings)
     shares = config.stage.is_nested(len(grid.tiles))
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=config.stage.arrangements if shares else None)
 
@@ -178,9 +178,9 @@ def lay_out(
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield tubes
         yield beams(structure, bay, ceiling, levels.beam_depth_m)
-        yield ducts(structure, grid, ceiling, levels)
-        yield cable_trays(structure, grid, ceiling, levels)
-        yield sprinklers(structure, grid, ceiling, levels)
+        yield ducts(grid, ceiling, levels)
+        yield cable_trays(grid, ceiling, levels)
+        yield sprinklers(grid, ceiling, levels)
         yield exit_signs(grid, graph, fittings, levels)
         yield mirrors(grid, pillars, bay.column_size_m, fittings, levels)
 
@@ -231,4 +231,4 @@ def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
 def _foot_exits(grid: TileGrid, cores: Iterable[Core]) -> list[Point]:
     """Where people leave on foot, (x, z): the doors of the stair cores, or the first exit where there is none."""
     exits = (grid.tiles[square] for square in grid.structure.where(Cell.EXIT)[:1])
-    return [core.door_m for core in cores] or [(tile.x_m, tile.z_m) for tile in exits]
+    return [core.door_m for core in cores] or [tile.middle_m for tile in exits]

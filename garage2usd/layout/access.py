@@ -9,7 +9,7 @@ import shapely
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, to_world
+from garage2usd.layout.placement import Placement, of_spec, placed
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
@@ -101,28 +101,24 @@ def _sky(ramp: RampSpec) -> SkySpec:
 def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
     """The (x, z) footprint of a ramp with its side walls, from the back of the door's wall on."""
     half, near, far = ramp.width_m / 2 + ramp.wall_m, -ramp.profile[0][0], -ramp.profile[-1][0]
-    x, _, z = wall.position_m
     corners = ((-half, near), (half, near), (half, far), (-half, far))
-    return shapely.Polygon([to_world(corner, (x, z), wall.yaw_rad) for corner in corners])
+    return shapely.Polygon([wall.to_world(corner) for corner in corners])
 
 
 def ramp_lights(walls: Iterable[Placement], tube: TubeLightSpec, fittings: FittingsConfig) -> list[Placement]:
     """Tubes across each ramp's covered part, where they hang over the clear height."""
+    if not tube.luminance_nit:
+        return []
     lights: list[Placement] = []
-    for ramp in walls:
-        spec = ramp.spec
-        if not isinstance(spec, RampSpec) or not tube.luminance_nit:
-            continue
+    for ramp, spec in of_spec(walls, RampSpec):
         runs, heights = zip(*spec.profile, strict=True)
         for number, share in enumerate(_LIGHTS_AT, start=1):
             run = runs[0] + share * (spec.cover_end_m - runs[0])
             floor = float(np.interp(run, runs, heights))
             if spec.cover_height_m - tube.drop_m - floor < fittings.clear_height_m:
                 continue
-            x, z = to_world((0.0, -run), (ramp.position_m[0], ramp.position_m[2]), ramp.yaw_rad)
-            position = (round(x, 6), spec.cover_height_m, round(z, 6))
-            name = f"{ramp.name.replace('Ramp', 'Tube')}_{number}"
-            lights.append(Placement(name, tube, position, ramp.yaw_rad))
+            name, height = f"{ramp.name.replace('Ramp', 'Tube')}_{number}", spec.cover_height_m
+            lights.append(placed(name, tube, ramp.to_world((0.0, -run)), height_m=height, yaw_rad=ramp.yaw_rad))
     return lights
 
 
@@ -134,9 +130,8 @@ def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement
     if not fittings.barriers:
         return []
     gates: list[Placement] = []
-    for wall in walls:
-        portal = wall.spec
-        if not isinstance(portal, PortalSpec) or not portal.is_open:
+    for wall, portal in of_spec(walls, PortalSpec):
+        if not portal.is_open:
             continue
         half = portal.door_width_m / 2 - DOOR_FRAME_M
         elbow = max(
@@ -147,9 +142,7 @@ def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement
         is_raised = has_room and len(gates) % 2 == 0
         spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=is_raised, elbow_m=round(elbow, 3))
         left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
-        x, _, z = wall.position_m
-        x, z = to_world((left * (half + _BARRIER_GAP_M), along), (x, z), wall.yaw_rad)
+        place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
         yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
-        name = wall.name.replace("Portal", "Barrier")
-        gates.append(Placement(name, spec, (round(x, 6), 0.0, round(z, 6)), yaw))
+        gates.append(placed(wall.name.replace("Portal", "Barrier"), spec, place, yaw_rad=yaw))
     return gates

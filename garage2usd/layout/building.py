@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, FittingsConfig
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.layout.clearance import check_clear_width
-from garage2usd.layout.placement import Placement, edge_yaw_rad
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.portal import PortalSpec
@@ -51,7 +51,7 @@ def ground_inside(structure: Structure) -> shapely.Geometry:
     return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
-def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
+def outer_walls(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
     """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
 
     In a reflex corner the wall along X gives way to the one along Z by its thickness.
@@ -61,7 +61,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
     ConfigError
         If a portal's square is too narrow for a door that cars get through.
     """
-    thickness, height = fittings.wall_thickness_m, fittings.ceiling_height_m
+    thickness, height, structure = fittings.wall_thickness_m, fittings.ceiling_height_m, grid.structure
     outside = np.pad(outside_squares(structure.cells), 1, constant_values=True)
     doors = door_edges(structure.cells)
     walls: list[Placement] = []
@@ -69,7 +69,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
         walls += [
             _wall(tile, edge, outside, fittings, has_door=doors.get(tile.square) is edge)
             for edge in Edge
-            if outside[tile.square[0] + 1 + NEIGHBOUR_STEPS[edge][0], tile.square[1] + 1 + NEIGHBOUR_STEPS[edge][1]]
+            if outside[edge.beyond((tile.square[0] + 1, tile.square[1] + 1))]
         ]
     post = WallPostSpec(thickness, height)
     rows, cols = structure.shape
@@ -79,8 +79,7 @@ def outer_walls(structure: Structure, grid: TileGrid, fittings: FittingsConfig) 
             (down, right), *_ = np.argwhere(around).tolist()
             x = float(structure.column_edges_m[col]) + (0.5 - right) * thickness
             z = float(structure.row_edges_m[row]) + (0.5 - down) * thickness
-            name = f"Post_r{row:02d}_c{col:02d}"
-            walls.append(Placement(name, post, (round(x, 6), 0.0, round(z, 6))))
+            walls.append(placed(f"Post_r{row:02d}_c{col:02d}", post, (x, z)))
     return walls
 
 
@@ -106,6 +105,5 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
             is_entrance=tile.cell is Cell.ENTRANCE,
         )
     # the inner face looks back over the edge into the square
-    yaw = edge_yaw_rad({Edge.UP: Edge.DOWN, Edge.DOWN: Edge.UP, Edge.LEFT: Edge.RIGHT, Edge.RIGHT: Edge.LEFT}[edge])
     name = f"{'Portal' if has_door else 'Wall'}_r{row:02d}_c{col:02d}_{edge.name.capitalize()}"
-    return Placement(name, spec, (round(x, 6), 0.0, round(z, 6)), yaw)
+    return placed(name, spec, (x, z), yaw_rad=edge_yaw_rad(edge.opposite))

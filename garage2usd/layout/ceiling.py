@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.layout.placement import Placement
+from garage2usd.layout.placement import Placement, placed
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
 from garage2usd.objects.outline import Box, Point
 from garage2usd.structure.grid import Cell, Structure
@@ -117,20 +117,19 @@ def beams(structure: Structure, bay: BayConfig, ceiling_m: float, depth_m: float
         return []
     inside = structure.cells != Cell.OBSTACLE
     width = round(_BEAM_TO_COLUMN * size, 3)
-    placed: list[Placement] = []
 
-    def place(name: str, length_m: float, middle: Point, yaw_rad: float, square: Square) -> None:
+    def beam(name: str, length_m: float, middle: Point, yaw_rad: float, square: Square) -> Placement:
         spec = BeamSpec(round(length_m, 6), width, depth_m)
-        position = (round(middle[0], 6), ceiling_m, round(middle[1], 6))
-        placed.append(Placement(name, spec, position, yaw_rad, square))
+        return placed(name, spec, middle, height_m=ceiling_m, yaw_rad=yaw_rad, square=square)
 
+    found: list[Placement] = []
     for row, col in np.argwhere(inside[:, :-1] & inside[:, 1:]).tolist():
         middle = (float(x[col + 1]), float(z[row] + z[row + 1]) / 2)
-        place("BeamRight", float(z[row + 1] - z[row]) - size, middle, 0.0, (row, col))
+        found.append(beam("BeamRight", float(z[row + 1] - z[row]) - size, middle, 0.0, (row, col)))
     for row, col in np.argwhere(inside[:-1] & inside[1:]).tolist():
         middle = (float(x[col] + x[col + 1]) / 2, float(z[row + 1]))
-        place("BeamDown", float(x[col + 1] - x[col]) - size, middle, _QUARTER_TURN, (row, col))
-    return placed + _nodes(structure, size, width, ceiling_m, depth_m)
+        found.append(beam("BeamDown", float(x[col + 1] - x[col]) - size, middle, _QUARTER_TURN, (row, col)))
+    return found + _nodes(structure, size, width, ceiling_m, depth_m)
 
 
 def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float, depth_m: float) -> list[Placement]:
@@ -154,7 +153,7 @@ def _nodes(structure: Structure, size_m: float, width_m: float, ceiling_m: float
 
 @lru_cache(maxsize=64)
 def _node_boxes(inside: tuple[bool, bool, bool, bool], size_m: float, width_m: float) -> tuple[Box, ...]:
-    """The rectangles (left, top, right, bottom) of a node, told which of the squares around it are inside.
+    """The rectangles (left, top, right, bottom) of a node, from which of the squares around it are inside.
 
     An arm along X from end to end as far as it goes, and arms along Z up to it.
     """

@@ -14,11 +14,11 @@ __all__ = ["compartment_name", "compartments_of"]
 
 _MM2_PER_M2 = 1e6
 _LEAST_SHARE, _MOST_LINES = 0.3, 24
-"""A cut leaves so much of the floor on both sides; of a large floor, so many lines are tried along each axis."""
+"""Least share of the floor on each side of a cut; most lines along each axis that are tried on a large floor."""
 
 
 def compartment_name(number: int) -> str:
-    """As people say it: ``F1``."""
+    """Name of a compartment: ``F1``."""
     return f"F{number}"
 
 
@@ -41,8 +41,7 @@ def compartments_of(structure: Structure, clause: Area | None) -> NDArray[np.int
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2
     limit = math.inf if clause is None else clause.amount
     numbers = np.zeros(structure.shape, dtype=np.int32)
-    parts = list(_parts(inside, areas, limit))
-    parts.sort(key=lambda part: int(np.flatnonzero(part)[0]))
+    parts = sorted(_parts(inside, areas, limit), key=lambda part: int(np.flatnonzero(part)[0]))
     for number, part in enumerate(parts, start=1):
         numbers[part] = number
     return numbers
@@ -53,12 +52,9 @@ def _parts(part: Mask, areas: NDArray[np.float64], limit: float) -> Iterator[Mas
     if float(areas[part].sum()) <= limit or int(part.sum()) <= 1:
         yield part
         return
-    labels, count = ndimage.label(_best_cut(part, areas, limit))
-    for label in range(1, count + 1):
-        yield from _parts(labels == label, areas, limit)
-    rest, count = ndimage.label(part & (labels == 0))
-    for label in range(1, count + 1):
-        yield from _parts(rest == label, areas, limit)
+    before = _best_cut(part, areas, limit)
+    for piece in (*_pieces(before), *_pieces(part & ~before)):
+        yield from _parts(piece, areas, limit)
 
 
 def _best_cut(part: Mask, areas: NDArray[np.float64], limit: float) -> Mask:
@@ -83,23 +79,23 @@ def _best_cut(part: Mask, areas: NDArray[np.float64], limit: float) -> Mask:
 
 
 def _lines(areas: NDArray[np.float64]) -> list[int]:
-    """Numbers of the lines with a third of the area before them at least, and behind them; all where there are none."""
+    """Numbers of the lines that leave at least 0.3 of the area on both sides; of all lines if no line does."""
     before = np.cumsum(areas)[:-1] / areas.sum()
     middle = np.flatnonzero((before >= _LEAST_SHARE) & (before <= 1 - _LEAST_SHARE)) + 1
     lines = middle if len(middle) else np.arange(1, len(areas))
-    return (
-        lines[np.unique(np.linspace(0, len(lines) - 1, min(len(lines), _MOST_LINES)).round().astype(int))].tolist()
-        if len(lines)
-        else []
-    )
+    if not len(lines):
+        return []
+    chosen = np.linspace(0, len(lines) - 1, min(len(lines), _MOST_LINES)).round().astype(int)
+    return [int(line) for line in lines[np.unique(chosen)]]
 
 
 def _pieces(mask: Mask) -> list[Mask]:
+    """The 4-connected pieces of a part."""
     labels, count = ndimage.label(mask)
     return [labels == label for label in range(1, count + 1)]
 
 
 def _stretch(piece: Mask) -> float:
-    """How drawn out a piece is: the long side of its box over the short one."""
+    """Elongation of a piece: the long side of its bounding box over the short one."""
     rows, cols = (int(np.ptp(indices)) + 1 for indices in np.nonzero(piece))
     return max(rows, cols) / min(rows, cols)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout.placement import Placement, edge_yaw_rad, stall_name, to_world
-from garage2usd.layout.tiles import Tile, neighbour
+from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, placed, rounded, stall_name, to_world
+from garage2usd.layout.tiles import Tile
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
@@ -64,12 +64,12 @@ class Core:
     @property
     def lane(self) -> Square:
         """(row, col) of the lane square that its door opens onto."""
-        return neighbour(self.square, self.edge)
+        return self.edge.beyond(self.square)
 
     @property
     def along_x(self) -> bool:
         """Whether the edge that its door looks to runs along X."""
-        return self.edge in {Edge.UP, Edge.DOWN}
+        return self.edge.along_x
 
     def beside_m(self, half_m: float) -> float:
         """The middle of what it leaves of a square of half an extent along its edge, from the square's middle."""
@@ -78,14 +78,9 @@ class Core:
 
     def landing(self, tile: Tile) -> Box:
         """The floor between its door and the lane, in its square's coordinates."""
-        low, high = self.along_m - self.width_m / 2, self.along_m + self.width_m / 2
-        x, z = tile.half_x_m, tile.half_z_m
-        left, top, right, bottom = {
-            Edge.UP: (low, -z, high, self.recess_m - z),
-            Edge.DOWN: (low, z - self.recess_m, high, z),
-            Edge.LEFT: (-x, low, self.recess_m - x, high),
-            Edge.RIGHT: (x - self.recess_m, low, x, high),
-        }[self.edge]
+        along = self.along_m - self.width_m / 2, self.along_m + self.width_m / 2
+        half = tile.half_x_m, tile.half_z_m
+        left, top, right, bottom = box_inside(self.edge, half, along, (0.0, self.recess_m))
         return round(left, 6), round(top, 6), round(right, 6), round(bottom, 6)
 
     @property
@@ -102,10 +97,10 @@ def obstacle_cores(structure: Structure) -> list[Core]:
     cores = []
     for row, col in np.argwhere((cells == Cell.OBSTACLE) & ~outside_squares(cells)).tolist():
         for edge in _DOOR_SIDES:
-            other = neighbour((row, col), edge)
+            other = edge.beyond((row, col))
             if lane[other[0] + 1, other[1] + 1]:
                 sides = float(x[col + 1] - x[col]), float(z[row + 1] - z[row])
-                width, depth = sides if edge in {Edge.UP, Edge.DOWN} else sides[::-1]
+                width, depth = sides if edge.along_x else sides[::-1]
                 centre = float(x[col] + x[col + 1]) / 2, float(z[row] + z[row + 1]) / 2
                 cores.append(Core((row, col), edge, centre, round(width, 6), round(depth, 6)))
                 break
@@ -129,8 +124,7 @@ def core_placements(structure: Structure, cores: list[Core], height_m: float) ->
         kind = "Core" if core.recess_m else "Obstacle"
         name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
         spec = ObstacleSpec(core.width_m, core.depth_m, height_m)
-        position = (round(core.centre_m[0], 6), 0.0, round(core.centre_m[1], 6))
-        placements.append(Placement(name, spec, position, edge_yaw_rad(core.edge)))
+        placements.append(placed(name, spec, core.centre_m, yaw_rad=edge_yaw_rad(core.edge)))
     return placements
 
 
@@ -141,7 +135,7 @@ def core_candidates(structure: Structure, graph: LaneGraph, config: GarageConfig
     """
     ordinals: dict[Square, int] = {}
     for row in graph.stall_rows:
-        square = row.row, row.col
+        square = row.square
         first = ordinals.get(square, 1)
         ordinals[square] = first + row.count
         names = tuple(stall_name(square, first + index) for index in range(row.count))
@@ -149,23 +143,21 @@ def core_candidates(structure: Structure, graph: LaneGraph, config: GarageConfig
     for square in structure.where(Cell.FREE):
         if square not in ordinals:
             for edge in Edge:
-                if neighbour(square, edge) in graph.graph and _is_lane(structure, neighbour(square, edge)):
+                if edge.beyond(square) in graph.graph and structure.cells[edge.beyond(square)] == Cell.LANE:
                     yield from _in_row(structure, StallRow(*square, edge, 0), (), config)
 
 
 def _in_row(structure: Structure, row: StallRow, names: tuple[str, ...], config: GarageConfig) -> Iterator[Core]:
     """The cores that fit the two ends of a row of stalls."""
     bay = config.bay
-    along_x = row.edge in {Edge.UP, Edge.DOWN}
     sides_m = structure.column_widths_mm[row.col] / 1000, structure.row_depths_mm[row.row] / 1000
-    side_m, across_m = (float(side) for side in (sides_m if along_x else sides_m[::-1]))
+    side_m, across_m = (float(side) for side in (sides_m if row.edge.along_x else sides_m[::-1]))
     depth_m = min(bay.stall_length_m, across_m) - RECESS_M - _FROM_REAR_M
     if depth_m < _LEAST_DEPTH_M:
         return
-    before, after = (Edge.LEFT, Edge.RIGHT) if along_x else (Edge.UP, Edge.DOWN)
     low, high = (
-        sign * (side_m / 2 - (bay.column_size_m / 2 + _FROM_COLUMN_M) * _is_inside(structure, (row.row, row.col), edge))
-        for sign, edge in ((-1, before), (1, after))
+        sign * (side_m / 2 - (bay.column_size_m / 2 + _FROM_COLUMN_M) * _is_inside(structure, edge.beyond(row.square)))
+        for sign, edge in zip((-1, 1), row.edge.ends, strict=True)
     )
     taken = min(_MOST_STALLS, row.count)
     start = -row.count * bay.stall_width_m / 2
@@ -189,17 +181,10 @@ def _core(structure: Structure, row: StallRow, place: tuple[float, float, float]
     middle, width, depth = place
     x, z = structure.column_edges_m, structure.row_edges_m
     half_x, half_z = (float(e[i + 1] - e[i]) / 2 for e, i in ((x, row.col), (z, row.row)))
-    centre_x, centre_z = float(x[row.col]) + half_x, float(z[row.row]) + half_z
     back = RECESS_M + depth / 2
-    offset = {
-        Edge.UP: (middle, back - half_z),
-        Edge.DOWN: (middle, half_z - back),
-        Edge.LEFT: (back - half_x, middle),
-        Edge.RIGHT: (half_x - back, middle),
-    }[row.edge]
-    centre = round(centre_x + offset[0], 6), round(centre_z + offset[1], 6)
-    square = row.row, row.col
-    return Core(square, row.edge, centre, round(width, 6), round(depth, 6), round(middle, 6), RECESS_M, stalls)
+    off_x, off_z, *_ = box_inside(row.edge, (half_x, half_z), (middle, middle), (back, back))
+    centre = rounded((float(x[row.col]) + half_x + off_x, float(z[row.row]) + half_z + off_z))
+    return Core(row.square, row.edge, centre, round(width, 6), round(depth, 6), round(middle, 6), RECESS_M, stalls)
 
 
 def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
@@ -209,12 +194,8 @@ def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
     return max(wall_m - (stall_width_m - car_m) / 2, 0.0)
 
 
-def _is_inside(structure: Structure, square: Square, edge: Edge) -> bool:
-    """Whether a square, and no wall, is beyond an edge."""
-    row, col = neighbour(square, edge)
+def _is_inside(structure: Structure, square: Square) -> bool:
+    """Whether a square is part of the garage."""
+    row, col = square
     rows, cols = structure.shape
     return 0 <= row < rows and 0 <= col < cols and bool(structure.cells[row, col] != Cell.OBSTACLE)
-
-
-def _is_lane(structure: Structure, square: Square) -> bool:
-    return bool(structure.cells[square] == Cell.LANE)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import shapely
 
 from garage2usd.config import ParkingConfig
-from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, placed
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Surface
@@ -17,7 +17,7 @@ __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
 
 _ACCESSIBLE_SHARE = 0.02
 _ACCESSIBLE_FROM_STALLS = 25
-"""Garages of so many stalls have an accessible one at least."""
+"""Garages with at least this many stalls have an accessible one."""
 _CHARGER_FROM_REAR_M = 0.055
 _SYMBOL_Z_M = 0.35
 
@@ -84,7 +84,7 @@ def _is_standard_beside(index: int, other: int, stalls: tuple[Stall, ...], uses:
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:
-    """The white symbol of a stall's use, upright for who drives in; none for a standard stall."""
+    """The white symbol of a stall's use, upright for a driver who enters; empty for a standard stall."""
     if use is StallUse.EV:
         bolt = ((0.12, -0.75), (-0.38, 0.12), (-0.04, 0.12), (-0.16, 0.75), (0.38, -0.18), (0.03, -0.18))
         return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE),)
@@ -113,8 +113,7 @@ def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
     posts = []
     for stall in stalls:
         if stall.use is StallUse.EV:
-            x, z = to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
+            place = stall.to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
             name = stall.named("Charger")
-            position = (round(x, 6), 0.0, round(z, 6))
-            posts.append(Placement(name, ChargerSpec(), position, stall.yaw_rad, stall.square))
+            posts.append(placed(name, ChargerSpec(), place, yaw_rad=stall.yaw_rad, square=stall.square))
     return posts

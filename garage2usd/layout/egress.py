@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.config import GarageConfig
 from garage2usd.layout.compartments import compartments_of
 from garage2usd.layout.cores import Core, core_candidates, obstacle_cores
+from garage2usd.layout.placement import box_inside
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -21,7 +22,7 @@ Points = NDArray[np.float64]
 _EXITS = 2
 """Exits of a compartment where the profile asks for no number."""
 _STALLS_FOR_ONE = 10
-"""Cores stand on one in so many stalls at most, so that a small garage is not all stairs."""
+"""Cores take at most one stall in this many, so that a small garage is not all stairs."""
 _STALL_WORTH_M = 12.0
 """How far from the best place a core stands to save a stall."""
 _OFF_STRAIGHT_M = 8.0
@@ -68,9 +69,9 @@ def plan_egress(structure: Structure, graph: LaneGraph, config: GarageConfig, *,
     Notes
     -----
     Obstacles beside lanes are cores already. For one more core after another, places are spread over the stalls of a
-    compartment by Lloyd's algorithm from farthest-first seeds, and each goes to the candidate that is nearest, where
-    every stall that it costs counts as twelve metres; the first number with which all stalls have a door in reach is
-    kept.
+    compartment by Lloyd's algorithm (1982) from farthest-first seeds (Gonzalez 1985). Each place goes to the nearest
+    candidate, where every stall that it costs counts as twelve metres. The first number of cores with which all stalls
+    have a door in reach is kept.
     """
     profile = config.standard
     area = profile.fire_compartment_area_sprinklered if sprinklered else profile.fire_compartment_area
@@ -106,7 +107,7 @@ def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, r
 
 
 def _spread(points: Points, fixed: Points, count: int) -> Points:
-    """So many places that lie spread over points, beside some that are fixed."""
+    """Spread `count` places over points, given some places that are fixed."""
     centres = fixed
     for _ in range(count):
         if len(centres):
@@ -125,7 +126,7 @@ def _spread(points: Points, fixed: Points, count: int) -> Points:
 
 
 def _snapped(places: _Places, centres: Points) -> list[int]:
-    """The candidate for each place, no two on one square."""
+    """Numbers of the candidates nearest to the places, no two on one square."""
     chosen: list[int] = []
     for centre in centres:
         taken = {square for index in chosen for square in (places.cores[index].square, places.cores[index].lane)}
@@ -153,25 +154,20 @@ def _stalls_by_compartment(
     """Middles of the stalls in each compartment."""
     points: dict[int, list[tuple[float, float]]] = defaultdict(list)
     for row in graph.stall_rows:
-        points[int(compartments[row.row, row.col])] += _middles(structure, row, config)
+        points[int(compartments[row.square])] += _middles(structure, row, config)
     return {number: np.array(middles) for number, middles in points.items()}
 
 
 def _middles(structure: Structure, row: StallRow, config: GarageConfig) -> list[tuple[float, float]]:
     x, z = structure.column_edges_m, structure.row_edges_m
     left, top, right, bottom = (float(v) for v in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
-    deep = config.bay.stall_length_m / 2
-    offsets = [(slot - (row.count - 1) / 2) * config.bay.stall_width_m for slot in range(row.count)]
-    middle_x, middle_z = (left + right) / 2, (top + bottom) / 2
-    match row.edge:
-        case Edge.UP:
-            return [(middle_x + offset, top + deep) for offset in offsets]
-        case Edge.DOWN:
-            return [(middle_x + offset, bottom - deep) for offset in offsets]
-        case Edge.LEFT:
-            return [(left + deep, middle_z + offset) for offset in offsets]
-        case Edge.RIGHT:
-            return [(right - deep, middle_z + offset) for offset in offsets]
+    half, deep = ((right - left) / 2, (bottom - top) / 2), config.bay.stall_length_m / 2
+    middles = []
+    for slot in range(row.count):
+        along = (slot - (row.count - 1) / 2) * config.bay.stall_width_m
+        off_x, off_z, *_ = box_inside(row.edge, half, (along, along), (deep, deep))
+        middles.append(((left + right) / 2 + off_x, (top + bottom) / 2 + off_z))
+    return middles
 
 
 def _places_by_compartment(
@@ -200,6 +196,5 @@ def _places_by_compartment(
 
 def _is_straight(graph: LaneGraph, lane: Square, edge: Edge) -> bool:
     """Whether cars drive over a lane square along an edge of it, and not across that edge."""
-    steps = {(other[0] - lane[0], other[1] - lane[1]) for other in graph.graph[lane]}
-    along = {(0, -1), (0, 1)} if edge in {Edge.UP, Edge.DOWN} else {(-1, 0), (1, 0)}
-    return bool(steps) and steps <= along
+    joined = set(graph.graph[lane])
+    return bool(joined) and joined <= {end.beyond(lane) for end in edge.ends}

@@ -8,7 +8,7 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, placed, to_world
 from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
@@ -16,7 +16,7 @@ from garage2usd.objects.outline import Point
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.randomness import Step, generator
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
@@ -61,16 +61,16 @@ def tube_lights(
             offset = beside_m + (index - (count - 1) / 2) * max(pitch, least_pitch)
             x = tile.x_m + (offset if along_x else 0.0)
             z = tile.z_m + (0.0 if along_x else offset)
-            position = (round(x, 6), fittings.ceiling_height_m, round(z, 6))
-            yaw = 0.0 if along_x else _QUARTER_TURN
-            lights.append(Placement(f"Tube_{index + 1}", TUBE, position, yaw, tile.square))
+            yaw, height = 0.0 if along_x else _QUARTER_TURN, fittings.ceiling_height_m
+            name = f"Tube_{index + 1}"
+            lights.append(placed(name, TUBE, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
     return lights
 
 
 def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
     if tile.cell is Cell.FREE:
         places = grid.stall_places.get(tile.square)
-        return not places or NEIGHBOUR_STEPS[places[0].row.edge][0] != 0
+        return not places or places[0].row.edge.along_x
     return tile.axis_is_x is not False
 
 
@@ -107,13 +107,12 @@ def cones(
     taken = {(car.square, car.name) for car in cars}
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
-    placed: list[Placement] = []
+    found: list[Placement] = []
 
     def place(name: str, points: Iterable[Point], middle: Point, yaw_rad: float, square: Square) -> None:
         for number, point in enumerate(points, start=1):
-            x, z = to_world(point, middle, yaw_rad)
-            position = (round(x, 6), 0.0, round(z, 6))
-            placed.append(Placement(f"{name}_{number}", ConeSpec(), position, yaw_rad, square))
+            foot = to_world(point, middle, yaw_rad)
+            found.append(placed(f"{name}_{number}", ConeSpec(), foot, yaw_rad=yaw_rad, square=square))
 
     for stall in stalls:
         is_drawn = numbers[stall.square][stall.ordinal] < fittings.cone_rate
@@ -125,5 +124,5 @@ def cones(
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
         is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places and tile.square not in built_on
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
-            place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), (tile.x_m, tile.z_m), 0.0, tile.square)
-    return placed
+            place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), tile.middle_m, 0.0, tile.square)
+    return found

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from garage2usd.config import FittingsConfig
-from garage2usd.layout.placement import Placement, Stall
+from garage2usd.layout.placement import Placement, Stall, of_spec
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.structure.grid import Cell
@@ -79,9 +79,10 @@ def light_up(
         if unit.size and unit.mean() > 0
     ]
     luminance = round(max(needs), 1) if needs else 0.0
-    lit = [replace(tube, spec=replace(_spec(tube), luminance_nit=luminance)) for tube in tubes]
+    lamps = [(tube, replace(spec, luminance_nit=luminance)) for tube, spec in of_spec(tubes, TubeLightSpec)]
+    lit = [replace(tube, spec=spec) for tube, spec in lamps]
     area = sum(tile.width_m * tile.depth_m for tile in grid)
-    flux = sum(_flux_lm(tube) for tube in lit)
+    flux = sum(np.pi * luminance * spec.length_m * spec.width_m for _, spec in lamps)
     each = flux / len(lit) if lit else 0.0
     return lit, Illuminance(
         luminance,
@@ -112,8 +113,7 @@ def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArr
 def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Middles (x, z), areas and heights over the floor of equal pieces of all tubes."""
     middles, areas, heights = [], [], []
-    for tube in tubes:
-        spec = _spec(tube)
+    for tube, spec in of_spec(tubes, TubeLightSpec):
         x, y, z = tube.position_m
         for index in range(_SEGMENTS):
             along = ((index + 0.5) / _SEGMENTS - 0.5) * spec.length_m
@@ -123,19 +123,8 @@ def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np
     return np.array(middles), np.array(areas), np.array(heights)
 
 
-def _flux_lm(tube: Placement) -> float:
-    spec = _spec(tube)
-    return np.pi * spec.luminance_nit * spec.length_m * spec.width_m
-
-
-def _spec(tube: Placement) -> TubeLightSpec:
-    if not isinstance(tube.spec, TubeLightSpec):  # pragma: no cover - only tubes are handed over
-        raise TypeError(type(tube.spec).__name__)
-    return tube.spec
-
-
 def lane_points_of(squares: Iterable[tuple[float, float, float, float]]) -> NDArray[np.float64]:
-    """Nine points (x, z) on each lane square, told by its middle (x, z) and its extent along X and Z."""
+    """Nine points (x, z) on each lane square, given by its middle (x, z) and its extent along X and Z."""
     shares = (np.arange(_POINTS_A_SIDE) + 0.5) / _POINTS_A_SIDE - 0.5
     points = [(x + u * width, z + v * depth) for x, z, width, depth in squares for u in shares for v in shares]
     return np.array(points).reshape(-1, 2)

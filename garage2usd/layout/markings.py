@@ -4,6 +4,7 @@ from functools import lru_cache
 
 import shapely
 
+from garage2usd.layout.placement import box_inside
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.panel import Marking, Surface
 from garage2usd.structure.stalls import Edge
@@ -52,15 +53,9 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
 
     ``trims`` cuts its two ends (left and right, or top and bottom).
     """
-    inner = setback + LINE_WIDTH_M
-    low, high = trims
-    shape = {
-        Edge.UP: rectangle(-half_x + low, -half_z + setback, half_x - high, -half_z + inner),
-        Edge.DOWN: rectangle(-half_x + low, half_z - inner, half_x - high, half_z - setback),
-        Edge.LEFT: rectangle(-half_x + setback, -half_z + low, -half_x + inner, half_z - high),
-        Edge.RIGHT: rectangle(half_x - inner, -half_z + low, half_x - setback, half_z - high),
-    }[edge]
-    return Marking(shape, Surface.PAINT_YELLOW)
+    half, (low, high) = half_x if edge.along_x else half_z, trims
+    box = box_inside(edge, (half_x, half_z), (low - half, half - high), (setback, setback + LINE_WIDTH_M))
+    return Marking(rectangle(*box), Surface.PAINT_YELLOW)
 
 
 @lru_cache(maxsize=4096)

@@ -8,9 +8,10 @@ import shapely
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from garage2usd.assets import pascal_case
 from garage2usd.config import GarageConfig
 from garage2usd.layout.cores import Core
-from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, to_world
+from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, of_spec, placed, rounded, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
@@ -72,8 +73,9 @@ def mounted_objects(
 
     Notes
     -----
-    A greedy set cover: the first stall or lane in reading order that is not yet served gets, of all free faces within
-    reach, the one that serves most of the places which need more. A place that no free face serves stays unserved.
+    A greedy set cover (Chvatal 1979): of all free faces within reach of the first stall or lane in reading order that
+    is not yet served, the one that serves most of the places in need is taken. A place without a free face in reach
+    stays unserved.
     """
     pillars, walls = tuple(pillars), tuple(walls)
     faces = [*_column_faces(pillars), *_wall_faces(walls)]
@@ -81,8 +83,9 @@ def mounted_objects(
     used = [shapely.Polygon(stall.corners_m()).buffer(-_LINE_M, join_style="mitre") for stall in stalls]
     used += [_ground(_core_and_landing(core), core.centre_m, edge_yaw_rad(core.edge)) for core in cores]
     used += _outlines((*pillars, *walls, *standing))
-    places = np.array([stall.centre_m for stall in stalls] + [_middle(tile) for tile in grid if tile.cell is Cell.LANE])
-    placed: list[Placement] = []
+    lanes = [tile.middle_m for tile in grid if tile.cell is Cell.LANE]
+    places = np.array([stall.centre_m for stall in stalls] + lanes)
+    objects: list[Placement] = []
     for mounted in MOUNTED:
         if getattr(config.fittings, mounted.setting):
             free = _free_faces(mounted, faces, shapely.STRtree(driven), shapely.STRtree(used))
@@ -90,36 +93,32 @@ def mounted_objects(
             reach_m = (clause.amount if clause else mounted.reach_m) - _SLACK_M
             hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, free, places)]
             used += _outlines(hung)
-            placed += hung
-    return placed
+            objects += hung
+    return objects
 
 
 def _column_faces(pillars: Iterable[Placement]) -> Iterator[_Face]:
     """The four faces of every column."""
-    for pillar in pillars:
-        if isinstance(pillar.spec, ColumnSpec):
-            side = pillar.spec.size_m
-            for edge in Edge:
-                yaw = edge_yaw_rad(edge)
-                place = to_world((0.0, side / 2), (pillar.position_m[0], pillar.position_m[2]), yaw)
-                name = f"{pillar.name}_{edge.name.capitalize()}"
-                yield _Face(_rounded(place), yaw, side + _OVERHANG_M, name)
+    for pillar, spec in of_spec(pillars, ColumnSpec):
+        for edge in Edge:
+            yaw = edge_yaw_rad(edge)
+            place = to_world((0.0, spec.size_m / 2), (pillar.position_m[0], pillar.position_m[2]), yaw)
+            name = f"{pillar.name}_{edge.name.capitalize()}"
+            yield _Face(rounded(place), yaw, spec.size_m + _OVERHANG_M, name)
 
 
 def _wall_faces(walls: Iterable[Placement]) -> Iterator[_Face]:
     """Places along every wall, a pitch apart, and where it meets the next one in its line."""
     ends: set[tuple[Point, float]] = set()
-    for wall in walls:
-        if not isinstance(wall.spec, WallSpec):
-            continue
-        yaw, origin, length = wall.yaw_rad, (wall.position_m[0], wall.position_m[2]), wall.spec.length_m
+    for wall, spec in of_spec(walls, WallSpec):
+        yaw, length = wall.yaw_rad, spec.length_m
         count = max(int(length / _PITCH_M), 1)
         for number in range(count):
             across = (number - (count - 1) / 2) * _PITCH_M
             room = length - 2 * abs(across)
-            yield _Face(_rounded(to_world((across, 0.0), origin, yaw)), yaw, room, f"{wall.name}_{number + 1}")
+            yield _Face(rounded(wall.to_world((across, 0.0))), yaw, room, f"{wall.name}_{number + 1}")
         for across in (-length / 2, length / 2):
-            end = _rounded(to_world((across, 0.0), origin, yaw))
+            end = rounded(wall.to_world((across, 0.0)))
             if (end, yaw) in ends:
                 yield _Face(end, yaw, length, f"{wall.name}_End")
             ends.add((end, yaw))
@@ -180,8 +179,7 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
 
 
 def _hung(mounted: Mounted, face: _Face) -> Placement:
-    kind = "".join(word.capitalize() for word in mounted.kind.name.split("_"))
-    return Placement(f"{kind}_{face.name}", mounted.spec, (face.place[0], 0.0, face.place[1]), face.yaw_rad)
+    return placed(f"{pascal_case(mounted.kind.name)}_{face.name}", mounted.spec, face.place, yaw_rad=face.yaw_rad)
 
 
 def _extent_m(mounted: Mounted) -> tuple[float, float, float]:
@@ -210,11 +208,3 @@ def _carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
     up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)
     x, z = tile.half_x_m, tile.half_z_m
     return shapely.box(tile.x_m - x + left, tile.z_m - z + up, tile.x_m + x - right, tile.z_m + z - down)
-
-
-def _middle(tile: Tile) -> Point:
-    return tile.x_m, tile.z_m
-
-
-def _rounded(place: Point) -> Point:
-    return round(place[0], 6), round(place[1], 6)

@@ -7,7 +7,7 @@ import numpy as np
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.cores import Core
-from garage2usd.layout.placement import Placement, edge_yaw_rad, to_world
+from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.outline import Point
@@ -30,7 +30,7 @@ def no_parking_signs(
 ) -> list[Placement]:
     """A sign in the middle of some of the free squares that hold nothing, before each core, and beside each door.
 
-    There are none at all where the share of such squares is 0.
+    A garage whose share of such squares is 0 has no signs.
     """
     rng = generator(seed, Step.SIGNS)
     built_on = {core.square for core in cores}
@@ -39,7 +39,7 @@ def no_parking_signs(
         if tile.cell is not Cell.FREE or tile.square in grid.stall_places or tile.square in built_on:
             continue
         if rng.random() < fittings.no_parking_sign_rate:
-            signs.append(_sign((tile.x_m, tile.z_m), float(rng.integers(4)) * _QUARTER_TURN, tile.square))
+            signs.append(_sign(tile.middle_m, float(rng.integers(4)) * _QUARTER_TURN, tile.square))
     if fittings.no_parking_sign_rate > 0:
         signs += [_before_core(core) for core in cores if core.recess_m]
         signs += _beside_doors(grid, walls)
@@ -60,15 +60,12 @@ def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]
     """Inside each vehicle door, on the side without a gate, unless cars turn to that side."""
     doors = {f"Portal_r{row:02d}_c{col:02d}_": (row, col) for row, col in door_edges(grid.structure.cells)}
     signs = []
-    for wall in walls:
-        if isinstance(wall.spec, PortalSpec):
-            side = -1 if wall.spec.is_entrance else 1
-            across = side * (wall.spec.door_width_m / 2 - DOOR_FRAME_M + _FROM_JAMB_M)
-            place = to_world((across, _FROM_WALL_M), (wall.position_m[0], wall.position_m[2]), wall.yaw_rad)
-            square = next(square for start, square in doors.items() if wall.name.startswith(start))
-            tile = grid.tiles[square]
-            if not tile.drivable[_beside(wall, place)]:
-                signs.append(_sign(place, wall.yaw_rad, square))
+    for wall, door in of_spec(walls, PortalSpec):
+        side = -1 if door.is_entrance else 1
+        place = wall.to_world((side * (door.door_width_m / 2 - DOOR_FRAME_M + _FROM_JAMB_M), _FROM_WALL_M))
+        square = next(square for start, square in doors.items() if wall.name.startswith(start))
+        if not grid.tiles[square].drivable[_beside(wall, place)]:
+            signs.append(_sign(place, wall.yaw_rad, square))
     return signs
 
 
@@ -81,5 +78,4 @@ def _beside(wall: Placement, place: Point) -> Edge:
 
 
 def _sign(place: Point, yaw_rad: float, square: Square) -> Placement:
-    position = (round(place[0], 6), 0.0, round(place[1], 6))
-    return Placement("NoParkingSign", NoParkingSignSpec(), position, yaw_rad, square)
+    return placed("NoParkingSign", NoParkingSignSpec(), place, yaw_rad=yaw_rad, square=square)

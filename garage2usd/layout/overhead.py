@@ -8,8 +8,8 @@ import networkx as nx
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, edge_yaw_rad
-from garage2usd.layout.tiles import Tile, TileGrid, lane_edges, neighbour
+from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
@@ -31,9 +31,9 @@ _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
 def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
-    """A lit sign over each way into a junction, that points along the shortest way to an exit.
+    """Lit signs over the lanes into each junction, which point along the shortest route to an exit.
 
-    There are none where the ceiling leaves no room over the clear height.
+    A ceiling without room over the clear height has no signs.
     """
     foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
     if not fittings.exit_signs or foot < fittings.clear_height_m:
@@ -44,27 +44,26 @@ def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, level
     for tile in grid:
         if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
             continue
-        ways = {edge: distance.get(neighbour(tile.square, edge), math.inf) for edge in lane_edges(tile)}
+        ways = {edge: distance.get(edge.beyond(tile.square), math.inf) for edge in lane_edges(tile)}
         out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
         signs += [
             _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
             for edge in ways
-            if edge is not out and graph.kind(neighbour(tile.square, edge)) is not LaneKind.EXIT
+            if edge is not out and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
         ]
     return signs
 
 
 def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
-    """The sign over one edge of a junction, looking out over it at who comes in."""
+    """The sign over one edge of a junction, which faces the drivers who enter there."""
     (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
     # the driver comes along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
     turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
     x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
     z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
-    position = (round(x, 6), ceiling_m, round(z, 6))
     spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
     name = f"ExitSign_{edge.name.capitalize()}"
-    return Placement(name, spec, position, edge_yaw_rad(edge), tile.square)
+    return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
 
 
 def mirrors(
@@ -78,16 +77,16 @@ def mirrors(
 
     Notes
     -----
-    Who comes in over an edge is blind to another way where no lane lies in the corner between them. A mirror shows
-    that way to who comes from either of the edges opposite its corner; as few are placed as serve all that can be.
-    There are none where the ceiling leaves no room over the clear height.
+    A driver who enters over an edge cannot see into another lane if no lane lies in the corner between the two. A
+    mirror shows that lane to drivers from either of the edges opposite its corner. Corners are chosen greedily, so that
+    few mirrors serve all edges. A ceiling without room over the clear height has no mirrors.
     """
     highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
     feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
-    height = min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest)
-    placed: list[Placement] = []
+    height = round(min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest), 6)
+    found: list[Placement] = []
     for tile in grid:
         if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
@@ -102,23 +101,21 @@ def mirrors(
             side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
             x = tile.x_m + side_x * (tile.half_x_m - inset)
             z = tile.z_m + side_z * (tile.half_z_m - inset)
-            position = (round(x, 6), round(height, 6), round(z, 6))
             name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
             yaw = round(math.atan2(-side_x, -side_z), 6)
             spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
-            placed.append(Placement(name, spec, position, yaw, tile.square))
-    return placed
+            found.append(placed(name, spec, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
+    return found
 
 
 def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
-    """Whether who comes in over an edge sees a way to the side only from inside the square."""
-    sides = (Edge.LEFT, Edge.RIGHT) if edge in {Edge.UP, Edge.DOWN} else (Edge.UP, Edge.DOWN)
-    between = (grid.neighbour(tile, edge, side) for side in sides if tile.drivable[side])
+    """Whether a driver who enters over an edge sees a lane to the side only from inside the square."""
+    between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
     return any(other is None or other.cell is Cell.FREE for other in between)
 
 
 def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
-    """The edges from which a driver has a corner before him."""
+    """The edges from which a driver faces a corner."""
     return set(Edge) - set(corner)
 
 

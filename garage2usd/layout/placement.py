@@ -1,15 +1,30 @@
 """What stands where: engine-neutral values in metres, Y up, +X along columns, +Z along rows."""
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeVar
 
 from garage2usd.objects.kind import Spec
-from garage2usd.structure.grid import NEIGHBOUR_STEPS
+from garage2usd.objects.outline import Box, Point, Polygon
 from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["Placement", "Stall", "StallUse", "edge_yaw_rad", "stall_name", "to_world"]
+__all__ = [
+    "Placement",
+    "Stall",
+    "StallUse",
+    "box_inside",
+    "edge_yaw_rad",
+    "of_spec",
+    "placed",
+    "rounded",
+    "stall_name",
+    "to_world",
+]
+
+_S = TypeVar("_S", bound=Spec)
 
 
 class StallUse(StrEnum):
@@ -63,10 +78,14 @@ class Placement:
         """Name of its kind of object, one of `garage2usd.objects.KINDS`."""
         return self.spec.kind.name
 
-    def outlines(self) -> list[tuple[tuple[float, float], ...]]:
+    def to_world(self, point: Point) -> Point:
+        """The (x, z) in the garage of a point of the shape."""
+        x, _, z = self.position_m
+        return to_world(point, (x, z), self.yaw_rad)
+
+    def outlines(self) -> list[Polygon]:
         """Convex outlines (x, z) in the garage of what a car could touch of it; empty where a car touches nothing."""
-        origin = self.position_m[0], self.position_m[2]
-        return [tuple(to_world(corner, origin, self.yaw_rad) for corner in outline) for outline in self.spec.outlines()]
+        return [tuple(map(self.to_world, outline)) for outline in self.spec.outlines()]
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +116,7 @@ class Stall:
     ordinal: int
     edge: Edge
     stall_type: StallType
-    centre_m: tuple[float, float]
+    centre_m: Point
     width_m: float
     length_m: float
     use: StallUse = StallUse.STANDARD
@@ -111,8 +130,7 @@ class Stall:
     @property
     def access_square(self) -> Square:
         """(row, col) of the lane square beyond the mouth."""
-        step = NEIGHBOUR_STEPS[self.edge]
-        return self.square[0] + step[0], self.square[1] + step[1]
+        return self.edge.beyond(self.square)
 
     @property
     def yaw_rad(self) -> float:
@@ -123,16 +141,64 @@ class Stall:
         """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""
         return f"{kind}_{self.ordinal}"
 
-    def corners_m(self) -> tuple[tuple[float, float], ...]:
+    def to_world(self, point: Point) -> Point:
+        """The (x, z) in the garage of a point around the stall's middle, its mouth at +Z."""
+        return to_world(point, self.centre_m, self.yaw_rad)
+
+    def corners_m(self) -> Polygon:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""
-        half_width, half_length = self.width_m / 2, self.length_m / 2
-        local = (-half_width, half_length), (half_width, half_length), (half_width, -half_length)
-        return tuple(to_world(point, self.centre_m, self.yaw_rad) for point in (*local, (-half_width, -half_length)))
+        x, z = self.width_m / 2, self.length_m / 2
+        return tuple(map(self.to_world, ((-x, z), (x, z), (x, -z), (-x, -z))))
 
 
 def stall_name(square: Square, ordinal: int) -> str:
     """Id of a stall by its square and its number there."""
     return f"Stall_r{square[0]:02d}_c{square[1]:02d}_{ordinal}"
+
+
+def placed(
+    name: str, spec: Spec, point: Point, *, height_m: float = 0.0, yaw_rad: float = 0.0, square: Square | None = None
+) -> Placement:
+    """An object over a point (x, z) of the garage, which is rounded to the micrometre."""
+    x, z = rounded(point)
+    return Placement(name, spec, (x, height_m, z), yaw_rad, square)
+
+
+def of_spec(placements: Iterable[Placement], spec: type[_S]) -> Iterator[tuple[Placement, _S]]:
+    """The placements whose shape is of a type, each with its shape."""
+    return ((place, place.spec) for place in placements if isinstance(place.spec, spec))
+
+
+def rounded(point: Point) -> Point:
+    """A point to the micrometre."""
+    return round(point[0], 6), round(point[1], 6)
+
+
+def box_inside(edge: Edge, half_m: Point, along_m: tuple[float, float], depth_m: tuple[float, float]) -> Box:
+    """A box on a square, by where it lies along an edge, from the edge's middle, and how far inside the edge.
+
+    Parameters
+    ----------
+    edge
+        An edge of the square.
+    half_m
+        Half the square's extent along X and Z.
+    along_m, depth_m
+        From where to where.
+
+    Returns
+    -------
+    Box
+        Left, top, right and bottom, from the square's middle.
+    """
+    x, z = half_m
+    (start, end), (near, far) = along_m, depth_m
+    return {
+        Edge.UP: (start, near - z, end, far - z),
+        Edge.DOWN: (start, z - far, end, z - near),
+        Edge.LEFT: (near - x, start, far - x, end),
+        Edge.RIGHT: (x - far, start, x - near, end),
+    }[edge]
 
 
 def edge_yaw_rad(edge: Edge) -> float:
@@ -144,7 +210,7 @@ _EDGE_YAWS_RAD = {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edg
 _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
 
 
-def to_world(point: tuple[float, float], origin: tuple[float, float], yaw_rad: float) -> tuple[float, float]:
+def to_world(point: Point, origin: Point, yaw_rad: float) -> Point:
     """Turn a local (x, z) by a yaw about +Y and move it to `origin`; quarter turns are exact."""
     cos, sin = _EXACT_QUARTER.get(yaw_rad) or (math.cos(yaw_rad), math.sin(yaw_rad))
     x, z = point

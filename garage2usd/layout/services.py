@@ -14,14 +14,14 @@ from garage2usd.layout.ceiling import (
     TRAY_WIDTH_M,
     CeilingLevels,
 )
-from garage2usd.layout.placement import Placement
+from garage2usd.layout.placement import Placement, placed
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.sprinkler import SprinklerSpec
-from garage2usd.structure.grid import Cell, Structure
+from garage2usd.structure.grid import Cell
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
@@ -73,16 +73,6 @@ class _Piece:
 
     Attributes
     ----------
-    name
-        Of the piece on its square.
-    tile
-        The square that it belongs to.
-    middle_m
-        (x, z).
-    length_m
-        Its length.
-    along_x
-        Whether it is long along X.
     half_square_m
         Half the extent along it of the square that it hangs over.
     step
@@ -101,55 +91,54 @@ class _Piece:
     joins: bool = False
 
 
-def ducts(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Ventilation ducts along the aisles, on the side where no pipe hangs."""
     if levels.duct_top_m is None:
         return []
-    placed = []
-    for piece in _pieces(_DUCT, structure, grid):
+    lines = []
+    for piece in _pieces(_DUCT, grid):
         hangers = _hangers_at_m(piece, grid.setback_m)
         spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
-        placed.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
+    return lines
 
 
-def sprinklers(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Sprinkler pipes along the aisles, on the side where no duct hangs, over ducts where they cross."""
     if levels.pipe_drop_m is None:
         return []
-    placed = []
-    for piece in _pieces(_PIPE, structure, grid):
+    lines = []
+    for piece in _pieces(_PIPE, grid):
         heads = () if piece.joins else _heads_at_m(piece.length_m, grid.setback_m)
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
-        placed.append(_place(piece, spec, ceiling_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
 
 
-def cable_trays(structure: Structure, grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def cable_trays(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
     """Cable trays along the aisles, beside the pipes and over them and the ducts where they cross."""
     if levels.tray_drop_m is None:
         return []
-    placed = []
-    for piece in _pieces(_TRAY, structure, grid):
+    lines = []
+    for piece in _pieces(_TRAY, grid):
         rods = _hangers_at_m(piece, grid.setback_m)
         spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
-        placed.append(_place(piece, spec, ceiling_m))
-    return placed
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
 
 
 def _place(piece: _Piece, spec: Spec, height_m: float) -> Placement:
-    x, z = piece.middle_m
-    position = (round(x, 6), round(height_m, 6), round(z, 6))
-    return Placement(piece.name, spec, position, _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square)
+    yaw, square = _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square
+    return placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw, square=square)
 
 
-def _pieces(line: _Line, structure: Structure, grid: TileGrid) -> Iterator[_Piece]:
+def _pieces(line: _Line, grid: TileGrid) -> Iterator[_Piece]:
     """A piece over each lane square: along X beside other lanes of its row, along Z elsewhere.
 
     A line along a column of squares leads on to those along the rows above and below it.
     """
-    in_row = _in_runs(structure.cells == Cell.LANE)
+    in_row = _in_runs(grid.structure.cells == Cell.LANE)
 
     def from_middle_m(half_m: float) -> float:
         return max(half_m - grid.setback_m - line.from_edge_m, 0.0)

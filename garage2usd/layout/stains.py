@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, placed, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.randomness import Step
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.stalls import Edge
 
@@ -90,8 +90,8 @@ class _Floor:
         if any(lift_m == height and _overlap(box, other) for height, other in self.boxes):
             return
         self.boxes.append((lift_m, box))
-        position = (round(self.tile.x_m + place[0], 6), lift_m, round(self.tile.z_m + place[1], 6))
-        self.placed.append(Placement(name, spec, position, yaw_rad, self.tile.square))
+        point = self.tile.x_m + place[0], self.tile.z_m + place[1]
+        self.placed.append(placed(name, spec, point, height_m=lift_m, yaw_rad=yaw_rad, square=self.tile.square))
 
 
 def floor_stains(
@@ -160,7 +160,7 @@ def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64]
 
 
 def _on_tile(tile: Tile, stall: Stall, local: Point) -> Point:
-    x, z = to_world(local, stall.centre_m, stall.yaw_rad)
+    x, z = stall.to_world(local)
     return x - tile.x_m, z - tile.z_m
 
 
@@ -173,7 +173,7 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64]) -> None:
     mark, towards = _way(ways)
     yaw = edge_yaw_rad(towards)
     sides = tile.width_m, tile.depth_m
-    width, depth = sides if NEIGHBOUR_STEPS[towards][0] else sides[::-1]
+    width, depth = sides if towards.along_x else sides[::-1]
     variant, side, *_ = drawn[_LANE_SLOTS - 1].tolist()
     kind = int(variant * _WEAR_VARIANTS) if mark is StainMark.WEAR_STRAIGHT else 0
     if mark is StainMark.WEAR_STRAIGHT and side < 1 / 2:
@@ -223,9 +223,7 @@ def _far(tile: Tile) -> Edge:
 
 def _opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[Stall]]) -> Iterator[Stall]:
     """The stalls whose mouths lie on one edge of a lane."""
-    dr, dc = NEIGHBOUR_STEPS[edge]
-    beyond = (tile.square[0] + dr, tile.square[1] + dc)
-    return (stall for stall in stalls_on.get(beyond, []) if stall.access_square == tile.square)
+    return (stall for stall in stalls_on.get(edge.beyond(tile.square), []) if stall.access_square == tile.square)
 
 
 def _mark_turns(floor: _Floor, stalls: list[Stall], setback_m: float, drawn: NDArray[np.float64], rate: float) -> None:

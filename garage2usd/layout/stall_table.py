@@ -1,12 +1,12 @@
 """All stalls of a garage in columns, as light as its objects."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import overload
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.layout.placement import Stall, StallUse, stall_name
+from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
 from garage2usd.structure.stalls import Edge
@@ -19,7 +19,7 @@ _TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TY
 _USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
 
 
-class StallTable(Sequence[Stall]):
+class StallTable(Table[Stall]):
     """The stalls of a garage: a sequence of them, and their columns as arrays.
 
     Attributes
@@ -51,23 +51,6 @@ class StallTable(Sequence[Stall]):
         """Number of stalls."""
         return len(self.edge)
 
-    @overload
-    def __getitem__(self, index: int) -> Stall: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> list[Stall]: ...
-
-    def __getitem__(self, index: int | slice) -> Stall | list[Stall]:
-        """One stall, or those of a slice."""
-        if isinstance(index, slice):
-            return list(self._at(index))
-        place = range(len(self))[index]
-        return next(self._at(slice(place, place + 1)))
-
-    def __iter__(self) -> Iterator[Stall]:
-        """All stalls in order."""
-        return self._at(slice(None))
-
     @property
     def access_square(self) -> NDArray[np.int32]:
         """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
@@ -81,7 +64,8 @@ class StallTable(Sequence[Stall]):
             for (row, col), ordinal in zip(self.square.tolist(), self.ordinal.tolist(), strict=True)
         ]
 
-    def _at(self, rows: slice) -> Iterator[Stall]:
+    def at(self, rows: NDArray[np.intp]) -> list[Stall]:
+        """The stalls in some rows."""
         columns = (
             self.square,
             self.ordinal,
@@ -92,10 +76,8 @@ class StallTable(Sequence[Stall]):
             self.use,
             self.number,
         )
-        for (row, col), ordinal, edge, stall_type, (x, z), (width, length), use, number in zip(
-            *(column[rows].tolist() for column in columns), strict=True
-        ):
-            yield Stall(
+        return [
+            Stall(
                 square=(row, col),
                 ordinal=ordinal,
                 edge=EDGES[edge],
@@ -106,3 +88,7 @@ class StallTable(Sequence[Stall]):
                 use=STALL_USES[use],
                 number=number.decode("ascii"),
             )
+            for (row, col), ordinal, edge, stall_type, (x, z), (width, length), use, number in zip(
+                *(column[rows].tolist() for column in columns), strict=True
+            )
+        ]

@@ -1,7 +1,8 @@
 """All objects of a garage in columns, so that a million of them stay light and quick to go through."""
 
+from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, overload
+from typing import Any, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,12 +10,37 @@ from numpy.typing import NDArray
 from garage2usd.layout.placement import Placement
 from garage2usd.objects import KINDS, Spec
 
-__all__ = ["ObjectTable", "compact"]
+__all__ = ["ObjectTable", "Table", "compact"]
 
+_Entry = TypeVar("_Entry")
 _ROWS = {kind.name: row for row, kind in enumerate(KINDS)}
 
 
-class ObjectTable(Sequence[Placement]):
+class Table(Sequence[_Entry]):
+    """A sequence whose entries are kept in columns and made when they are asked for."""
+
+    @abstractmethod
+    def at(self, rows: NDArray[np.intp]) -> list[_Entry]:
+        """The entries in some rows."""
+
+    @overload
+    def __getitem__(self, index: int) -> _Entry: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[_Entry]: ...
+
+    def __getitem__(self, index: int | slice) -> _Entry | list[_Entry]:
+        """One entry, or those of a slice."""
+        if isinstance(index, slice):
+            return self.at(np.arange(len(self))[index])
+        return self.at(np.array([range(len(self))[index]]))[0]
+
+    def __iter__(self) -> Iterator[_Entry]:
+        """All entries in order."""
+        return iter(self.at(np.arange(len(self))))
+
+
+class ObjectTable(Table[Placement]):
     """The objects of a garage: a sequence of placements, and its columns as arrays.
 
     Attributes
@@ -52,22 +78,6 @@ class ObjectTable(Sequence[Placement]):
     def __len__(self) -> int:
         """Number of objects."""
         return len(self.kind)
-
-    @overload
-    def __getitem__(self, index: int) -> Placement: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> list[Placement]: ...
-
-    def __getitem__(self, index: int | slice) -> Placement | list[Placement]:
-        """One placement, or those of a slice."""
-        if isinstance(index, slice):
-            return self.at(np.arange(len(self))[index])
-        return self.at(np.array([range(len(self))[index]]))[0]
-
-    def __iter__(self) -> Iterator[Placement]:
-        """All placements in order."""
-        return iter(self.at(np.arange(len(self))))
 
     def at(self, rows: NDArray[np.intp]) -> list[Placement]:
         """The placements in some rows."""

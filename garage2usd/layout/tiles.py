@@ -20,12 +20,12 @@ from garage2usd.layout.markings import (
     two_way_arrows,
     zebra,
 )
-from garage2usd.layout.placement import Placement, stall_name
+from garage2usd.layout.placement import Placement, box_inside, stall_name
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.floor import FloorSpec
-from garage2usd.objects.outline import Box, Polygon, rectangle
+from garage2usd.objects.outline import Box, Point, Polygon, rectangle
 from garage2usd.objects.panel import Marking, Surface
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
+from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
@@ -36,13 +36,10 @@ __all__ = [
     "ceiling_panel",
     "floor_panel",
     "lane_edges",
-    "neighbour",
     "stall_rectangle",
 ]
 
 CEILING_THICKNESS_M = 0.25
-_SIDES = {Edge.UP: (Edge.LEFT, Edge.RIGHT), Edge.LEFT: (Edge.UP, Edge.DOWN)}
-_SIDES |= {Edge.DOWN: _SIDES[Edge.UP], Edge.RIGHT: _SIDES[Edge.LEFT]}
 
 
 @dataclass(frozen=True)
@@ -73,6 +70,11 @@ class Tile:
     depth_m: float
     drivable: tuple[bool, bool, bool, bool]
     stall_mouths: tuple[bool, bool, bool, bool]
+
+    @property
+    def middle_m(self) -> Point:
+        """(x, z) of its middle."""
+        return self.x_m, self.z_m
 
     @property
     def half_x_m(self) -> float:
@@ -128,7 +130,7 @@ class TileGrid:
         self.setback_m = bay.carriageway_setback_m
         self.stall_places = _stall_places(graph.stall_rows, left_out)
         mouths = {
-            (*neighbour(square, place.row.edge), place.row.edge.opposite)
+            (*place.row.edge.beyond(square), place.row.edge.opposite)
             for square, places in self.stall_places.items()
             for place in places
         }
@@ -141,7 +143,7 @@ class TileGrid:
                 z_m=float(z[row] + z[row + 1]) / 2,
                 width_m=float(structure.column_widths_mm[col]) / 1000,
                 depth_m=float(structure.row_depths_mm[row]) / 1000,
-                drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, neighbour(square, edge))),
+                drivable=_by_edge(row, col, lambda square, edge: graph.graph.has_edge(square, edge.beyond(square))),
                 stall_mouths=_by_edge(row, col, lambda square, edge: (*square, edge) in mouths),
             )
             for row, col in np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
@@ -155,7 +157,7 @@ class TileGrid:
         """The tile beyond one edge, or beyond a corner of two; None outside and on obstacles."""
         square = tile.square
         for edge in edges:
-            square = neighbour(square, edge)
+            square = edge.beyond(square)
         return self.tiles.get(square)
 
     def clear_width_m(self, tile: Tile) -> float:
@@ -170,7 +172,7 @@ def _stall_places(rows: Iterable[StallRow], left_out: Collection[str]) -> dict[S
     ordinals: Counter[Square] = Counter()
     places: dict[Square, list[StallPlace]] = {}
     for row in rows:
-        square = row.row, row.col
+        square = row.square
         first = ordinals[square] + 1
         ordinals[square] += row.count
         is_stall = [stall_name(square, first + index) not in left_out for index in range(row.count)]
@@ -236,14 +238,8 @@ def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Pol
 
 def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, length: float) -> Polygon:
     """A rectangle that reaches `length` into a tile from one edge, from `start` to `end` along it."""
-    x, z = tile.half_x_m, tile.half_z_m
-    corners = {
-        Edge.UP: (start, -z, end, -z + length),
-        Edge.DOWN: (start, z - length, end, z),
-        Edge.LEFT: (-x, start, -x + length, end),
-        Edge.RIGHT: (x - length, start, x, end),
-    }[edge]
-    return rectangle(*(round(value, 6) for value in corners))
+    box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), (0.0, length))
+    return rectangle(*(round(side, 6) for side in box))
 
 
 def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig) -> tuple[Marking, ...]:
@@ -268,7 +264,7 @@ def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, crossing_m: fl
     markings: list[Marking] = []
     for edge in Edge:
         if not tile.drivable[edge] and not tile.stall_mouths[edge]:
-            low, high = (_trim(tile, edge, side, setback) for side in _SIDES[edge])
+            low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
             markings.append(edge_line(edge, half_x, half_z, setback, (low, high)))
     for vertical in (Edge.UP, Edge.DOWN):
         for horizontal in (Edge.LEFT, Edge.RIGHT):
@@ -290,7 +286,7 @@ def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
     """How much an edge line is cut at the end on `side`, so that lines meet in a corner without overlap."""
     if tile.drivable[side]:
         return 0.0
-    runs_behind = edge in {Edge.LEFT, Edge.RIGHT} and not tile.stall_mouths[side]
+    runs_behind = not edge.along_x and not tile.stall_mouths[side]
     return setback + (LINE_WIDTH_M if runs_behind else 0.0)
 
 
@@ -298,12 +294,6 @@ def _portal_markings(tile: Tile) -> tuple[Marking, ...]:
     """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
     inwards = lane_edges(tile)[0]
     return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else inwards.opposite),)
-
-
-def neighbour(square: Square, edge: Edge) -> Square:
-    """The square beyond an edge of one."""
-    dr, dc = NEIGHBOUR_STEPS[edge]
-    return square[0] + dr, square[1] + dc
 
 
 def _by_edge(row: int, col: int, test: Callable[[Square, Edge], bool]) -> tuple[bool, bool, bool, bool]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from garage2usd.assets.glyphs import GLYPH_PITCH
 from garage2usd.config import FittingsConfig
-from garage2usd.layout.placement import Placement, Stall, to_world
+from garage2usd.layout.placement import Placement, Stall, placed
 from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.objects.zone_plate import ZonePlateSpec
 from garage2usd.structure.grid import Structure
@@ -35,7 +35,7 @@ class Zone(NamedTuple):
     number: int
 
     def __str__(self) -> str:
-        """As people say it: ``B2``."""
+        """Name of the zone: ``B2``."""
         return f"{self.letter}{self.number}"
 
 
@@ -53,9 +53,9 @@ class Zones:
 
 
 def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, ...]:
-    """The same stalls with their numbers, running through each zone, or through the garage where there are none.
+    """The same stalls with their numbers, counted through each zone, or through the garage if it has no zones.
 
-    Stalls that nobody parks in have none.
+    Stalls in which nobody parks get no number.
     """
     counts: Counter[Zone | None] = Counter()
     numbered = []
@@ -82,16 +82,9 @@ def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Pla
         for piece, end in enumerate(range(len(painted), 0, -_PIECE_DIGITS), start=1):
             start = max(end - _PIECE_DIGITS, 0)
             across = (start + end - len(painted)) / 2 * pitch_m
-            x, z = to_world((across, along), stall.centre_m, stall.yaw_rad)
-            numbers.append(
-                Placement(
-                    f"{stall.named('StallNumber')}_{piece}",
-                    NumberSpec(painted[start:end], _DIGIT_HEIGHT_M),
-                    (round(x, 6), 0.0, round(z, 6)),
-                    stall.yaw_rad,
-                    stall.square,
-                )
-            )
+            name, spec = f"{stall.named('StallNumber')}_{piece}", NumberSpec(painted[start:end], _DIGIT_HEIGHT_M)
+            place = stall.to_world((across, along))
+            numbers.append(placed(name, spec, place, yaw_rad=stall.yaw_rad, square=stall.square))
     return numbers
 
 

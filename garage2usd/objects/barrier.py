@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from garage2usd.assets.faces import box_faces
+from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle
@@ -46,12 +46,7 @@ class BarrierSpec(Spec, kind=KIND):
                 make_part("Cap", cap, "steel_dark", collider=Collider.BOX),
                 make_part("Hub", hub, "steel_dark"),
                 *(
-                    make_part(
-                        f"{name}{index}",
-                        [face + np.array((0.0, 0.0, arm_z)) for face in box],
-                        material,
-                        collider=Collider.BOX,
-                    )
+                    make_part(f"{name}{index}", moved(box, (0.0, 0.0, arm_z)), material, collider=Collider.BOX)
                     for name, boxes, material in (("Red", red, "sign_ring"), ("White", white, "sign_white"))
                     for index, box in enumerate(boxes, start=1)
                 ),

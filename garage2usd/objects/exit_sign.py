@@ -15,7 +15,7 @@ KIND = Kind("exit_sign", number=24, label="exit_sign", cityscapes="traffic sign"
 
 
 class Turn(StrEnum):
-    """Where a sign's arrow sends who reads it."""
+    """The direction in which a sign's arrow sends people."""
 
     LEFT = "left"
     AHEAD = "ahead"

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from garage2usd.assets.faces import box_faces, lathe_faces, tube_faces, upright_lathe_faces
+from garage2usd.assets.faces import box_faces, lathe_faces, level_lathe_faces, moved, tube_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
@@ -66,14 +66,10 @@ MOUNTED = Mounted(FireExtinguisherSpec(), setting="fire_extinguishers", clause="
 
 def _extinguisher(x_m: float) -> dict[str, list[Face]]:
     """The faces of one extinguisher by what they are, where it hangs."""
-    at = np.array((x_m, _FOOT_M, _FROM_WALL_M))
     top = _NECK_M[-1][0]
     squeeze = box_faces((-0.012, top + 0.012, -0.035), (0.012, top + 0.020, 0.075))
     carry = box_faces((-0.012, top - 0.012, -0.030), (0.012, top - 0.004, 0.070))
-    gauge = [
-        face[:, [1, 2, 0]]
-        for face in lathe_faces([(0.0, 0.0), (0.0, 0.014), (0.012, 0.014), (0.012, 0.0)], segments=12)
-    ]
+    gauge = level_lathe_faces([(0.0, 0.0), (0.0, 0.014), (0.012, 0.014), (0.012, 0.0)], segments=12)
     # from the valve's side down along the body, to where its nozzle is clipped
     bend = [(-0.016, 0.430), (-0.050, 0.437), (-0.078, 0.410), (-0.083, 0.340), (-0.083, 0.120)]
     hose = tube_faces([(across, up, 0.0) for across, up in bend], 0.0085, segments=6)
@@ -92,14 +88,14 @@ def _extinguisher(x_m: float) -> dict[str, list[Face]]:
         "Body": upright_lathe_faces(list(_BODY_M), segments=18),
         "Valve": upright_lathe_faces(list(_NECK_M), segments=10),
         "Lever": squeeze + carry + box_faces((-0.010, top - 0.004, -0.030), (0.010, top + 0.012, 0.005)),
-        "Gauge": [face + np.array((0.0, 0.424, 0.018)) for face in gauge],
+        "Gauge": moved(gauge, (0.0, 0.424, 0.018)),
         "Hose": hose,
         "Strap": [face[:, [1, 0, 2]] * (-1.0, 1.0, 1.0) + np.array((0.0, 0.22, 0.0)) for face in strap],
         "Label": _wrapped(_RADIUS_M + 0.0008, (0.075, 0.195), 62.0),
         "Print": _wrapped(_RADIUS_M + 0.0016, (0.165, 0.185), 50.0)
         + _wrapped(_RADIUS_M + 0.0016, (0.095, 0.100), 50.0),
     }
-    return {name: [face + at for face in faces] for name, faces in parts.items()}
+    return {name: moved(faces, (x_m, _FOOT_M, _FROM_WALL_M)) for name, faces in parts.items()}
 
 
 def _wrapped(radius_m: float, heights_m: tuple[float, float], half_deg: float) -> list[Face]:

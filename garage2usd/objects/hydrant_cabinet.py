@@ -2,11 +2,10 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 import shapely
 from shapely import affinity
 
-from garage2usd.assets.faces import box_faces, lathe_faces, ring_faces, upright_lathe_faces
+from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
@@ -39,18 +38,15 @@ class HydrantCabinetSpec(Spec, kind=KIND):
         x, low, high, front = _WIDTH_M / 2, _FOOT_M, _FOOT_M + _HEIGHT_M, _DEPTH_M - _DOOR_M
         inside = (-x + _SHEET_M, low + _SHEET_M, 0.0), (x - _SHEET_M, high - _SHEET_M, front)
         back = box_faces(inside[0], (inside[1][0], inside[1][1], _SHEET_M))
-        pipe_x, pipe_z = -x + 0.13, 0.11
-        pipe = [
-            face + np.array((pipe_x, 0.0, pipe_z))
-            for face in upright_lathe_faces([(0, _PIPE_M), (low, _PIPE_M)], segments=16)
-        ]
+        at_pipe = (-x + 0.13, 0.0, 0.11)
+        pipe = moved(upright_lathe_faces([(0, _PIPE_M), (low, _PIPE_M)], segments=16), at_pipe)
         return Asset(
             (
                 make_part("Sides", ring_faces(*inside, _SHEET_M), "pipe_red", collider=Collider.BOX),
                 make_part("Back", back, "housing_white"),
                 make_part("Pipe", pipe, "pipe_red", collider=Collider.CONVEX_HULL),
                 *_door(x, low, high, front),
-                *_fittings(pipe_x, pipe_z),
+                *_fittings(at_pipe),
             )
         )
 
@@ -93,16 +89,13 @@ def _door(x: float, low: float, high: float, back: float) -> list[Part]:
     ]
 
 
-def _fittings(pipe_x: float, pipe_z: float) -> list[Part]:
+def _fittings(at_pipe: tuple[float, float, float]) -> list[Part]:
     """The riser's end with its valve and hand wheel, the hose on its reel, and the nozzle."""
     top = _OUTLET_M + 0.06
     riser = upright_lathe_faces([(_FOOT_M + _SHEET_M, _PIPE_M), (top, _PIPE_M)], segments=16)
     # the outlet looks to +Z, the wheel's stem to the top
-    outlet = [
-        face[:, [1, 2, 0]]
-        for face in lathe_faces([(0.0, 0.0), (0.0, 0.032), (0.075, 0.032), (0.075, 0.0)], segments=16)
-    ]
-    outlet = [face + np.array((0.0, _OUTLET_M, 0.02)) for face in outlet]
+    outlet = level_lathe_faces([(0.0, 0.0), (0.0, 0.032), (0.075, 0.032), (0.075, 0.0)], segments=16)
+    outlet = moved(outlet, (0.0, _OUTLET_M, 0.02))
     wheel = upright_lathe_faces(
         [(top, 0.012), (top + 0.05, 0.012), (top + 0.051, 0.05), (top + 0.066, 0.05)], segments=16
     )
@@ -110,18 +103,15 @@ def _fittings(pipe_x: float, pipe_z: float) -> list[Part]:
     # turns of flat hose: a groove between each and the next
     turns = [(depth, _REEL_M - at * 0.033) for at in range(6) for depth in (0.065, 0.058)]
     section = [(0.0, 0.0), (0.0, _REEL_M), *turns, (0.058, 0.0)]
-    coils = [face[:, [1, 2, 0]] + np.array((0.08, reel_y, reel_z)) for face in lathe_faces(section, segments=20)]
-    hub = [
-        face[:, [1, 2, 0]] + np.array((0.08, reel_y, _SHEET_M))
-        for face in lathe_faces([(0.0, 0.0), (0.0, 0.03), (0.11, 0.03), (0.11, 0.0)], segments=12)
-    ]
+    coils = moved(level_lathe_faces(section, segments=20), (0.08, reel_y, reel_z))
+    hub = level_lathe_faces([(0.0, 0.0), (0.0, 0.03), (0.11, 0.03), (0.11, 0.0)], segments=12)
+    hub = moved(hub, (0.08, reel_y, _SHEET_M))
     nozzle = upright_lathe_faces([(0.0, 0.026), (0.05, 0.026), (0.06, 0.019), (0.26, 0.011)], segments=14)
-    nozzle = [face + np.array((0.24, _FOOT_M + _SHEET_M + 0.01, 0.14)) for face in nozzle]
-    at_pipe = np.array((pipe_x, 0.0, pipe_z))
+    nozzle = moved(nozzle, (0.24, _FOOT_M + _SHEET_M + 0.01, 0.14))
     return [
-        make_part("Riser", [face + at_pipe for face in riser], "pipe_red"),
-        make_part("Valve", [face + at_pipe for face in outlet], "brass"),
-        make_part("Wheel", [face + at_pipe for face in wheel], "sign_ring"),
+        make_part("Riser", moved(riser, at_pipe), "pipe_red"),
+        make_part("Valve", moved(outlet, at_pipe), "brass"),
+        make_part("Wheel", moved(wheel, at_pipe), "sign_ring"),
         make_part("Hose", coils, "hose"),
         make_part("Hub", hub, "steel_dark"),
         make_part("Nozzle", nozzle, "brass"),

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from garage2usd.assets.faces import box_faces, lathe_faces
-from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.assets.faces import box_faces, level_lathe_faces
+from garage2usd.assets.mesh import Asset, Collider, make_part
 from garage2usd.objects.kind import Kind, Spec
 
 __all__ = ["KIND", "MirrorSpec"]
@@ -28,20 +28,15 @@ class MirrorSpec(Spec, kind=KIND):
             (0.02, self.radius_m),
             (0.02, self.radius_m * 0.94),
             (0.0, self.radius_m * 0.94),
+            (0.0, 0.0),
         ]
-        rim.append((0.0, 0.0))
         angles = np.linspace(np.pi / 2, 0.0, 7)
         glass = [(float(0.004 + 0.09 * np.cos(a)), float(self.radius_m * 0.93 * np.sin(a))) for a in angles]
         arm = box_faces((-0.02, -0.02, -self.arm_m), (0.02, 0.02, -0.032))
         return Asset(
             (
-                make_part("Rim", _facing(rim), "sign_orange", collider=Collider.CONVEX_HULL),
-                make_part("Glass", _facing(glass), "mirror"),
+                make_part("Rim", level_lathe_faces(rim, segments=32), "sign_orange", collider=Collider.CONVEX_HULL),
+                make_part("Glass", level_lathe_faces(glass, segments=32), "mirror"),
                 make_part("Arm", arm, "steel_dark"),
             ),
         )
-
-
-def _facing(profile: list[tuple[float, float]]) -> list[Face]:
-    """A solid of revolution about the Z axis from (z, radius) pairs."""
-    return [face[:, [1, 2, 0]] for face in lathe_faces(profile, segments=32)]

@@ -1,4 +1,4 @@
-"""Objects that hang on walls and columns, so many that every place in a garage has some within reach."""
+"""Objects that hang on walls and columns, as many as it takes for every place to have one within reach."""
 
 from dataclasses import dataclass
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import shapely
 
 from garage2usd.assets.flat import GRID_M, flat_part
-from garage2usd.assets.mesh import Asset
+from garage2usd.assets.mesh import Asset, pascal_case
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Polygon
 
@@ -87,12 +87,8 @@ class PanelSpec(Spec):
         base = shapely.difference(base, shapely.union_all(list(areas.values())), grid_size=GRID_M)
         return Asset(
             tuple(
-                flat_part(_pascal(material), area, material)
+                flat_part(pascal_case(material), area, material)
                 for material, area in [(_MATERIALS[self.surface], base), *areas.items()]
                 if area.area > 0
             )
         )
-
-
-def _pascal(key: str) -> str:
-    return "".join(word.capitalize() for word in key.split("_"))

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from garage2usd.assets.faces import box_faces
+from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Point, Polygon, rectangle
@@ -111,12 +111,11 @@ def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Fac
 
 def _kerb(half_m: float, side: float, profile: Profile) -> list[Face]:
     """The kerb at the foot of a side wall."""
-    outer, inner, up = side * half_m, side * (half_m - _KERB_WIDTH_M), np.array((0.0, _KERB_HEIGHT_M, 0.0))
+    outer, inner = side * half_m, side * (half_m - _KERB_WIDTH_M)
     faces = _ribbon(inner, profile, 0.0, _KERB_HEIGHT_M)
     low, high = sorted((inner, outer))
-    middle = np.array(((low + high) / 2, 0.0, 0.0))
-    faces += [face + middle + up for face in _strip((high - low) / 2, profile)]
-    (start, y), _ = profile[0], profile[1]
+    faces += moved(_strip((high - low) / 2, profile), ((low + high) / 2, _KERB_HEIGHT_M, 0.0))
+    start, y = profile[0]
     faces += box_faces((low, y, -start - 1), (high, y + _KERB_HEIGHT_M, -start), without="lrbtn")
     return faces
 
@@ -129,9 +128,9 @@ def _grooved(profile: Profile) -> list[tuple[float, float]]:
     for (r0, y0), (r1, y1) in pairwise(profile):
         count = int((r1 - r0) / _GROOVE_PITCH_M) if y1 > y0 else 0
         for middle in (r0 + (np.arange(count) + 0.5) * (r1 - r0) / max(count, 1)).tolist():
-            for offset, depth in ((-half, 0.0), (-half + edge, _GROOVE_DEPTH_M)):
-                grooved.append((middle + offset, float(np.interp(middle + offset, runs, heights)) - depth))
-            for offset, depth in ((half - edge, _GROOVE_DEPTH_M), (half, 0.0)):
+            rim, floor = (half, 0.0), (half - edge, _GROOVE_DEPTH_M)
+            for side, (away, depth) in ((-1, rim), (-1, floor), (1, floor), (1, rim)):
+                offset = side * away
                 grooved.append((middle + offset, float(np.interp(middle + offset, runs, heights)) - depth))
         grooved.append((r1, y1))
     return grooved

@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from garage2usd.assets.faces import box_faces, lathe_faces
+from garage2usd.assets.faces import box_faces, level_lathe_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
@@ -38,8 +36,7 @@ class SprinklerSpec(Spec, kind=KIND):
         """A red pipe on rods with pendent heads."""
         half = self.length_m / 2
         profile = [(-half, 0.0), (-half, self.radius_m), (half, self.radius_m), (half, 0.0)]
-        # from X to Z, by a cyclic change of the axes that keeps the winding
-        pipe = [face[:, [1, 2, 0]] + np.array((0.0, -self.drop_m, 0.0)) for face in lathe_faces(profile, segments=12)]
+        pipe = moved(level_lathe_faces(profile, segments=12), (0.0, -self.drop_m, 0.0))
         rods: list[Face] = []
         for z in self.rods_at_m:
             rods += box_faces(

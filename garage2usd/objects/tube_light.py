@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from garage2usd.assets.faces import box_faces, lathe_faces
+from garage2usd.assets.faces import box_faces, lathe_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, RectLight, make_part
 from garage2usd.objects.kind import Kind, Spec, VariantSet
 
@@ -43,7 +41,7 @@ class TubeLightSpec(Spec, kind=KIND):
         tubes: list[Face] = []
         for side in (-z / 2, z / 2):
             ring = lathe_faces([(-x + 0.03, _TUBE_RADIUS_M), (x - 0.03, _TUBE_RADIUS_M)], segments=10)
-            tubes += [face + np.array((0.0, -_HOUSING_HEIGHT_M - 0.024, side)) for face in ring]
+            tubes += moved(ring, (0.0, -_HOUSING_HEIGHT_M - 0.024, side))
         light = RectLight(self.length_m, self.width_m, -self.drop_m, self.luminance_nit)
         return Asset(
             (

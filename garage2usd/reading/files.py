@@ -1,4 +1,4 @@
-"""Files of stages that anybody may have written, looked at before USD opens them."""
+"""Files of stages from unknown sources, which are examined before USD opens them."""
 
 import re
 import stat
@@ -30,7 +30,7 @@ def open_stage(path: Path) -> Usd.Stage:
     ------
     StageError
         If it is not a regular file of a known kind and size, a package that USD would not read (compressed or encrypted
-        entries, entries that leave it, one that stands there twice), or it or a layer that it names is damaged.
+        entries, entries outside of it, an entry that occurs twice), or it or a layer that it names is damaged.
     """
     _check_file(path)
     if path.suffix == ".usdz":
@@ -116,5 +116,5 @@ def _check_package(path: Path) -> None:
         if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & 1:
             raise StageError(path, f"the entry {entry.filename!r} is compressed or encrypted; a package only stores")
         if entry.filename in names:
-            raise StageError(path, f"the entry {entry.filename!r} stands there twice")
+            raise StageError(path, f"the entry {entry.filename!r} occurs twice")
         names.add(entry.filename)

@@ -26,7 +26,7 @@ def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
     return matrix
 
 
-def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = READ_AT) -> float:
+def number_of(attribute: Usd.Attribute) -> float:
     """The number that an attribute holds; 0 for none.
 
     Raises
@@ -34,16 +34,14 @@ def number_of(attribute: Usd.Attribute, time: Usd.TimeCode = READ_AT) -> float:
     StageError
         If it holds something else: USD gives whatever a file has, not what the schema says.
     """
-    value = attribute.Get(time)
+    value = attribute.Get(READ_AT)
     try:
         return float(0.0 if value is None else value)
     except (TypeError, ValueError, OverflowError):
         raise lacks(attribute, "numbers") from None
 
 
-def numbers_of(
-    attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1, time: Usd.TimeCode = READ_AT
-) -> NDArray[_Scalar]:
+def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1) -> NDArray[_Scalar]:
     """The numbers that an attribute holds, shape (n, width), or (n,) for a width of 1; none if it has no value.
 
     Raises
@@ -51,7 +49,7 @@ def numbers_of(
     StageError
         If it holds something else.
     """
-    value = attribute.Get(time)
+    value = attribute.Get(READ_AT)
     try:
         numbers = np.asarray(() if value is None else value, dtype=dtype)
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
@@ -60,6 +58,6 @@ def numbers_of(
 
 
 def lacks(attribute: Usd.Attribute, what: str) -> StageError:
-    """The error of an attribute that holds something else than it should."""
+    """The error of an attribute whose value is not of the type that its schema demands."""
     file = attribute.GetStage().GetRootLayer().realPath
-    return StageError(file, f"{attribute.GetPath()} holds no {what}")
+    return StageError(file, f"{attribute.GetPath()} does not hold {what}")

@@ -1,6 +1,7 @@
 """The walk through a composed stage, by UsdGeom's own computations, each prototype once."""
 
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -99,8 +100,8 @@ class _Walk:
         self._places = UsdGeom.XformCache(READ_AT)
         self._prototypes: dict[tuple[str, str, bool], _Prototype] = {}
         self._is_drawn_type: dict[str, bool] = {}
-        self._is_labelled: dict[str, bool] = {}
-        self._is_reset: dict[str, bool] = {}
+        self._has_labels = cache(_has_labels)
+        self._resets = cache(_resets)
 
     def visit(self, prim: Usd.Prim, above: _At) -> None:
         """Find what is at and below a prim; `above` is its parent."""
@@ -148,7 +149,7 @@ class _Walk:
         """Find what a point instancer draws."""
         instancer = UsdGeom.PointInstancer(prim)
         roots = [self._stage.GetPrimAtPath(path) for path in instancer.GetPrototypesRel().GetForwardedTargets()]
-        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64, time=READ_AT)
+        indices = numbers_of(instancer.GetProtoIndicesAttr(), np.int64)
         places = instancer.ComputeInstanceTransformsAtTime(
             READ_AT, READ_AT, UsdGeom.PointInstancer.IncludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
         )
@@ -233,20 +234,6 @@ class _Walk:
             return not _has_labels(prim)
         return self._draws(prim)
 
-    def _has_labels(self, prototype: Usd.Prim) -> bool:
-        path = str(prototype.GetPath())
-        if path not in self._is_labelled:
-            self._is_labelled[path] = _has_labels(prototype)
-        return self._is_labelled[path]
-
-    def _resets(self, prototype: Usd.Prim) -> bool:
-        """Whether a place in a prototype does not follow that of the instance, so that instances differ."""
-        path = str(prototype.GetPath())
-        if path not in self._is_reset:
-            below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
-            self._is_reset[path] = any(UsdGeom.Xformable(each).GetResetXformStack() for each in below)
-        return self._is_reset[path]
-
 
 def _inside(purpose: str, *, is_held: bool) -> _At:
     """The root of a prototype; what is in it is part of the object that holds an instance, if one does."""
@@ -273,6 +260,12 @@ def _append(holder: PlacedObject, parts: list[Part]) -> None:
 
 def _has_labels(root: Usd.Prim) -> bool:
     return any(label_of(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
+
+
+def _resets(prototype: Usd.Prim) -> bool:
+    """Whether a place in a prototype does not follow that of the instance, so that instances differ."""
+    below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
+    return any(UsdGeom.Xformable(prim).GetResetXformStack() for prim in below)
 
 
 def _is_imageable(prim: Usd.Prim) -> bool:

@@ -1,7 +1,7 @@
 """Pictures of a stage by Blender's Cycles, with depth, normals, instances and classes: a data set."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -96,7 +96,7 @@ def render_stage(
     pictures
         What is drawn.
     progress
-        Told how many samples are done.
+        Called with the number of samples that are done.
 
     Raises
     ------
@@ -181,12 +181,7 @@ def _frame_job(view: View, hidden: list[int], staging: Path, kinds: Collection[P
     return {
         "colour": str(staging / f"{view.name}.png") if Picture.COLOUR in kinds else None,
         "data": data if set(kinds) - {Picture.COLOUR} else [],
-        "lens": {
-            "focal_mm": view.lens.focal_mm,
-            "aperture_mm": view.lens.aperture_mm,
-            "shift": view.lens.shift,
-            "clip_m": view.lens.clip_m,
-        },
+        "lens": asdict(view.lens),
         "camera_to_world": view.camera_to_world.tolist(),
         "hidden": hidden,
     }

@@ -148,17 +148,21 @@ def _hide(objects: list[bpy.types.Object], ids: list[int], hidden: list[int], *,
         item.hide_render = number in looked_through or (is_dark and item.type == "LIGHT")
 
 
-def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
+def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
-    scene.cycles.samples = job["samples"]
-    scene.cycles.seed = job["seed"]
+    scene.cycles.samples = samples
+    scene.cycles.seed = seed
     scene.cycles.use_adaptive_sampling = False
+    scene.cycles.transparent_max_bounces = _TRANSPARENT_BOUNCES
+    scene.render.use_persistent_data = True
+
+
+def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
+    _set_up(scene, samples=job["samples"], seed=job["seed"])
     scene.cycles.use_denoising = True
     scene.cycles.use_light_tree = True
     scene.cycles.max_bounces = _BOUNCES
-    scene.cycles.transparent_max_bounces = _TRANSPARENT_BOUNCES
-    scene.render.use_persistent_data = True
     scene.view_settings.view_transform = "AgX"
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
@@ -167,17 +171,11 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
 
 def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:
     """One ray through the middle of each pixel, without light, so that nothing is ever a mixture of two objects."""
-    scene.render.engine = "CYCLES"
-    scene.cycles.device = "CPU"
-    scene.cycles.samples = 1
-    scene.cycles.seed = 0
-    scene.cycles.use_adaptive_sampling = False
+    _set_up(scene, samples=1, seed=0)
     scene.cycles.use_denoising = False
     scene.cycles.max_bounces = 0
-    scene.cycles.transparent_max_bounces = _TRANSPARENT_BOUNCES
     scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"  # the box has a width of its own
     scene.cycles.filter_width = _POINT_FILTER_PX
-    scene.render.use_persistent_data = True
     layer = scene.view_layers[0]
     layer.use_pass_combined = True
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True

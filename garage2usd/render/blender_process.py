@@ -40,7 +40,7 @@ def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None
     folder
         Where the job and what Blender says are kept.
     done
-        Told how many samples are done.
+        Called with the number of samples that are done.
 
     Raises
     ------

@@ -158,15 +158,14 @@ def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None) -> 
     if camera.GetProjectionAttr().Get(time) != UsdGeom.Tokens.perspective:
         raise ConfigError("camera", path, "cameras in perspective")
     metres = UsdGeom.GetStageMetersPerUnit(camera.GetPrim().GetStage())
-    width = float(camera.GetHorizontalApertureAttr().Get(time))
-    offsets = camera.GetHorizontalApertureOffsetAttr().Get(time), camera.GetVerticalApertureOffsetAttr().Get(time)
-    near, far = camera.GetClippingRangeAttr().Get(time)
+    seen = camera.GetCamera(time)
+    width = seen.horizontalAperture
     lens = Lens(
         # tenths of a unit, of which only the ratio counts
-        float(camera.GetFocalLengthAttr().Get(time)) * metres * _MM_PER_TENTH,
+        seen.focalLength * metres * _MM_PER_TENTH,
         width * metres * _MM_PER_TENTH,
-        (float(offsets[0]) / width, float(offsets[1]) / width),
-        (float(near) * metres, float(far) * metres),
+        (seen.horizontalApertureOffset / width, seen.verticalApertureOffset / width),
+        (seen.clippingRange.min * metres, seen.clippingRange.max * metres),
     )
     place = np.array(camera.ComputeLocalToWorldTransform(time).GetOrthonormalized()).T
     place[:3, 3] = metres * np.array(camera.ComputeLocalToWorldTransform(time).ExtractTranslation())

@@ -81,7 +81,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     ConfigError
         If the table cannot be read.
     StageError
-        If it is none, or does not fit its form.
+        If it is not a table of labels, or contradicts itself.
     """
     table = path.with_name(f"{path.stem}_labels.json")
     if not is_file(table):
@@ -92,7 +92,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
-        raise StageError(table, f"no table of labels: {place}: {first['msg']}") from None
+        raise StageError(table, f"not a table of labels: {place}: {first['msg']}") from None
 
 
 def _labels_from(table: _Table, path: Path) -> Labels:
@@ -102,7 +102,7 @@ def _labels_from(table: _Table, path: Path) -> Labels:
     if unknown:
         raise StageError(path, f"{unknown[0].path} is of the class {unknown[0].class_name!r}, which is not listed")
     if not len(ids) == len({*ids.values()}) == len(table.objects):
-        raise StageError(path, "a path or an id stands there twice")
+        raise StageError(path, "a path or an id occurs twice")
     class_ids = {entry.id: class_of_name[entry.class_name] for entry in table.objects}
     return Labels({entry.id: entry for entry in table.classes}, ids, class_ids)
 

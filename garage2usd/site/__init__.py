@@ -68,7 +68,7 @@ def _given(sides_m: SidesM | None, bay: BayConfig) -> SidesM:
 
 
 def _static_cells(site: SiteConfig, *, seed: int, ramps: int) -> CellArray:
-    """Draw what is not given, with so many squares free for each ramp.
+    """Draw what is not given, with `ramps` squares kept free before each door.
 
     A random contour on which portals or obstacles find no place is drawn again.
     """

@@ -16,7 +16,7 @@ Square = tuple[int, int]
 
 
 def ramp_squares(bay: BayConfig, fittings: FittingsConfig) -> int:
-    """How many squares beyond its portal a ramp reaches over, by the least side that they may have; 0 without ramps."""
+    """Number of squares that a ramp covers beyond its portal, for the smallest side they may have; 0 without ramps."""
     if not fittings.ramps:
         return 0
     given = [np.min(sides) for sides in (bay.column_widths_m, bay.row_depths_m) if sides is not None]
@@ -25,7 +25,7 @@ def ramp_squares(bay: BayConfig, fittings: FittingsConfig) -> int:
 
 
 def with_room_for_ramps(cells: CellArray, squares: int) -> Mask:
-    """Which squares have so many squares of the outside before one of their edges, and beside these on both sides.
+    """Find the squares with `squares` outside squares before one of their edges, and beside these on both sides.
 
     Beyond the matrix everything is outside.
     """
@@ -55,7 +55,7 @@ def are_apart(cells: CellArray, squares: int) -> bool:
 
 
 def check_ramps(cells: CellArray, site: SiteConfig, squares: int) -> None:
-    """Refuse portals that the user gives where a ramp of so many squares finds no room.
+    """Refuse given portals that leave no room for a ramp over `squares` squares.
 
     Raises
     ------

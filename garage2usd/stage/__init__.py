@@ -84,7 +84,7 @@ def write_stage(
     config
         Texture quality and form.
     progress
-        Told of each prototype.
+        Called with each prototype that is written.
 
     Returns
     -------

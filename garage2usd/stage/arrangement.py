@@ -24,7 +24,7 @@ _AT_CORNERS = {"column": "Column"}
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """The prims of the objects, told by their rows in ``layout.placements``.
+    """The prims of the objects, which are given by their rows in ``layout.placements``.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class Arrangement:
 
 
 def arrange(layout: Layout, *, nested: bool) -> Arrangement:
-    """Say where each object goes.
+    """Assign each object to a prim.
 
     Parameters
     ----------

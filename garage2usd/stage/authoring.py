@@ -1,13 +1,29 @@
 """Small steps of authoring Sdf specs, with no stage open."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
-__all__ = ["attribute", "define", "operation", "order_operations", "save", "set_units"]
+__all__ = ["attribute", "define", "new_layer", "numbers", "operation", "order_operations", "save", "set_units", "words"]
+
+
+@contextmanager
+def new_layer(path: Path, *, default_prim: str, text: str = "#usda 1.0\n") -> Iterator[Sdf.Layer]:
+    """Open a change block in a layer that begins with `text` and is written to a file at the end of the block."""
+    layer = Sdf.Layer.CreateAnonymous(path.suffix)
+    layer.ImportFromString(text)
+    with Sdf.ChangeBlock():
+        set_units(layer)
+        layer.defaultPrim = default_prim
+        yield layer
+    save(layer, path)
 
 
 def set_units(layer: Sdf.Layer) -> None:
@@ -49,6 +65,21 @@ def attribute(
     if name.startswith("garage:"):
         spec.custom = True
     return spec
+
+
+def words(prim: Sdf.PrimSpec, name: str, values: Iterable[str]) -> None:
+    """An attribute that holds an array of tokens."""
+    attribute(prim, name, Sdf.ValueTypeNames.TokenArray, Vt.TokenArray(list(values)))
+
+
+def numbers(prim: Sdf.PrimSpec, name: str, values: NDArray[Any]) -> None:
+    """An attribute that holds an array: of int where the values are whole by their type, else of float."""
+    if values.dtype.kind in "iu":
+        array, type_name = Vt.IntArray.FromNumpy(np.ascontiguousarray(values, np.int32)), Sdf.ValueTypeNames.IntArray
+    else:
+        array = Vt.FloatArray.FromNumpy(np.ascontiguousarray(values, np.float32))
+        type_name = Sdf.ValueTypeNames.FloatArray
+    attribute(prim, name, type_name, array)
 
 
 def operation(prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object) -> Sdf.AttributeSpec:

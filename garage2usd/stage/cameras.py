@@ -4,7 +4,6 @@ import math
 from itertools import pairwise
 from pathlib import Path
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
@@ -13,7 +12,7 @@ from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
 
@@ -27,7 +26,7 @@ _CORNER_CUTS = 3
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
-"""What is outermost of every garage."""
+"""Kinds of objects that enclose every garage."""
 
 DRIVE_NAME = "Drive"
 """Name of the camera that drives, and of its asset."""
@@ -38,7 +37,7 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
 
     Notes
     -----
-    It takes the shortest way from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
+    It takes the shortest route from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
     rounded corners, looking 4 m ahead; its first frame is 0.
     """
     layer = Sdf.Layer.CreateNew(str(path))
@@ -84,18 +83,13 @@ def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:
 
     There is one, as stalls are reached.
     """
-    lanes = [square for square in graph.graph if layout.structure.cells[square] == Cell.LANE]
-    ways: list[list[Square]] = []
-    for entrance in layout.structure.where(Cell.ENTRANCE):
-        for exit_ in layout.structure.where(Cell.EXIT):
-            # a car does not drive through other portals
-            roads = graph.graph.subgraph([*lanes, entrance, exit_])
-            if nx.has_path(roads, entrance, exit_):
-                ways.append(nx.shortest_path(roads, entrance, exit_, weight="length_m"))
-        if ways:
-            break
-    squares = min(ways, key=lambda way: nx.path_weight(graph.graph, way, "length_m"))
-    return np.array([(graph.graph.nodes[square]["x_m"], graph.graph.nodes[square]["z_m"]) for square in squares])
+    exits = layout.structure.where(Cell.EXIT)
+    found = (
+        list(filter(None, (graph.shortest_way(entrance, exit_) for exit_ in exits)))
+        for entrance in layout.structure.where(Cell.ENTRANCE)
+    )
+    way = min(next(filter(None, found)), key=graph.length_m)
+    return graph.middles_m[[graph.number_of[square] for square in way]]
 
 
 def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> int:
@@ -103,18 +97,17 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     reached = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))))
     frames = int(reached[-1] / _SPEED_M_S * FRAMES_PER_SECOND)
 
-    def at(distance: float) -> tuple[float, float]:
-        return tuple(float(np.interp(distance, reached, way[:, axis])) for axis in (0, 1))  # type: ignore[return-value]
-
-    step = _SPEED_M_S / FRAMES_PER_SECOND
+    driven = np.arange(frames + 1) * (_SPEED_M_S / FRAMES_PER_SECOND)
+    here, ahead = (
+        np.stack([np.interp(arc_m, reached, way[:, axis]) for axis in (0, 1)], axis=1).tolist()
+        for arc_m in (driven, driven + _LOOK_AHEAD_M)
+    )
     start = (float(way[0, 0]), _EYE_M, float(way[0, 1]))
     moves = operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*start))
     turns = operation(camera, "rotateY", Sdf.ValueTypeNames.Float, 0.0)
     order_operations(camera, ["translate", "rotateY"])
     yaw = 0.0
-    for frame in range(frames + 1):
-        x, z = at(frame * step)
-        ahead_x, ahead_z = at(frame * step + _LOOK_AHEAD_M)
+    for frame, ((x, z), (ahead_x, ahead_z)) in enumerate(zip(here, ahead, strict=True)):
         if math.hypot(ahead_x - x, ahead_z - z) > 1e-3:  # noqa: PLR2004 - at the end it looks on as before
             target = math.degrees(math.atan2(x - ahead_x, z - ahead_z))
             yaw += math.remainder(target - yaw, 360.0)
@@ -126,7 +119,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The way with its corners cut again and again, by Chaikin."""
+    """The route with its corners rounded by Chaikin's corner cutting (1974)."""
     for _ in range(_CORNER_CUTS):
         cut = [way[0]]
         for one, other in pairwise(way):

@@ -26,7 +26,7 @@ def author_curves(
     Parameters
     ----------
     layer, path
-        Where the prim of all curves comes to stand.
+        Where the prim that holds all curves is authored.
     line_m
         The points (x, z) of all curves, one after the other; float64, shape (points, 2).
     counts
@@ -36,7 +36,7 @@ def author_curves(
     width_m
         Width of the drawn line.
     closed
-        Whether each ends where it begins.
+        Whether each curve ends where it begins.
     """
     points = np.full((len(line_m), 3), lift_m, dtype=np.float32)
     points[:, [0, 2]] = line_m

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from pxr import Kind, Sdf, UsdGeom, Vt
+from pxr import Kind, Sdf, UsdGeom
 
 from garage2usd.driving import Manoeuvre, StallProof, Waypoint
-from garage2usd.stage.authoring import attribute, define, save, set_units
+from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
 
 __all__ = ["write_driving_layer"]
@@ -16,7 +16,6 @@ __all__ = ["write_driving_layer"]
 _LIFT_M = 0.06
 _LINE_WIDTH_M = 0.06
 _STEP_M = 0.25
-_TYPES = Sdf.ValueTypeNames
 
 
 def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
@@ -29,14 +28,11 @@ def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
     value a point: ``garage:way:arc`` (metres driven), ``garage:way:yaw`` (radians, 0 looks to -Z),
     ``garage:way:gear`` (1 or -1) and ``garage:way:curvature`` (1/m, positive to the driver's left).
     """
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = "Garage"
+    with new_layer(path, default_prim="Garage") as layer:
         garage = Sdf.CreatePrimInLayer(layer, "/Garage")
         garage.specifier = Sdf.SpecifierOver
         group = define(layer, garage.path.AppendChild("Ways"), "Xform", kind=Kind.Tokens.group)
-        attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
+        attribute(group, "purpose", Sdf.ValueTypeNames.Token, UsdGeom.Tokens.guide, uniform=True)
         for name in ("In", "Out"):
             ways = [
                 (proof, way)
@@ -44,7 +40,6 @@ def write_driving_layer(path: Path, proofs: Sequence[StallProof]) -> None:
                 if (way := proof.way_in if name == "In" else proof.way_out) is not None and proof.is_proven
             ]
             _author_ways(layer, group.path.AppendChild(name), ways)
-    save(layer, path)
 
 
 def _author_ways(layer: Sdf.Layer, path: Sdf.Path, ways: Sequence[tuple[StallProof, Manoeuvre]]) -> None:
@@ -53,18 +48,14 @@ def _author_ways(layer: Sdf.Layer, path: Sdf.Path, ways: Sequence[tuple[StallPro
     every = [at for samples in sampled for at in samples]
     line_m = np.array([(at.pose.x_m, at.pose.z_m) for at in every]).reshape(-1, 2)
     prim = author_curves(layer, path, line_m, counts, lift_m=_LIFT_M, width_m=_LINE_WIDTH_M)
-    proofs = [proof for proof, _ in ways]
-    names = [proof.stall for proof in proofs]
-    attribute(prim, "garage:way:stall", _TYPES.TokenArray, Vt.TokenArray(names))
-    noses = [proof.nose.value if proof.nose else "" for proof in proofs]
-    attribute(prim, "garage:way:nose", _TYPES.TokenArray, Vt.TokenArray(noses))
-    of_points = {
+    words(prim, "garage:way:stall", (proof.stall for proof, _ in ways))
+    words(prim, "garage:way:nose", (proof.nose.value if proof.nose else "" for proof, _ in ways))
+    columns = {
+        "clearance": [way.clearance_m for _, way in ways],
         "arc": [at.arc_m for at in every],
         "yaw": [math.remainder(at.pose.yaw_rad, math.tau) for at in every],
         "curvature": [at.curvature_per_m for at in every],
     }
-    for name, values in {"clearance": [way.clearance_m for _, way in ways], **of_points}.items():
-        array = Vt.FloatArray.FromNumpy(np.array(values, dtype=np.float32))
-        attribute(prim, f"garage:way:{name}", _TYPES.FloatArray, array)
-    gears = np.array([at.gear.sign for at in every], dtype=np.int32)
-    attribute(prim, "garage:way:gear", _TYPES.IntArray, Vt.IntArray.FromNumpy(gears))
+    for name, values in columns.items():
+        numbers(prim, f"garage:way:{name}", np.array(values, dtype=np.float32))
+    numbers(prim, "garage:way:gear", np.array([at.gear.sign for at in every], dtype=np.int32))

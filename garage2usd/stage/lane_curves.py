@@ -1,7 +1,6 @@
 """The lane graph and the stalls as guide curves, so that a program can drive on the stage alone."""
 
 import math
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
-from garage2usd.stage.authoring import attribute, define, save, set_units
+from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
 from garage2usd.structure.lane_graph import LaneGraph
 
@@ -40,24 +39,20 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
     left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
     a node) and ``:entryEdge``. No attribute is ``int2[]`` or ``string[]``, which three.js cannot read from a crate.
     """
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
     root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = path.stem
+    with new_layer(path, default_prim=path.stem) as layer:
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
         _author_nodes(layer, root.AppendChild("Nodes"), graph)
         _author_edges(layer, root.AppendChild("Edges"), graph)
         _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, graph)
-    save(layer, path)
 
 
 def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     prim = _author_curves(layer, path, graph.middles_m[:, None] + ring, closed=True)
-    _author_words(prim, "garage:lane:kind", (graph.kind(square).value for square in graph.number_of))
+    words(prim, "garage:lane:kind", (graph.kind(square).value for square in graph.number_of))
     _author_squares(prim, "garage:lane", graph.squares)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(graph.clear_m.astype(np.float32)))
 
@@ -66,27 +61,26 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     ends, is_one_way, width_m = graph.edges
     lines = graph.middles_m[ends]
     prim = _author_curves(layer, path, lines, closed=False)
-    for name, numbers in (("from", ends[:, 0]), ("to", ends[:, 1])):
-        _author_numbers(prim, f"garage:lane:{name}", numbers)
-    _author_words(prim, "garage:lane:direction", np.where(is_one_way, "forward", "both").tolist())
-    lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).astype(np.float32)
-    attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
-    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(width_m.astype(np.float32)))
+    numbers(prim, "garage:lane:from", ends[:, 0])
+    numbers(prim, "garage:lane:to", ends[:, 1])
+    words(prim, "garage:lane:direction", np.where(is_one_way, "forward", "both").tolist())
+    numbers(prim, "garage:lane:length", np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1))
+    numbers(prim, "garage:lane:width", width_m)
 
 
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: LaneGraph) -> None:
     prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
-    _author_words(prim, "garage:stall:id", stalls.names())
-    _author_words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
-    for name, words, numbers in (
+    words(prim, "garage:stall:id", stalls.names())
+    words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
+    for name, choices, column in (
         ("type", STALL_TYPES, stalls.stall_type),
         ("use", STALL_USES, stalls.use),
         ("entryEdge", [edge.name.lower() for edge in EDGES], stalls.edge),
     ):
-        _author_words(prim, f"garage:stall:{name}", (str(words[number]) for number in numbers.tolist()))
+        words(prim, f"garage:stall:{name}", (str(choices[number]) for number in column.tolist()))
     _author_squares(prim, "garage:stall", stalls.square)
     access = [graph.number_of[row, col] for row, col in stalls.access_square.tolist()]
-    _author_numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
+    numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
 
 
 def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
@@ -99,17 +93,9 @@ def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
     return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
 
 
-def _author_words(prim: Sdf.PrimSpec, name: str, words: Iterable[str]) -> None:
-    attribute(prim, name, _TYPES.TokenArray, Vt.TokenArray(list(words)))
-
-
 def _author_squares(prim: Sdf.PrimSpec, namespace: str, squares: NDArray[np.int32]) -> None:
-    _author_numbers(prim, f"{namespace}:row", squares[:, 0])
-    _author_numbers(prim, f"{namespace}:column", squares[:, 1])
-
-
-def _author_numbers(prim: Sdf.PrimSpec, name: str, numbers: NDArray[np.int32]) -> None:
-    attribute(prim, name, _TYPES.IntArray, Vt.IntArray.FromNumpy(np.ascontiguousarray(numbers, dtype=np.int32)))
+    numbers(prim, f"{namespace}:row", squares[:, 0])
+    numbers(prim, f"{namespace}:column", squares[:, 1])
 
 
 def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64], *, closed: bool) -> Sdf.PrimSpec:

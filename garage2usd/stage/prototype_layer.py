@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
 
-from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch
+from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch, pascal_case
 from garage2usd.objects.car import PAINT_SET
 from garage2usd.reading.taxonomy import OBJECT_TAXONOMY
 from garage2usd.stage.looks import define_material, set_varying
@@ -65,7 +65,7 @@ def write_prototype(asset: Asset, path: Path, *, label: str) -> None:
     geometry = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Geom")).GetPath()
     looks = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Looks")).GetPath()
     materials = {
-        key: define_material(stage, looks.AppendChild(_pascal(key)), MATERIALS[key], varying=key in VARYING)
+        key: define_material(stage, looks.AppendChild(pascal_case(key)), MATERIALS[key], varying=key in VARYING)
         for key in sorted({part.material for part in asset.parts})
     }
     frictions = {touch: _define_friction(stage, looks, touch) for touch in sorted(_touched(asset))}
@@ -107,7 +107,7 @@ def _define_paints(stage: Usd.Stage, root: Usd.Prim, looks: Sdf.Path, paints: Ma
         choices.AddVariant(name)
         choices.SetVariantSelection(name)
         with choices.GetVariantEditContext():
-            set_varying(stage, looks.AppendChild(_pascal("car_paint")), MATERIALS[key])
+            set_varying(stage, looks.AppendChild(pascal_case("car_paint")), MATERIALS[key])
     choices.SetVariantSelection(next(iter(paints)))
 
 
@@ -171,7 +171,3 @@ def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> UsdLux.
     rect.AddTranslateOp(UsdGeom.XformOp.PrecisionFloat).Set(Gf.Vec3f(0, light.height_m, 0))
     rect.AddRotateXOp().Set(-90.0)
     return rect
-
-
-def _pascal(key: str) -> str:
-    return "".join(word.capitalize() for word in key.split("_"))

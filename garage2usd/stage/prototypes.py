@@ -4,7 +4,7 @@ from collections import Counter
 from functools import lru_cache
 from typing import NamedTuple
 
-from garage2usd.assets import Asset
+from garage2usd.assets import Asset, pascal_case
 from garage2usd.layout import Layout
 from garage2usd.objects.kind import Look, Spec
 
@@ -40,7 +40,7 @@ def name_prototypes(layout: Layout) -> dict[Spec, Prototype]:
     for spec in layout.placements.specs:
         shape = spec.shape
         if shape not in names:
-            kind = "".join(word.capitalize() for word in spec.kind.name.split("_"))
+            kind = pascal_case(spec.kind.name)
             counts[kind] += 1
             names[shape] = f"{kind}_{counts[kind]:02d}"
         prototypes[spec] = Prototype(names[shape], spec.look)

@@ -10,7 +10,7 @@ from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.layout import ObjectTable
 from garage2usd.objects import KINDS, Spec
-from garage2usd.stage.authoring import attribute, define, save, set_units
+from garage2usd.stage.authoring import attribute, define, new_layer, numbers
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.stage.prototypes import Prototype
 
@@ -30,15 +30,11 @@ def write_instancer(
     """
     shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
     specs = [objects.specs[shape] for shape in shapes]
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
     root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = path.stem
+    with new_layer(path, default_prim=path.stem) as layer:
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
         _author_prototypes(prim, [prototypes[spec].name for spec in specs])
         _author_points(prim, objects, rows, indices)
-    save(layer, path)
 
 
 def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:
@@ -55,7 +51,7 @@ def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:
 
 def _author_points(prim: Sdf.PrimSpec, objects: ObjectTable, rows: NDArray[np.intp], indices: NDArray[np.intp]) -> None:
     positions, yaws_rad = objects.position_m[rows], objects.yaw_rad[rows]
-    attribute(prim, "protoIndices", _TYPES.IntArray, Vt.IntArray.FromNumpy(indices.astype(np.int32)))
+    numbers(prim, "protoIndices", indices)
     attribute(prim, "positions", _TYPES.Point3fArray, Vt.Vec3fArray.FromNumpy(positions.astype(np.float32)))
     turns = {yaw: Gf.Quath(math.cos(yaw / 2), 0.0, math.sin(yaw / 2), 0.0) for yaw in set(yaws_rad.tolist())}
     attribute(prim, "orientations", _TYPES.QuathArray, Vt.QuathArray([turns[yaw] for yaw in yaws_rad.tolist()]))

@@ -8,12 +8,11 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf
 
 from garage2usd.layout import Layout
 from garage2usd.objects import KINDS
 from garage2usd.stage.arrangement import Arrangement
-from garage2usd.stage.authoring import save, set_units
+from garage2usd.stage.authoring import new_layer
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.prim_text import group_text, place_text
 from garage2usd.stage.variants import SWITCHES, Switch
@@ -118,9 +117,6 @@ def _followers(layout: Layout, arrangement: Arrangement, rows: NDArray[np.intp])
 
 def write_tile_prototypes(shared: TilePrototypes, path: Path) -> None:
     """Write the layer of the prototypes, each a root prim."""
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString("#usda 1.0\n" + "".join(shared.texts.values()))
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = next(iter(shared.texts))
-    save(layer, path)
+    text = "#usda 1.0\n" + "".join(shared.texts.values())
+    with new_layer(path, default_prim=next(iter(shared.texts)), text=text):
+        pass

@@ -1,6 +1,7 @@
 """The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -135,7 +136,19 @@ class LaneGraph:
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
-        return float(self.clear_m[self.number_of[square], 1 if edge in {Edge.UP, Edge.DOWN} else 0])
+        return float(self.clear_m[self.number_of[square], 1 if edge.along_x else 0])
+
+    def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
+        """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""
+        portals = {square for square in self.graph if self.kind(square) in {LaneKind.ENTRANCE, LaneKind.EXIT}}
+        roads = self.graph.subgraph(self.graph.nodes - (portals - {start, end}))
+        if not nx.has_path(roads, start, end):
+            return None
+        return list(nx.shortest_path(roads, start, end, weight="length_m"))
+
+    def length_m(self, way: Sequence[Square]) -> float:
+        """Metres from the first to the last square of a route, from middle to middle."""
+        return float(nx.path_weight(self.graph, way, "length_m"))
 
     def kind(self, square: Square) -> LaneKind:
         """Kind of one lane or portal."""
@@ -227,11 +240,7 @@ def _check_reachability(structure: Structure, graph: "nx.Graph[Square]", rows: t
         touched = {int(cells[portal]) for lane in piece for portal in graph[lane]}
         if {Cell.ENTRANCE, Cell.EXIT} <= touched:
             served |= piece
-    unreached = set()
-    for stalls in rows:
-        dr, dc = NEIGHBOUR_STEPS[stalls.edge]
-        if (stalls.row + dr, stalls.col + dc) not in served:
-            unreached.add((stalls.row, stalls.col))
+    unreached = {stalls.square for stalls in rows if stalls.edge.beyond(stalls.square) not in served}
     if unreached:
         lines = [list(line) for line in str(structure).splitlines()]
         for row, col in unreached:

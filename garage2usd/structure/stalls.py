@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
-from garage2usd.structure.grid import Cell, Mask, Structure
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure
 
 __all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "square_capacity", "stall_rows"]
 
@@ -30,6 +30,21 @@ class Edge(IntEnum):
     def opposite(self) -> "Edge":
         """The edge across the square."""
         return Edge(self ^ 1)
+
+    @property
+    def along_x(self) -> bool:
+        """Whether it runs along X."""
+        return self in {Edge.UP, Edge.DOWN}
+
+    @property
+    def ends(self) -> tuple["Edge", "Edge"]:
+        """The edges at its two ends: left and right, or up and down."""
+        return (Edge.LEFT, Edge.RIGHT) if self.along_x else (Edge.UP, Edge.DOWN)
+
+    def beyond(self, square: tuple[int, int]) -> tuple[int, int]:
+        """The (row, col) on the other side of this edge of a square."""
+        down, right = NEIGHBOUR_STEPS[self]
+        return square[0] + down, square[1] + right
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +73,11 @@ class StallRow:
     col: int
     edge: Edge
     count: int
+
+    @property
+    def square(self) -> tuple[int, int]:
+        """(row, col) of the square that they are on."""
+        return self.row, self.col
 
 
 def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from garage2usd.layout import Layout, Placement
-from garage2usd.layout.placement import to_world
+from garage2usd.layout.placement import of_spec
 from garage2usd.objects.outline import rectangle
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
@@ -22,10 +22,7 @@ _BREAK_M = 0.35
 
 def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
     """Each ramp from its door to a broken edge, where the sheet cuts it off, or to its end."""
-    for place in layout.of_kind("ramp"):
-        spec = place.spec
-        if not isinstance(spec, RampSpec):
-            continue
+    for place, spec in of_spec(layout.of_kind("ramp"), RampSpec):
         half, near = spec.width_m / 2, spec.profile[0][0]
         far = min(spec.profile[-1][0], sheet.ramp_m)
         yield turned(place, rectangle(-half, -far, half, -near), RAMP, "ramp")
@@ -43,35 +40,27 @@ def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
 
 def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
     """The wall beside a door, and outside of it an arrow with a word."""
-    for place in layout.of_kind("portal"):
-        spec = place.spec
-        if not isinstance(spec, PortalSpec):
-            continue
+    for place, spec in of_spec(layout.of_kind("portal"), PortalSpec):
         half, door, back = spec.length_m / 2, spec.door_width_m / 2, -spec.thickness_m
         for sides in ((-half, -door), (door, half)):
             yield turned(place, rectangle(sides[0], back, sides[1], 0.0), INK, "wall")
         kind = LaneKind.ENTRANCE if spec.is_entrance else LaneKind.EXIT
         yield turned(place, rectangle(-door, back, door, 0.0), LANE_COLOUR[kind], f"portal {kind}")
-        x, _, z = place.position_m
         tail, tip = (-3.0, -0.8) if spec.is_entrance else (-0.8, -3.0)
         wing = tip + math.copysign(0.9, tail - tip)
         strokes = [[(0.0, tail), (0.0, tip)], [(-0.8, wing), (0.0, tip), (0.8, wing)]]
         for stroke in strokes:
-            points = [to_world(point, (x, z), place.yaw_rad) for point in stroke]
-            yield Line(points, LANE_COLOUR[kind], 0.35, "direction")
+            yield Line([place.to_world(point) for point in stroke], LANE_COLOUR[kind], 0.35, "direction")
         word = "IN" if spec.is_entrance else "OUT"
         is_beside = abs(math.sin(place.yaw_rad)) > 0.5  # noqa: PLR2004 - a quarter turn
         half = (text_width(word, sheet.letters_m) if is_beside else sheet.letters_m) / 2
-        at = to_world((0.0, -ARROW_END_M - half), (x, z), place.yaw_rad)
-        yield Text(at, word, sheet.letters_m, LANE_COLOUR[kind], kind="portal")
+        yield Text(place.to_world((0.0, -ARROW_END_M - half)), word, sheet.letters_m, LANE_COLOUR[kind], kind="portal")
 
 
 def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Area:
     """A shape where a placement has it."""
-    x, _, z = place.position_m
-    return Area([to_world(point, (x, z), place.yaw_rad) for point in shape], colour, kind)
+    return Area([place.to_world(point) for point in shape], colour, kind)
 
 
 def _line(place: Placement, shape: Sequence[Point], colour: Colour, width_m: float) -> Line:
-    x, _, z = place.position_m
-    return Line([to_world(point, (x, z), place.yaw_rad) for point in shape], colour, width_m, "ramp")
+    return Line([place.to_world(point) for point in shape], colour, width_m, "ramp")

@@ -8,17 +8,11 @@ import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.layout import Layout, Placement, Stall, StallUse
-from garage2usd.layout.placement import to_world
 from garage2usd.objects.car import CarSpec
-from garage2usd.objects.column import ColumnSpec
-from garage2usd.objects.obstacle import ObstacleSpec
-from garage2usd.objects.outline import rectangle
-from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
-from garage2usd.structure.stalls import Edge
 from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
-from garage2usd.view.plan_access import RAMP, portals, ramps, turned
+from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
 from garage2usd.view.route import route_of
@@ -104,7 +98,7 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
 def _legend(
     layout: Layout, graph: LaneGraph, found: MeasuredCirculation, *, with_route: bool
 ) -> list[tuple[Colour, str]]:
-    """Only what there is."""
+    """Colours and names of what the plan shows."""
     uses = {stall.use for stall in layout.stalls}
     counts = layout.counts()
     entries = lane_legend(graph, found)
@@ -144,47 +138,36 @@ def _car_outline(car: Placement) -> list[Point]:
         (-half_x, half_z), (half_x, half_z), (half_x, -half_z + nose), (half_x - nose, -half_z),
         (nose - half_x, -half_z), (-half_x, -half_z + nose),
     ]  # fmt: skip
-    x, _, z = car.position_m
-    return [to_world(point, (x, z), car.yaw_rad) for point in shape]
+    return [car.to_world(point) for point in shape]
 
 
 def _number(stall: Stall) -> Text:
-    """Beside the mouth, level; the stall's middle stays clear."""
+    """The number of a stall, level and beside its mouth, so that the stall's middle stays clear."""
     # all digits as wide as the widest, so that few are measured
     width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
     height = _NUMBER_M * min(1.0, _NUMBER_WIDTH_M / width)
-    is_level = stall.edge in {Edge.UP, Edge.DOWN}
-    inwards = _NUMBER_FROM_MOUTH_M if is_level else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
-    at = to_world((0.0, stall.length_m / 2 - inwards), stall.centre_m, stall.yaw_rad)
-    return Text(at, stall.number, height, INK, kind="number")
+    inwards = _NUMBER_FROM_MOUTH_M if stall.edge.along_x else (_NUMBER_FROM_MOUTH_M + width * height / _NUMBER_M) / 2
+    return Text(stall.to_world((0.0, stall.length_m / 2 - inwards)), stall.number, height, INK, kind="number")
 
 
 def _building(layout: Layout) -> Iterator[Area | Line]:
     for place in layout.of_kind("obstacle"):
-        if isinstance(place.spec, ObstacleSpec):
-            yield _placed(place, place.spec.width_m, place.spec.depth_m, _SOLID, "obstacle")
+        yield Area(place.outlines()[0], _SOLID, "obstacle")
     for core in layout.cores:
         (x, z), half = core.door_m, _DOOR_M / 2
         ends = [(x - half, z), (x + half, z)] if core.along_x else [(x, z - half), (x, z + half)]
         yield Line(ends, _ON_FOOT, 3 * LINE_M, "exit on_foot")
-    for place in layout.of_kind("wall"):
-        if isinstance(place.spec, WallSpec):
-            half = place.spec.length_m / 2
-            yield turned(place, rectangle(-half, -place.spec.thickness_m, half, 0.0), INK, "wall")
-        elif isinstance(place.spec, WallPostSpec):
-            yield _placed(place, place.spec.side_m, place.spec.side_m, INK, "wall")
-    for place in layout.of_kind("column"):
-        if isinstance(place.spec, ColumnSpec):
-            yield _placed(place, place.spec.size_m, place.spec.size_m, INK, "column")
+    for kind in ("wall", "column"):
+        for place in layout.of_kind(kind):
+            yield Area(place.outlines()[0], INK, kind)
 
 
 def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
-    """Both ways on the right side of the lanes, and the stall with a frame."""
+    """Both routes on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()
     yield Line([*corners, corners[0]], _IN, 2.5 * LINE_M, "chosen")
-    mouth = to_world((0.0, stall.length_m / 2), stall.centre_m, stall.yaw_rad)
-    inside = to_world((0.0, stall.length_m / 2 - _ROUTE_INTO_STALL_M), stall.centre_m, stall.yaw_rad)
+    mouth, inside = (stall.to_world((0.0, stall.length_m / 2 - into_m)) for into_m in (0.0, _ROUTE_INTO_STALL_M))
     yield from _way(graph, route.to_stall, [mouth, inside], _IN, "way in")
     yield from _way(graph, tuple(reversed(route.from_stall)), [mouth, inside], _OUT, "way out", is_reversed=True)
 
@@ -198,7 +181,7 @@ def _way(
     *,
     is_reversed: bool = False,
 ) -> Iterator[Line]:
-    """From a portal to a stall, or reversed; with an arrow's head."""
+    """The line from a portal to a stall, or reversed, with an arrow head."""
     nodes = graph.graph.nodes
     middles = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in squares]
     # the lane before the stall is left where the mouth lies
@@ -225,7 +208,3 @@ def _distinct(points: Sequence[Point]) -> list[Point]:
         if math.dist(point, kept[-1]) > LINE_M:
             kept.append(point)
     return kept
-
-
-def _placed(place: Placement, width_m: float, depth_m: float, colour: Colour, kind: str) -> Area:
-    return turned(place, rectangle(-width_m / 2, -depth_m / 2, width_m / 2, depth_m / 2), colour, kind)

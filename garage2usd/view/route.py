@@ -1,8 +1,6 @@
-"""The way to a stall and away from it, on lanes."""
+"""The routes to a stall and away from it, on lanes."""
 
 from dataclasses import dataclass
-
-import networkx as nx
 
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
@@ -10,7 +8,6 @@ from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["Route", "find_stall", "route_of"]
 
-_PORTALS = {LaneKind.ENTRANCE, LaneKind.EXIT}
 _SHOWN_NUMBERS = 3
 
 
@@ -28,7 +25,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
     Raises
     ------
     ConfigError
-        If there is none.
+        If there is no such stall.
     """
     for stall in layout.stalls:
         if number in {stall.number, stall.name}:
@@ -40,16 +37,11 @@ def find_stall(layout: Layout, number: str) -> Stall:
 
 def route_of(graph: LaneGraph, stall: Stall) -> Route:
     """The shortest routes from any entrance to a stall and from it to any exit, not through another portal."""
-    squares = graph.graph.nodes
-    lanes = [square for square in squares if graph.kind(square) not in _PORTALS]
 
     def nearest(kind: LaneKind) -> list[Square]:
-        ways = []
-        for portal in sorted(square for square in squares if graph.kind(square) is kind):
-            roads = graph.graph.subgraph([*lanes, portal])
-            if nx.has_path(roads, portal, stall.access_square):
-                ways.append(nx.shortest_path(roads, portal, stall.access_square, weight="length_m"))
+        portals = sorted(square for square in graph.graph if graph.kind(square) is kind)
+        ways = [graph.shortest_way(portal, stall.access_square) for portal in portals]
         # there is one of each, as every stall is reached
-        return min(ways, key=lambda way: nx.path_weight(graph.graph, way, "length_m"))
+        return min(filter(None, ways), key=graph.length_m)
 
     return Route(tuple(nearest(LaneKind.ENTRANCE)), tuple(reversed(nearest(LaneKind.EXIT))))

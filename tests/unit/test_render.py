@@ -151,7 +151,7 @@ def test_a_camera_that_is_not_there_is_named_with_those_that_are(build):
     [
         (lambda table: table["objects"][3].update(id=0), "greater than or equal to 1"),
         (lambda table: table["objects"][3].update(id=2**24), "less than or equal"),
-        (lambda table: table["objects"][3].update(id=table["objects"][4]["id"]), "stands there twice"),
+        (lambda table: table["objects"][3].update(id=table["objects"][4]["id"]), "occurs twice"),
         (lambda table: table["objects"][3].update({"class": "tree"}), "'tree'"),
         (lambda table: table.pop("classes"), "classes"),
     ],

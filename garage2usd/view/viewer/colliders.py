@@ -1,11 +1,13 @@
 """Colliders of a stage as lines."""
 
+from contextlib import suppress
+
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.view.viewer.meshes import Triangles
-from garage2usd.view.viewer.scene import Collider, moved
+from garage2usd.view.viewer.scene import Piece, box_corners, moved
 
 __all__ = ["collider_lines", "collider_of"]
 
@@ -25,31 +27,28 @@ def collider_of(prim: Usd.Prim) -> str:
     return str(prim.GetAttribute("physics:approximation").Get() or "none")
 
 
-def collider_lines(collider: Collider) -> NDArray[np.float32]:
-    """Pairs of points that draw a collider in its object's space: edges of the box or hull, or creases of the mesh.
+def collider_lines(piece: Piece) -> NDArray[np.float32]:
+    """Pairs of points that draw what collides, in its object's space: edges of the box or hull, or the mesh's creases.
 
     Returns
     -------
     numpy.ndarray
         float32, shape (lines, 2, 3), in units of the stage.
     """
-    return moved(_lines(collider.mesh, collider.approximation), collider.matrix)
+    return moved(_lines(piece.mesh, piece.collider), piece.matrix)
 
 
 def _lines(mesh: Triangles, approximation: str) -> NDArray[np.float32]:
     points = mesh.positions_m
     if approximation in _BOXES:
-        least, greatest = points.min(axis=0), points.max(axis=0)
-        corners = np.array([[(greatest if c >> axis & 1 else least)[axis] for axis in range(3)] for c in range(8)])
-        return corners[_BOX_EDGES].astype(np.float32)
+        edges: NDArray[np.float32] = box_corners(points)[_BOX_EDGES].astype(np.float32)
+        return edges
     triangles = mesh.indices.astype(np.int64)
     if approximation in _HULLS:
         from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - few ask for colliders, all wait for imports
 
-        try:
+        with suppress(QhullError):  # of what is flat: its own triangles draw it as well
             triangles = ConvexHull(points).simplices
-        except QhullError:  # flat: its own triangles draw it as well
-            triangles = mesh.indices.astype(np.int64)
     return _creases(points, triangles)
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
-from garage2usd.reading.values import numbers_of
+from garage2usd.reading.values import READ_AT, numbers_of
 from garage2usd.view.viewer.solids import solid_faces
+from garage2usd.view.viewer.surfaces import PLAIN
 
-__all__ = ["DRAWN_TYPES", "FaceSet", "Triangles", "display_colour", "face_sets", "triangles_of"]
+__all__ = ["DRAWN_TYPES", "Triangles", "display_colour", "face_sets", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
 """Types of prims that have triangles."""
@@ -65,31 +66,13 @@ class Triangles:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class FaceSet:
-    """What of a mesh has one material.
-
-    Attributes
-    ----------
-    prim
-        The mesh, or the subset of it, that the material is bound to.
-    faces
-        Numbers of its faces; None for all.
-    """
-
-    prim: Usd.Prim
-    faces: NDArray[np.intp] | None
-
-
-def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "st") -> Triangles | None:
+def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | None:
     """Triangles of a prim of one of `DRAWN_TYPES`; None where it has none that can be drawn.
 
     Parameters
     ----------
     prim
         The mesh or shape.
-    time
-        When.
     coordinate_name
         Name of the primvar with the texture coordinates.
 
@@ -99,11 +82,11 @@ def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "
     which is not done. Faces that name missing points are left out, as a renderer would.
     """
     if prim.GetTypeName() != "Mesh":
-        return _of_solid(prim, time)
+        return _of_solid(prim)
     mesh = UsdGeom.Mesh(prim)
-    points = numbers_of(mesh.GetPointsAttr(), np.float32, width=3, time=time)
-    counts = numbers_of(mesh.GetFaceVertexCountsAttr(), np.int64, time=time)
-    corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64, time=time)
+    points = numbers_of(mesh.GetPointsAttr(), np.float32, width=3)
+    counts = numbers_of(mesh.GetFaceVertexCountsAttr(), np.int64)
+    corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64)
     if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(points):
         return None
     fans, face_of = _fans(counts)
@@ -113,37 +96,42 @@ def triangles_of(prim: Usd.Prim, time: Usd.TimeCode, *, coordinate_name: str = "
     fans, face_of = fans[sound], face_of[sound]
     if not len(fans):
         return None
-    if mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded:
+    if mesh.GetOrientationAttr().Get(READ_AT) == UsdGeom.Tokens.leftHanded:
         fans = fans[:, [0, 2, 1]]
-    normals = _normals(mesh, time, points, corners, fans, face_of)
-    coordinates = _coordinates(prim, time, coordinate_name, len(points), corners, fans)
+    normals = _normals(mesh, points, corners, fans, face_of)
+    coordinates = _coordinates(prim, coordinate_name, len(points), corners, fans)
     return _welded(
         points[corners[fans]].reshape(-1, 3),
         normals.reshape(-1, 3),
         coordinates.reshape(-1, 2),
         face_of,
-        double_sided=bool(mesh.GetDoubleSidedAttr().Get(time)),
+        double_sided=bool(mesh.GetDoubleSidedAttr().Get(READ_AT)),
     )
 
 
-def face_sets(prim: Usd.Prim, time: Usd.TimeCode) -> Iterator[FaceSet]:
-    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left."""
+def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | None]]:
+    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left.
+
+    Yields
+    ------
+    tuple
+        The prim that the material is bound to, and the numbers of its faces; None for all.
+    """
     subsets = [child for child in prim.GetChildren() if child.GetTypeName() == "GeomSubset"]
     subsets = [child for child in subsets if child.GetRelationship("material:binding").HasAuthoredTargets()]
     if not subsets:
-        yield FaceSet(prim, None)
+        yield prim, None
         return
-    faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp, time=time) for child in subsets]
-    count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64, time=time))
-    for child, faces in zip(subsets, faces_of, strict=True):
-        yield FaceSet(child, faces)
+    faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp) for child in subsets]
+    count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64))
+    yield from zip(subsets, faces_of, strict=True)
     rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
     if len(rest):
-        yield FaceSet(prim, rest)
+        yield prim, rest
 
 
-def _of_solid(prim: Usd.Prim, time: Usd.TimeCode) -> Triangles | None:
-    solid = solid_faces(prim, time)
+def _of_solid(prim: Usd.Prim) -> Triangles | None:
+    solid = solid_faces(prim)
     if solid is None:
         return None
     positions, normals = solid
@@ -162,7 +150,6 @@ def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int3
 
 def _normals(
     mesh: UsdGeom.Mesh,
-    time: Usd.TimeCode,
     points: NDArray[np.float32],
     corners: NDArray[np.int64],
     fans: NDArray[np.int64],
@@ -171,15 +158,15 @@ def _normals(
     """Normal of each corner of each triangle, shape (triangles, 3, 3)."""
     primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar("normals")
     if primvar.HasAuthoredValue():
-        values, interpolation = primvar.ComputeFlattened(time), primvar.GetInterpolation()
+        values, interpolation = primvar.ComputeFlattened(READ_AT), primvar.GetInterpolation()
     else:
-        values, interpolation = mesh.GetNormalsAttr().Get(time), mesh.GetNormalsInterpolation()
+        values, interpolation = mesh.GetNormalsAttr().Get(READ_AT), mesh.GetNormalsInterpolation()
     authored = _at_corners(values, interpolation, 3, len(points), corners, fans, face_of)
     if authored is not None:
         return _unit(authored)
     places = points[corners[fans]].astype(np.float64)
     areas = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-    if mesh.GetSubdivisionSchemeAttr().Get(time) != UsdGeom.Tokens.none:
+    if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))
         smooth: NDArray[np.float32] = _unit(sums)[corners[fans]]
@@ -188,11 +175,11 @@ def _normals(
 
 
 def _coordinates(
-    prim: Usd.Prim, time: Usd.TimeCode, name: str, points: int, corners: NDArray[np.int64], fans: NDArray[np.int64]
+    prim: Usd.Prim, name: str, points: int, corners: NDArray[np.int64], fans: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero where there is none."""
+    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero without coordinates."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
-    values = primvar.ComputeFlattened(time) if primvar and primvar.HasValue() else None
+    values = primvar.ComputeFlattened(READ_AT) if primvar and primvar.HasValue() else None
     found = None
     if values is not None and primvar.GetTypeName().type.typeName.startswith("VtArray<GfVec2"):
         found = _at_corners(values, primvar.GetInterpolation(), 2, points, corners, fans, None)
@@ -263,13 +250,13 @@ def _welded(
     )
 
 
-def display_colour(prim: Usd.Prim, time: Usd.TimeCode) -> tuple[float, float, float] | None:
-    """Mean of the colours that a prim without a material says of itself; None where it says none."""
+def display_colour(prim: Usd.Prim) -> tuple[float, float, float]:
+    """Mean of the colours that a prim without a material says of itself; a surface's own where it says none."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
     if not primvar or primvar.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
-        return None
-    values = numbers_of(primvar.GetAttr(), np.float64, width=3, time=time)
+        return PLAIN.colour_rgb
+    values = numbers_of(primvar.GetAttr(), np.float64, width=3)
     if not len(values):
-        return None
+        return PLAIN.colour_rgb
     red, green, blue = np.clip(np.nan_to_num(values), 0, 1).mean(axis=0).tolist()
     return red, green, blue

@@ -12,7 +12,7 @@ from garage2usd.errors import StageError
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up
 from garage2usd.view.viewer.looks import Looks
-from garage2usd.view.viewer.scene import LaneCurves, Placed, Scene, Shape, StallCorners, moved
+from garage2usd.view.viewer.scene import Placed, Scene, Shape, box_corners, moved
 
 __all__ = ["read_scene"]
 
@@ -33,7 +33,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     Raises
     ------
     StageError
-        If nothing in the stage can be drawn, or the table of labels is none.
+        If nothing in the stage can be drawn, or the file beside it is not a table of labels.
     """
     looks = Looks()
     objects = looks.objects(stage, metres_y_up(stage))
@@ -44,12 +44,12 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         name=path.name,
         facts=_facts(stage),
         objects=objects,
-        shapes=looks.shapes,
-        palettes=looks.palettes,
-        surfaces=looks.surfaces,
-        lanes=_lanes(stage),
+        shapes=looks.shapes.values,
+        palettes=looks.palettes.values,
+        surfaces=looks.surfaces.values,
+        lanes=read_lanes(stage),
         ids=_ids(path),
-        bounds_m=_bounds_m(objects, looks.shapes),
+        bounds_m=_bounds_m(objects, looks.shapes.values),
         remarks=remarks,
     )
 
@@ -58,27 +58,6 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
     root = stage.GetDefaultPrim()
     data = root.GetCustomData() if root else {}
     return {name: str(data[name]) for name in _FACTS if name in data}
-
-
-def _lanes(stage: Usd.Stage) -> LaneCurves | None:
-    """The lane graph and the stalls, as far as they are sound; None where there are none."""
-    lanes = read_lanes(stage)
-    if not lanes.nodes and not lanes.stalls:
-        return None
-    middles = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
-    return LaneCurves(
-        nodes_m=np.array(middles, dtype=np.float32).reshape(-1, 3),
-        kinds=[node.kind for node in lanes.nodes],
-        edges=np.array([(edge.start, edge.end) for edge in lanes.edges], dtype=np.int32).reshape(-1, 2),
-        forward=[edge.one_way for edge in lanes.edges],
-        stalls=[
-            StallCorners(
-                {"id": stall.name, "use": str(stall.use), "accessNode": stall.access, **dict(stall.facts)},
-                np.array(stall.corners, dtype=np.float32),
-            )
-            for stall in lanes.stalls
-        ],
-    )
 
 
 def _ids(path: Path) -> dict[str, int]:
@@ -90,7 +69,7 @@ def _ids(path: Path) -> dict[str, int]:
     try:
         return {str(entry["path"]): int(entry["id"]) for entry in document["objects"]}
     except (ValueError, KeyError, TypeError, OverflowError) as error:
-        raise StageError(table, f"no table of labels ({error!r})") from None
+        raise StageError(table, f"not a table of labels ({error!r})") from None
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:
@@ -103,9 +82,6 @@ def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]
 
 def _corners(shape: Shape) -> NDArray[np.float64]:
     """Eight corners of a shape's bounds in its own space; its lights where it has no triangles."""
-    points: list[NDArray[Any]] = [light.matrix[3:, :3] for light in shape.lights]
-    if shape.parts:
-        points = [moved(part.positions_m, place) for part, place in zip(shape.parts, shape.matrices, strict=True)]
-    every = np.concatenate(points)
-    pair = np.stack([every.min(axis=0), every.max(axis=0)])
-    return np.array([[pair[c >> axis & 1, axis] for axis in range(3)] for c in range(8)], dtype=np.float64)
+    points: list[NDArray[Any]] = [moved(piece.mesh.positions_m, piece.matrix) for piece in shape.pieces]
+    points = points or [light.matrix[3:, :3] for light in shape.lights]
+    return box_corners(np.concatenate(points)).astype(np.float64)

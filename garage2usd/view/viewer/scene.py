@@ -1,5 +1,6 @@
 """A stage as the viewer draws it: every object with its class and place, every shape once."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -7,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.reading.lanes import Lanes
 from garage2usd.view.viewer.meshes import Triangles
 from garage2usd.view.viewer.surfaces import Surface
 
-__all__ = ["UNLABELLED", "Collider", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallCorners", "moved"]
+__all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 
 UNLABELLED = "unlabelled"
 """Class of what the stage gives no semantic label."""
@@ -22,21 +24,34 @@ def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.floa
     return found
 
 
+def box_corners(points: NDArray[Any]) -> NDArray[Any]:
+    """The eight corners of the box around points, X changing fastest; shape (8, 3)."""
+    pair = points.min(axis=0), points.max(axis=0)
+    return np.array([[pair[corner >> axis & 1][axis] for axis in range(3)] for corner in range(8)])
+
+
 @dataclass(frozen=True, eq=False)
-class Collider:
-    """What a physics engine makes of a mesh.
+class Piece:
+    """A mesh in its object's space, with one surface.
 
     Attributes
     ----------
-    approximation
-        UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``, ``boundingCube`` and others.
     mesh, matrix
-        The triangles, and where they stand in the object; float64, shape (4, 4), points as rows.
+        The triangles, and where they stand; float64, shape (4, 4), points as rows.
+    slot
+        Which of the surfaces of the object's palette it has.
+    is_blended
+        Whether what is behind it shows through.
+    collider
+        What a physics engine makes of it, as UsdPhysics' token: ``none`` for the triangles themselves, ``convexHull``,
+        ``boundingCube`` and others; empty where nothing collides with it.
     """
 
-    approximation: str
     mesh: Triangles
     matrix: NDArray[np.float64]
+    slot: int
+    is_blended: bool
+    collider: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,28 +97,15 @@ class Light:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """What an object looks like in its own space; objects that differ in colour alone share one.
+    """What an object looks like in its own space; objects that differ in colour alone share one."""
 
-    Attributes
-    ----------
-    parts
-        Triangles of each part.
-    matrices
-        Where each part stands; float64, shape (4, 4), points as rows.
-    slots
-        Which of the surfaces of an object's palette each part has.
-    blended
-        Whether what is behind each part shows through.
-    colliders, lights
-        What else it has.
-    """
-
-    parts: Sequence[Triangles]
-    matrices: Sequence[NDArray[np.float64]]
-    slots: Sequence[int]
-    blended: Sequence[bool]
-    colliders: Sequence[Collider] = ()
+    pieces: Sequence[Piece]
     lights: Sequence[Light] = ()
+
+    @property
+    def colliders(self) -> list[Piece]:
+        """The pieces that something can collide with."""
+        return [piece for piece in self.pieces if piece.collider]
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,39 +135,6 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
-class StallCorners:
-    """A stall as the lane graph describes it: `facts` by name, corners (x, z) in metres from the mouth's left on."""
-
-    facts: Mapping[str, str | int]
-    corners_m: NDArray[np.float32]
-
-
-@dataclass(frozen=True, eq=False)
-class LaneCurves:
-    """The lane graph.
-
-    Attributes
-    ----------
-    nodes_m
-        Middles; float32, shape (nodes, 3).
-    kinds
-        Kind of each node.
-    edges
-        Numbers of the nodes that each edge joins; shape (edges, 2).
-    forward
-        Whether each edge goes one way only.
-    stalls
-        All stalls.
-    """
-
-    nodes_m: NDArray[np.float32]
-    kinds: Sequence[str]
-    edges: NDArray[np.int32]
-    forward: Sequence[bool]
-    stalls: Sequence[StallCorners]
-
-
-@dataclass(frozen=True, eq=False)
 class Scene:
     """A stage, ready to be drawn; metres, Y up.
 
@@ -180,7 +149,7 @@ class Scene:
     shapes, palettes, surfaces
         What they look like: a palette is the numbers of surfaces by slot.
     lanes
-        The lane graph, if there is one.
+        The lane graph and the stalls, as far as they are sound.
     ids
         Instance id of each object by its path, where a label table stands beside the stage.
     bounds_m
@@ -195,14 +164,12 @@ class Scene:
     shapes: Sequence[Shape]
     palettes: Sequence[Sequence[int]]
     surfaces: Sequence[Surface]
-    lanes: LaneCurves | None
+    lanes: Lanes
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]
     remarks: Sequence[str] = field(default_factory=tuple)
 
     def counts(self) -> dict[str, int]:
         """How many objects each class has, the most first."""
-        counts: dict[str, int] = {}
-        for placed in self.objects:
-            counts[placed.label] = counts.get(placed.label, 0) + 1
+        counts = Counter(placed.label for placed in self.objects)
         return dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.reading.values import number_of
+from garage2usd.reading.values import READ_AT, number_of
 
 __all__ = ["solid_faces"]
 
@@ -17,15 +17,13 @@ _Ring = tuple[float, float, float, float]
 _Corners = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 
-def solid_faces(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners | None:
+def solid_faces(prim: Usd.Prim) -> _Corners | None:
     """Positions and normals of the corners of a shape's triangles.
 
     Parameters
     ----------
     prim
         A Cube, Sphere, Cylinder, Cone, Capsule or Plane.
-    time
-        When.
 
     Returns
     -------
@@ -33,49 +31,47 @@ def solid_faces(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners | None:
         Both float32, shape (3 x triangles, 3), in metres of the stage; None for any other type of prim.
     """
     make = _MAKERS.get(prim.GetTypeName())
-    return None if make is None else make(prim, time)
+    return None if make is None else make(prim)
 
 
-def _cube_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
-    return _cube(number_of(UsdGeom.Cube(prim).GetSizeAttr(), time) / 2)
+def _cube_of(prim: Usd.Prim) -> _Corners:
+    return _cube(number_of(UsdGeom.Cube(prim).GetSizeAttr()) / 2)
 
 
-def _plane_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+def _plane_of(prim: Usd.Prim) -> _Corners:
     plane = UsdGeom.Plane(prim)
-    return _plane(
-        number_of(plane.GetWidthAttr(), time) / 2, number_of(plane.GetLengthAttr(), time) / 2, _axis(plane, time)
-    )
+    return _plane(number_of(plane.GetWidthAttr()) / 2, number_of(plane.GetLengthAttr()) / 2, _axis(plane))
 
 
-def _sphere_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
-    return _revolved(_arc(number_of(UsdGeom.Sphere(prim).GetRadiusAttr(), time), math.pi), 2)
+def _sphere_of(prim: Usd.Prim) -> _Corners:
+    return _revolved(_arc(number_of(UsdGeom.Sphere(prim).GetRadiusAttr()), math.pi), 2)
 
 
-def _cylinder_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+def _cylinder_of(prim: Usd.Prim) -> _Corners:
     cylinder = UsdGeom.Cylinder(prim)
-    radius, half = number_of(cylinder.GetRadiusAttr(), time), number_of(cylinder.GetHeightAttr(), time) / 2
+    radius, half = number_of(cylinder.GetRadiusAttr()), number_of(cylinder.GetHeightAttr()) / 2
     top = [(0.0, half, 0.0, 1.0), (radius, half, 0.0, 1.0), (radius, half, 1.0, 0.0)]
-    return _revolved(top + _upside_down(top), _axis(cylinder, time))
+    return _revolved(top + _upside_down(top), _axis(cylinder))
 
 
-def _cone_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+def _cone_of(prim: Usd.Prim) -> _Corners:
     cone = UsdGeom.Cone(prim)
-    radius, height = number_of(cone.GetRadiusAttr(), time), number_of(cone.GetHeightAttr(), time)
+    radius, height = number_of(cone.GetRadiusAttr()), number_of(cone.GetHeightAttr())
     slope = math.hypot(radius, height) or 1.0
     side, up = height / slope, radius / slope
     bottom = [(radius, -height / 2, 0.0, -1.0), (0.0, -height / 2, 0.0, -1.0)]
-    return _revolved([(0.0, height / 2, side, up), (radius, -height / 2, side, up), *bottom], _axis(cone, time))
+    return _revolved([(0.0, height / 2, side, up), (radius, -height / 2, side, up), *bottom], _axis(cone))
 
 
-def _capsule_of(prim: Usd.Prim, time: Usd.TimeCode) -> _Corners:
+def _capsule_of(prim: Usd.Prim) -> _Corners:
     capsule = UsdGeom.Capsule(prim)
-    radius, half = number_of(capsule.GetRadiusAttr(), time), number_of(capsule.GetHeightAttr(), time) / 2
+    radius, half = number_of(capsule.GetRadiusAttr()), number_of(capsule.GetHeightAttr()) / 2
     top = [(r, y + half, nr, ny) for r, y, nr, ny in _arc(radius, math.pi / 2)]
-    return _revolved(top + _upside_down(top), _axis(capsule, time))
+    return _revolved(top + _upside_down(top), _axis(capsule))
 
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
-_MAKERS: dict[str, Callable[[Usd.Prim, Usd.TimeCode], _Corners]] = {
+_MAKERS: dict[str, Callable[[Usd.Prim], _Corners]] = {
     "Cube": _cube_of,
     "Plane": _plane_of,
     "Sphere": _sphere_of,
@@ -89,33 +85,36 @@ def _upside_down(profile: list[_Ring]) -> list[_Ring]:
     return [(radius, -y, outwards, -upwards) for radius, y, outwards, upwards in reversed(profile)]
 
 
-def _axis(shape: UsdGeom.Gprim, time: Usd.TimeCode) -> int:
-    return _AXES.get(str(shape.GetAxisAttr().Get(time)), 2)
+def _axis(shape: UsdGeom.Gprim) -> int:
+    return _AXES.get(str(shape.GetAxisAttr().Get(READ_AT)), 2)
 
 
 def _cube(half: float) -> _Corners:
-    positions, normals = [], []
-    for axis in range(3):
-        for sign in (-1.0, 1.0):
-            normal = np.zeros(3)
-            normal[axis] = sign
-            across, along = np.roll(np.eye(3), 1, axis=0)[axis], np.roll(np.eye(3), 2, axis=0)[axis]
-            across, along = (across, along) if np.dot(np.cross(across, along), normal) > 0 else (along, across)
-            square = [normal + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            positions += [square[corner] for corner in (0, 1, 2, 0, 2, 3)]
-            normals += [normal] * 6
-    return (np.array(positions) * half).astype(np.float32), np.array(normals, dtype=np.float32)
+    axes = np.eye(3)
+    sides = [
+        _square(sign * half * axes[axis], sign * axes[axis], half * axes[axis - 1], half * axes[axis - 2])
+        for axis in range(3)
+        for sign in (-1.0, 1.0)
+    ]
+    positions, normals = (np.concatenate(values) for values in zip(*sides, strict=True))
+    return positions, normals
 
 
 def _plane(half_width: float, half_length: float, axis: int) -> _Corners:
     # width runs along x, or y for the axis x; length along y, or z for the axes x and y
-    spans = {0: (2, 1), 1: (0, 2), 2: (0, 1)}[axis]
-    normal = np.eye(3)[axis]
-    across, along = np.eye(3)[spans[0]] * half_width, np.eye(3)[spans[1]] * half_length
+    across, along = {0: (2, 1), 1: (0, 2), 2: (0, 1)}[axis]
+    axes = np.eye(3)
+    return _square(np.zeros(3), axes[axis], half_width * axes[across], half_length * axes[along])
+
+
+def _square(
+    middle: NDArray[np.float64], normal: NDArray[np.float64], across: NDArray[np.float64], along: NDArray[np.float64]
+) -> _Corners:
+    """The two triangles of a rectangle by its middle and the vectors from there to its sides."""
     if np.dot(np.cross(across, along), normal) < 0:
         across, along = along, across
-    square = [a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    positions = np.array([square[corner] for corner in (0, 1, 2, 0, 2, 3)], dtype=np.float32)
+    corners = [middle + a * across + b * along for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    positions = np.array([corners[corner] for corner in (0, 1, 2, 0, 2, 3)], dtype=np.float32)
     return positions, np.tile(normal, (6, 1)).astype(np.float32)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.reading.values import number_of, numbers_of
+from garage2usd.reading.values import READ_AT, number_of, numbers_of
 
 __all__ = ["PLAIN", "Surface", "surface_of"]
 
@@ -58,17 +58,17 @@ PLAIN = Surface()
 """What has no material."""
 
 
-def surface_of(material: UsdShade.Material, time: Usd.TimeCode) -> Surface:
+def surface_of(material: UsdShade.Material) -> Surface:
     """What a material's UsdPreviewSurface says; `PLAIN` where it has none."""
     shader, _, _ = material.ComputeSurfaceSource()
     if not shader or shader.GetIdAttr().Get() != _PREVIEW:
         return PLAIN
-    colour, colour_reader, _ = _colour(shader, "diffuseColor", (0.18, 0.18, 0.18), time)
-    emissive, _, _ = _colour(shader, "emissiveColor", (0.0, 0.0, 0.0), time)
-    roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS, time)
-    metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0, time)
-    opacity, opacity_reader, _ = _number(shader, "opacity", 1.0, time)
-    clearcoat, _, _ = _number(shader, "clearcoat", 0.0, time)
+    colour, colour_reader, _ = _colour(shader, "diffuseColor", (0.18, 0.18, 0.18))
+    emissive, _, _ = _colour(shader, "emissiveColor", (0.0, 0.0, 0.0))
+    roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS)
+    metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0)
+    opacity, opacity_reader, _ = _number(shader, "opacity", 1.0)
+    clearcoat, _, _ = _number(shader, "clearcoat", 0.0)
     return Surface(
         colour_rgb=colour,
         emissive_rgb=emissive,
@@ -76,37 +76,33 @@ def surface_of(material: UsdShade.Material, time: Usd.TimeCode) -> Surface:
         metallic=metallic,
         opacity=opacity,
         clearcoat=clearcoat,
-        colour_texture=_file(colour_reader, time),
-        roughness_texture=_file(roughness_reader, time),
+        colour_texture=_file(colour_reader),
+        roughness_texture=_file(roughness_reader),
         roughness_channel=channel,
-        metallic_texture=_file(metallic_reader, time),
+        metallic_texture=_file(metallic_reader),
         metallic_channel=metallic_channel,
         has_alpha=opacity_reader is not None,
-        coordinate_name=_coordinate_name(colour_reader or roughness_reader, time),
+        coordinate_name=_coordinate_name(colour_reader or roughness_reader),
     )
 
 
-def _colour(
-    shader: UsdShade.Shader, name: str, default: Rgb, time: Usd.TimeCode
-) -> tuple[Rgb, UsdShade.Shader | None, int]:
+def _colour(shader: UsdShade.Shader, name: str, default: Rgb) -> tuple[Rgb, UsdShade.Shader | None, int]:
     given, reader, channel = _input(shader, name)
     if reader is not None:
         return (1.0, 1.0, 1.0), reader, channel
     if given is None or not given.HasValue():
         return default, None, 0
-    ((red, green, blue),) = np.clip(np.nan_to_num(numbers_of(given, np.float64, width=3, time=time)), 0, 1e4).tolist()
+    ((red, green, blue),) = np.clip(np.nan_to_num(numbers_of(given, np.float64, width=3)), 0, 1e4).tolist()
     return (red, green, blue), None, 0
 
 
-def _number(
-    shader: UsdShade.Shader, name: str, default: float, time: Usd.TimeCode
-) -> tuple[float, UsdShade.Shader | None, int]:
+def _number(shader: UsdShade.Shader, name: str, default: float) -> tuple[float, UsdShade.Shader | None, int]:
     given, reader, channel = _input(shader, name)
     if reader is not None:
         return 1.0, reader, channel
     if given is None or not given.HasValue():
         return default, None, 0
-    return float(np.clip(np.nan_to_num(number_of(given, time)), 0, 1)), None, 0
+    return float(np.clip(np.nan_to_num(number_of(given)), 0, 1)), None, 0
 
 
 def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
@@ -124,19 +120,19 @@ def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, Us
     return None, None, 0
 
 
-def _file(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
+def _file(reader: UsdShade.Shader | None) -> str:
     if reader is None:
         return ""
     given, _, _ = _input(reader, "file")
-    value = None if given is None else given.Get(time)
+    value = None if given is None else given.Get(READ_AT)
     return value.resolvedPath if isinstance(value, Sdf.AssetPath) else ""
 
 
-def _coordinate_name(reader: UsdShade.Shader | None, time: Usd.TimeCode) -> str:
+def _coordinate_name(reader: UsdShade.Shader | None) -> str:
     given = reader.GetInput("st") if reader is not None else None
     for attribute in given.GetValueProducingAttributes() if given else ():
         source = UsdShade.Shader(attribute.GetPrim())
         if source and source.GetIdAttr().Get() == "UsdPrimvarReader_float2":
             named, _, _ = _input(source, "varname")
-            return str((named.Get(time) if named else None) or "st")
+            return str((named.Get(READ_AT) if named else None) or "st")
     return "st"

@@ -12,8 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.reading.ground import StallOutline
+from garage2usd.reading.lanes import Lanes
 from garage2usd.view.viewer.colliders import collider_lines
-from garage2usd.view.viewer.scene import LaneCurves, Scene, Shape, moved
+from garage2usd.view.viewer.scene import Scene, Shape, moved
 
 __all__ = ["encode_colliders", "encode_scene", "texture_paths"]
 
@@ -62,7 +64,7 @@ def encode_scene(scene: Scene) -> bytes:
             # points as rows: the first three columns, one after the other, are the rows that a shader multiplies with
             "matrix": buffers.add(matrices[:, :, :3].transpose(0, 2, 1).astype(np.float32)),
         },
-        "lanes": None if scene.lanes is None else _lanes(scene.lanes, buffers),
+        "lanes": _lanes(scene.lanes, buffers) if scene.lanes.nodes or scene.lanes.stalls else None,
         "arrays": buffers.places,
     }
     text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode()
@@ -108,7 +110,8 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
         opaque: list[NDArray[np.uint32]] = []
         blended: list[NDArray[np.uint32]] = []
         first = 0
-        for part, matrix, slot, is_blended in zip(shape.parts, shape.matrices, shape.slots, shape.blended, strict=True):
+        for piece in shape.pieces:
+            part, matrix = piece.mesh, piece.matrix
             turn = np.linalg.inv(matrix[:3, :3]).T if np.linalg.det(matrix[:3, :3]) else np.eye(3)
             directions = part.normals @ turn
             directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-12)
@@ -117,8 +120,8 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
             positions.append(moved(part.positions_m, matrix))
             normals.append(np.rint(directions * 127).astype(np.int8))
             coordinates.append(part.coordinates)
-            slots.append(np.full(len(part.positions_m), min(slot, 255), np.uint8))
-            (blended if is_blended else opaque).append(corners + np.uint32(first))
+            slots.append(np.full(len(part.positions_m), min(piece.slot, 255), np.uint8))
+            (blended if piece.is_blended else opaque).append(corners + np.uint32(first))
             first += len(part.positions_m)
         ordered = [*opaque, *blended]
         indices += ordered
@@ -129,7 +132,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
                 "opaque": [3 * triangles, 3 * opaque_count],
                 "blended": [3 * (triangles + opaque_count), 3 * (count - opaque_count)],
                 "colliders": len(shape.colliders),
-                "doubleSided": any(part.double_sided for part in shape.parts),
+                "doubleSided": any(piece.mesh.double_sided for piece in shape.pieces),
                 "lights": [
                     {
                         "kind": light.kind,
@@ -178,11 +181,17 @@ def _surfaces(scene: Scene) -> list[dict[str, Any]]:
     ]
 
 
-def _lanes(lanes: LaneCurves, buffers: _Buffers) -> dict[str, Any]:
+def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
+    middles = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
     return {
-        "nodes": buffers.add(lanes.nodes_m),
-        "kinds": list(lanes.kinds),
-        "edges": buffers.add(lanes.edges.astype(np.uint32)),
-        "forward": list(lanes.forward),
-        "stalls": [{**stall.facts, "corners": np.round(stall.corners_m, 4).tolist()} for stall in lanes.stalls],
+        "nodes": buffers.add(np.array(middles, np.float32)),
+        "kinds": [node.kind for node in lanes.nodes],
+        "edges": buffers.add(np.array([(edge.start, edge.end) for edge in lanes.edges], np.uint32)),
+        "forward": [edge.one_way for edge in lanes.edges],
+        "stalls": [_stall(stall) for stall in lanes.stalls],
     }
+
+
+def _stall(stall: StallOutline) -> dict[str, Any]:
+    corners = np.round(np.array(stall.corners, np.float32), 4).tolist()
+    return {"id": stall.name, "use": stall.use, "accessNode": stall.access, **dict(stall.facts), "corners": corners}

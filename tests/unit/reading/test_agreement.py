@@ -96,9 +96,9 @@ def test_all_that_is_drawn_stands_where_usd_computes(stage):
     expected = counted(places_of_pxr(stage))
     looks = Looks()
     of_viewer = [
-        part @ placed.matrix
+        piece.matrix @ placed.matrix
         for placed in looks.objects(stage, metres_y_up(stage))
-        for part in looks.shapes[placed.shape].matrices
+        for piece in looks.shapes.values[placed.shape].pieces
     ]
     assert counted(of_viewer).keys() == expected.keys()  # a mesh has a part for each of its materials
     scene = scene_of_render(stage, {})

@@ -114,11 +114,11 @@ def test_values_are_what_they_should_be_whatever_the_file_says(tmp_path):
     assert numbers_of(lamp.GetAttribute("points"), float, width=3).tolist() == [[1, 2, 3], [4, 5, 6]]
     assert len(numbers_of(lamp.GetAttribute("nothing"), float)) == 0
     for read in (lambda: number_of(lamp.GetAttribute("height")), lambda: numbers_of(lamp.GetAttribute("words"), float)):
-        with pytest.raises(StageError, match=r"/Lamp.* holds no numbers"):
+        with pytest.raises(StageError, match=r"/Lamp.* does not hold numbers"):
             read()
     assert label_of(lamp) == "lamp"
     assert labels_of(lamp, "other") == ()
-    with pytest.raises(StageError, match=r"/Lamp.semantics:labels:square holds no labels"):
+    with pytest.raises(StageError, match=r"/Lamp.semantics:labels:square does not hold labels"):
         label_of(lamp, "square")
 
 
