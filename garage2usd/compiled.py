@@ -5,7 +5,7 @@ from typing import ParamSpec, TypeVar, cast
 
 import numba
 
-__all__ = ["compiled"]
+__all__ = ["compiled", "compiled_inner"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -16,7 +16,20 @@ def compiled(function: Callable[P, T]) -> Callable[P, T]:
 
     Beside the module where that folder can be written, else in the user's cache folder, else for this process only.
     """
+    return _compiled(function)
+
+
+def compiled_inner(function: Callable[P, T]) -> Callable[P, T]:
+    """Compile a function that only compiled functions call.
+
+    It gets no way in from Python: unpacking what a function takes is often more code than the function itself, and
+    takes as long to compile.
+    """
+    return _compiled(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
+
+def _compiled(function: Callable[P, T], **options: bool) -> Callable[P, T]:
     try:
-        return cast("Callable[P, T]", numba.njit(cache=True)(function))
+        return cast("Callable[P, T]", numba.njit(cache=True, **options)(function))
     except RuntimeError:  # no folder can be written
-        return cast("Callable[P, T]", numba.njit(function))
+        return cast("Callable[P, T]", numba.njit(**options)(function))

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
 
 __all__ = ["HEADINGS", "first_touch", "least_clearance", "search"]
@@ -61,7 +61,7 @@ def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, boxes: Floats
     return least
 
 
-@compiled
+@compiled_inner
 def _left_of_way(x: float, z: float, yaw: float, goals: Floats, radius: float) -> float:
     """A lower bound of the way to any goal, with no regard for what stands in it."""
     least = np.inf
@@ -74,7 +74,7 @@ def _left_of_way(x: float, z: float, yaw: float, goals: Floats, radius: float) -
     return least
 
 
-@compiled
+@compiled_inner
 def _reaches(x: float, z: float, yaw: float, goals: Floats) -> bool:
     for goal in range(goals.shape[0]):
         turn = (goals[goal, 0] * _TURN - yaw) % math.tau
@@ -84,7 +84,7 @@ def _reaches(x: float, z: float, yaw: float, goals: Floats) -> bool:
     return False
 
 
-@compiled
+@compiled_inner
 def _cell(x: float, z: float, yaw: float, gear: int, cell_m: float) -> int:
     """A number for a place, a heading and a gear; places lie within 40 m of the origin."""
     column, row = math.floor(x / cell_m) + 1024, math.floor(z / cell_m) + 1024
@@ -92,7 +92,7 @@ def _cell(x: float, z: float, yaw: float, gear: int, cell_m: float) -> int:
     return ((column * 2048 + row) * HEADINGS + heading) * 2 + (1 if gear > 0 else 0)
 
 
-@compiled
+@compiled_inner
 def _slot(keys: NDArray[np.int64], key: int) -> int:
     """Where a key is in a table of open addressing, or where it would be put."""
     mask = len(keys) - 1
@@ -220,7 +220,7 @@ def search(
     return 0, np.empty((0, 3))
 
 
-@compiled
+@compiled_inner
 def _steps(node: int, parent: NDArray[np.int32], code: NDArray[np.int8], step_m: Floats) -> Floats:
     """The steps from the start to a node."""
     count, at = 0, node

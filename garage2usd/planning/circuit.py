@@ -5,7 +5,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, measure_above, stalls_at
 from garage2usd.planning.draft import Draft, apply, gather, revert
@@ -27,7 +27,7 @@ _MENDING_TRIALS, _MENDING_REFRESH, _MENDING_HEAT, _MENDING_FAULTY_SHARE = 60_000
 _N, _TIME, _UNUSED, _BAD, _BLOCKS, _EXCESS = 0, 1, 2, 3, 4, 5
 
 
-@compiled
+@compiled_inner
 def _blocks_at(cells: NDArray[np.int8], draft: Draft, stride: int) -> int:
     """Blocks of two by two lanes that touch the moved squares."""
     draft.marks[1] += 1
@@ -46,7 +46,7 @@ def _blocks_at(cells: NDArray[np.int8], draft: Draft, stride: int) -> int:
     return count
 
 
-@compiled
+@compiled_inner
 def _count(ground: Ground, board: Board, draft: Draft, sign: int) -> None:
     """Add what the squares around a move hold, or take it off."""
     cells, change, stride = board.cells, draft.change, ground.stride
@@ -63,7 +63,7 @@ def _count(ground: Ground, board: Board, draft: Draft, sign: int) -> None:
     change[_BLOCKS] += sign * _blocks_at(cells, draft, stride)
 
 
-@compiled
+@compiled_inner
 def _excess_around(ground: Ground, board: Board, draft: Draft) -> int:
     """Squares by which the stretches around a move are too long."""
     cells, label, stride, queue = board.cells, draft.label, ground.stride, draft.queue
@@ -90,7 +90,7 @@ def _excess_around(ground: Ground, board: Board, draft: Draft) -> int:
     return excess
 
 
-@compiled
+@compiled_inner
 def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> None:
     """Count where cars drive around a move into the lines, or take it off."""
     for index in range(draft.size[1]):
@@ -101,7 +101,7 @@ def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> 
             sizes.driven[1, q % stride] += sign * (ways >> 1)
 
 
-@compiled
+@compiled_inner
 def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
     """Find the lines around a move that get another side by it."""
     draft.size[2] = 0
@@ -119,7 +119,7 @@ def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
                 draft.size[2] += 1
 
 
-@compiled
+@compiled_inner
 def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
     """Give the lines that a move touches the sides that they are to have now."""
     for place in range(draft.size[2]):
@@ -127,7 +127,7 @@ def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
         resize(ground, sizes, axis, line, side_now(sizes, axis, line))
 
 
-@compiled
+@compiled_inner
 def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
     """Whether there is such a square around a move."""
     for index in range(draft.size[1]):
@@ -136,7 +136,7 @@ def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
     return False
 
 
-@compiled
+@compiled_inner
 def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     """Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible."""
     sync(ground, board, sizes)
@@ -150,7 +150,7 @@ def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     return exact - floor_cost(sizes)
 
 
-@compiled
+@compiled_inner
 def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> float:
     """What a move adds to the value, less the price of the faults that it adds; very little if no stall is left."""
     change, tally, weights = draft.change, draft.tally, ground.weights
@@ -162,7 +162,7 @@ def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> f
     return float(gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS])
 
 
-@compiled
+@compiled_inner
 def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     """Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most."""
     cells, hops, most = board.cells, board.hops, 0
@@ -175,7 +175,7 @@ def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     return most
 
 
-@compiled
+@compiled_inner
 def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
     """More than the lines around a move are likely to gain by other sides, to leave most of them unweighed."""
     hope = 0.0
@@ -287,7 +287,7 @@ def anneal_labels(
     return _tally(ground, board, draft, sizes)
 
 
-@compiled
+@compiled_inner
 def _try_move(
     ground: Ground,
     board: Board,
@@ -340,7 +340,7 @@ def _try_move(
     return False
 
 
-@compiled
+@compiled_inner
 def _try_side(
     ground: Ground, board: Board, draft: Draft, sizes: Sizes, random: NDArray[np.uint64], heat: float
 ) -> None:

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
 from garage2usd.planning.ground import Ground
@@ -16,7 +16,7 @@ _ENTRANCE = 2
 _WHOLE_SHARE = 30
 
 
-@compiled
+@compiled_inner
 def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
     """Whether the lanes beside a square are joined among its eight neighbours: without it they still are."""
     ring = (
@@ -41,7 +41,7 @@ def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
     return pieces == 1
 
 
-@compiled
+@compiled_inner
 def _portals_hold(ground: Ground, cells: NDArray[np.int8], square: int) -> bool:
     """Whether the portals beside a square touch a lane."""
     stride = ground.stride
@@ -56,7 +56,7 @@ def _portals_hold(ground: Ground, cells: NDArray[np.int8], square: int) -> bool:
     return True
 
 
-@compiled
+@compiled_inner
 def _reach(board: Board, stride: int, q: int, p: int) -> bool:
     """Set `hops` of two squares beside each other, or of one, from the lanes around; whether new lanes join others."""
     cells, hops = board.cells, board.hops

@@ -180,8 +180,6 @@ def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
     )
     # the usual stalls of this site, whatever its bays are
     return small._replace(
-        capacity=np.broadcast_to(np.median(ground.capacity[ground.squares], axis=0), small.capacity.shape).astype(
-            np.int32
-        ),
+        capacity=np.tile(np.median(ground.capacity[ground.squares], axis=0).astype(np.int32), (len(small.cells), 1)),
         weights=ground.weights,
     )

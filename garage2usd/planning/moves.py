@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled_inner
 from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft, add_square
@@ -19,7 +19,7 @@ _FLIP, _RELABEL, _EXCHANGE, _PAIR, _CONNECT, _TAKE, _LINE = 0.38, 0.50, 0.68, 0.
 _THROUGH_SHARE, _ENDS_STAY_SHARE = 0.3, 0.3
 
 
-@compiled
+@compiled_inner
 def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> bool:
     """Draw a move into the draft, some of them where rules are broken; False where what is drawn is not a move."""
     cells, stride = board.cells, ground.stride
@@ -50,7 +50,7 @@ def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint6
     return _shift_run(ground, board, draft, q, step)
 
 
-@compiled
+@compiled_inner
 def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> int:
     """A label that suits a new lane on a square, mostly."""
     label, deepest = draft.label, ground.rules.dead_end_squares
@@ -66,7 +66,7 @@ def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return least + 1 if least <= deepest else 1
 
 
-@compiled
+@compiled_inner
 def _flip(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane goes, or a free square beside a lane becomes one."""
     if board.cells[q] == 1:
@@ -77,7 +77,7 @@ def _flip(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64]
     return touched and add_square(draft, q, _new_label(ground, board, draft, random, q))
 
 
-@compiled
+@compiled_inner
 def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane gets another label."""
     if board.cells[q] != 1:
@@ -86,7 +86,7 @@ def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     return fresh != draft.label[q] and add_square(draft, q, fresh)
 
 
-@compiled
+@compiled_inner
 def _exchange(board: Board, draft: Draft, q: int, p: int) -> bool:
     """A lane moves to the free square beside it."""
     if board.cells[q] != 1 or board.cells[p] != 0:
@@ -94,7 +94,7 @@ def _exchange(board: Board, draft: Draft, q: int, p: int) -> bool:
     return add_square(draft, q, 0) and add_square(draft, p, draft.label[q])
 
 
-@compiled
+@compiled_inner
 def _flip_pair(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int, p: int) -> bool:
     """Two lanes side by side go, or two free squares become lanes that lead on or end."""
     cells, deepest = board.cells, ground.rules.dead_end_squares
@@ -106,7 +106,7 @@ def _flip_pair(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return add_square(draft, q, 2 if ends else 1) and add_square(draft, p, 3 if ends else 1)
 
 
-@compiled
+@compiled_inner
 def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """The path between two junctions goes, but for dead ends beside these."""
     cells, label, stride, deepest = board.cells, draft.label, ground.stride, ground.rules.dead_end_squares
@@ -147,7 +147,7 @@ def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return True
 
 
-@compiled
+@compiled_inner
 def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) -> bool:
     """A straight run between two junctions shifts to the side."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -172,7 +172,7 @@ def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) ->
     return True
 
 
-@compiled
+@compiled_inner
 def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Lead a new lane from one on over free squares to the next lane, straight or with one bend."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -194,7 +194,7 @@ def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     return True
 
 
-@compiled
+@compiled_inner
 def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Shift all lanes of a line along which cars drive to the side, with the ends of what they join."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -227,14 +227,14 @@ def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.u
     return bool(draft.size[0] > 0)
 
 
-@compiled
+@compiled_inner
 def _is_run(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int, side: int) -> bool:
     """Whether a lane has no lane or portal beside it across the direction `side`."""
     across = stride if side == 1 else 1
     return bool(label[q] == 1 and cells[q - across] <= 0 and cells[q + across] <= 0)
 
 
-@compiled
+@compiled_inner
 def _drop(ground: Ground, draft: Draft, q: int) -> bool:
     """Have a dead end and all that hangs on it go with the move."""
     for index in range(draft.size[0]):
@@ -248,7 +248,7 @@ def _drop(ground: Ground, draft: Draft, q: int) -> bool:
     return True
 
 
-@compiled
+@compiled_inner
 def _drop_leaf(draft: Draft, q: int) -> bool:
     for index in range(draft.size[0]):
         if draft.moved[index] == q:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
@@ -39,7 +39,7 @@ def connect(ground: Ground, board: Board) -> bool:
     return joined
 
 
-@compiled
+@compiled_inner
 def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     """A square beside a portal: the first lane, else a free one from which all portals are reached, or -1."""
     cells, free = board.cells, -1
@@ -52,7 +52,7 @@ def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     return free
 
 
-@compiled
+@compiled_inner
 def _lay_way(ground: Ground, board: Board) -> bool:
     """Lay the shortest way over free squares from the marked network to any other lane or portal."""
     cells, reached, came, queue = board.cells, board.near, board.hops, board.queue
@@ -81,7 +81,7 @@ def _lay_way(ground: Ground, board: Board) -> bool:
     return False
 
 
-@compiled
+@compiled_inner
 def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
     """Whether every portal is reached from a square over squares that are free or lanes."""
     cells, queue = board.cells, board.queue
@@ -104,7 +104,7 @@ def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
     return all_seen
 
 
-@compiled
+@compiled_inner
 def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
     """Whether a square has a lane beside it: without, no flip of it keeps the lanes joined."""
     beside = False
@@ -113,7 +113,7 @@ def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
     return beside
 
 
-@compiled
+@compiled_inner
 def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
     """Value of the lanes on the board less the price of the floor, in the sides that they ask for, or NO_VALUE.
 

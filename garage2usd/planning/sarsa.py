@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
@@ -70,7 +70,7 @@ def grown(memory: Memory) -> Memory:
     return larger
 
 
-@compiled
+@compiled_inner
 def _row(memory: Memory, key: np.uint64) -> int:
     """Row of a state, a new one if it was never met."""
     mask = np.uint64(len(memory.keys) - 1)
@@ -110,7 +110,7 @@ def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: i
     return key | np.uint64(1)
 
 
-@compiled
+@compiled_inner
 def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> int:
     """An epsilon-greedy action: greedy with probability 1 - epsilon + epsilon / |A|."""
     count = 0
