@@ -11,7 +11,8 @@ from garage2usd.checks.solids import Solid
 from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import LaneEdge, Point
+from garage2usd.reading.ground import Point
+from garage2usd.structure.lane_graph import LaneEdge
 
 __all__ = ["BOOK", "dead_end_of", "edge_name"]
 

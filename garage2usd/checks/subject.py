@@ -12,8 +12,9 @@ from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
+from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneEdge
 
 __all__ = ["Subject"]
 
@@ -120,9 +121,8 @@ class Subject:
         """For each node, the nodes that are driven to from it."""
         ways: list[list[int]] = [[] for _ in self.nodes]
         for edge in self.edges:
-            ways[edge.start].append(edge.end)
-            if not edge.one_way:
-                ways[edge.end].append(edge.start)
+            for start, end in edge.ways:
+                ways[start].append(end)
         return tuple(map(tuple, ways))
 
     @cached_property

@@ -7,7 +7,7 @@ from dataclasses import replace
 import shapely
 
 from garage2usd.config import ParkingConfig
-from garage2usd.layout.placement import Placement, Stall, StallUse, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Surface
@@ -110,11 +110,8 @@ def _wheelchair() -> list[tuple[Point, ...]]:
 
 def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
     """A charging post at the rear of each charging stall, behind where cars end."""
-    posts = []
-    for stall in stalls:
-        if stall.use is StallUse.EV:
-            x, z = to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M), stall.centre_m, stall.yaw_rad)
-            name = stall.named("Charger")
-            position = (round(x, 6), 0.0, round(z, 6))
-            posts.append(Placement(name, ChargerSpec(), position, stall.yaw_rad, stall.square))
-    return posts
+    return [
+        stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
+        for stall in stalls
+        if stall.use is StallUse.EV
+    ]

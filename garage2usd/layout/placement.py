@@ -50,6 +50,8 @@ class Placement:
         Right-handed turn about +Y.
     square
         (row, col) of the tile that it belongs to, None for what belongs to the building.
+    ordinal
+        Number on that square of the stall that it belongs to, None for what belongs to no stall.
     """
 
     name: str
@@ -57,11 +59,17 @@ class Placement:
     position_m: tuple[float, float, float]
     yaw_rad: float = 0.0
     square: Square | None = None
+    ordinal: int | None = None
 
     @property
     def kind(self) -> str:
         """Name of its kind of object, one of `garage2usd.objects.KINDS`."""
         return self.spec.kind.name
+
+    @property
+    def stall(self) -> str | None:
+        """Name of the stall that it belongs to, as a car, a wheel stop or a painted number does."""
+        return None if self.square is None or self.ordinal is None else stall_name(self.square, self.ordinal)
 
     def outlines(self) -> list[tuple[tuple[float, float], ...]]:
         """Convex outlines (x, z) in the garage of what a car could touch of it; empty where a car touches nothing."""
@@ -119,9 +127,37 @@ class Stall:
         """Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z."""
         return edge_yaw_rad(self.edge)
 
-    def named(self, kind: str) -> str:
-        """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""
-        return f"{kind}_{self.ordinal}"
+    def placement(
+        self,
+        name: str,
+        spec: Spec,
+        point: tuple[float, float] = (0.0, 0.0),
+        *,
+        yaw_rad: float | None = None,
+        piece: int | None = None,
+    ) -> Placement:
+        """An object that belongs to this stall, on its floor.
+
+        Parameters
+        ----------
+        name, piece
+            ``Car`` is named ``Car_2`` in the second stall of a square, and piece 3 of ``Cone`` there ``Cone_2_3``.
+        spec
+            Its shape.
+        point
+            (x, z) from the stall's middle, the mouth at +Z.
+        yaw_rad
+            Its turn in the garage; left out, the stall's.
+        """
+        x, z = to_world(point, self.centre_m, self.yaw_rad)
+        return Placement(
+            f"{name}_{self.ordinal}" + ("" if piece is None else f"_{piece}"),
+            spec,
+            (round(x, 6), 0.0, round(z, 6)),
+            self.yaw_rad if yaw_rad is None else yaw_rad,
+            self.square,
+            self.ordinal,
+        )
 
     def corners_m(self) -> tuple[tuple[float, float], ...]:
         """(x, z) of the four corners: mouth left, mouth right, rear right, rear left as a driver sees them."""

@@ -1,6 +1,7 @@
 """The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -15,7 +16,16 @@ from garage2usd.errors import UnreachableStallError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
-__all__ = ["LaneEdges", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
+__all__ = [
+    "LaneEdge",
+    "LaneEdges",
+    "LaneGraph",
+    "LaneKind",
+    "Square",
+    "StallType",
+    "build_lane_graph",
+    "unproven_lane_graph",
+]
 
 Square = tuple[int, int]
 
@@ -39,6 +49,29 @@ class StallType(StrEnum):
     TYPE_4 = "type_4"
 
 
+class LaneEdge(NamedTuple):
+    """A route from node to node, by their numbers.
+
+    Attributes
+    ----------
+    width_m
+        Of the carriageway between the columns.
+    one_way
+        Whether it is driven from `start` to `end` only.
+    """
+
+    start: int
+    end: int
+    width_m: float
+    one_way: bool
+
+    @property
+    def ways(self) -> tuple[tuple[int, int], ...]:
+        """From node to node, in each direction that it is driven in."""
+        there, back = (self.start, self.end), (self.end, self.start)
+        return (there,) if self.one_way else (there, back)
+
+
 class LaneEdges(NamedTuple):
     """Pairs of squares that join, one a row.
 
@@ -55,6 +88,11 @@ class LaneEdges(NamedTuple):
     ends: NDArray[np.int32]
     is_one_way: NDArray[np.bool_]
     width_m: NDArray[np.float64]
+
+    def rows(self) -> Iterator[LaneEdge]:
+        """Each edge by itself."""
+        for (start, end), is_one_way, width_m in zip(*(column.tolist() for column in self), strict=True):
+            yield LaneEdge(start, end, width_m, is_one_way)
 
 
 @dataclass(frozen=True, eq=False)
