@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from garage2usd.checks.aisle import dead_end_of
+from garage2usd.checks.aisle import dead_ends
 from garage2usd.checks.openings import section_of
 from garage2usd.checks.subject import Subject
 from garage2usd.driving import DrivenGarage
@@ -49,12 +49,11 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     A process with limits gets the time for the proof.
     """
     allow_seconds(_COMPILING_S + _STALL_S * len(subject.parking_stalls))
-    tips = (tip for tip, node in enumerate(subject.nodes) if not node.is_portal and len(subject.beside[tip]) == 1)
     garage = assembled(
         ((stall.name, _rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
         ((_rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),
         (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in subject.edges),
-        (dead_end_of(tip, subject) for tip in tips),
+        dead_ends(subject),
         (thing for thing in _standing(subject, height_m) if thing.name not in left_out),
     )
     return replace(garage, standing=replace(garage.standing, pieces=np.round(garage.standing.pieces, _DIGITS)))
@@ -62,19 +61,15 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
 
 def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
     """Each thing that a car could touch; doors and ramps by their sections."""
-    grounds = [
-        (name, label, _simple(pieces))
-        for name, label, pieces in subject.solids.grounds(height_m)
-        if label not in _DRIVEN_THROUGH | _DRIVEN_OVER
-    ]
-    sections = (
-        (thing.name, thing.label, shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1]))
-        for thing in subject.things
-        if thing.label in _DRIVEN_THROUGH
-    )
-    for name, label, ground in (*grounds, *sections):
-        home = subject.home_of(ground.convex_hull)
-        yield StandingThing(name, label, ground, home.name if home else None)
+    for name, label, pieces in subject.solids.grounds(height_m):
+        if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
+            ground = _simple(pieces)
+            home = subject.home_of(ground.convex_hull)
+            yield StandingThing(name, label, ground, home.name if home else None)
+    for thing in subject.things:
+        if thing.label in _DRIVEN_THROUGH:
+            cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
+            yield StandingThing(thing.name, thing.label, cuts)
 
 
 def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:

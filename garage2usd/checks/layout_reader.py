@@ -30,7 +30,7 @@ def layout_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in layout.stalls),
         nodes=_nodes(graph),
-        edges=tuple(graph.edges.rows()),
+        edges=graph.edges,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -49,7 +49,7 @@ def unlaid_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
         nodes=_nodes(graph),
-        edges=tuple(graph.edges.rows()),
+        edges=graph.edges,
         structure=structure,
         faults=faults,
     )

@@ -40,7 +40,7 @@ class StandingThing(NamedTuple):
     name: str
     label: str
     ground: shapely.Geometry
-    home: str | None
+    home: str | None = None
 
 
 def assembled(

@@ -78,7 +78,7 @@ def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:
     return assembled(
         ((stall.name, stall.centre_m, stall.yaw_rad, number_of[stall.access_square]) for stall in stalls),
         zip(graph.middles_m.tolist(), graph.sides_m.tolist(), map(graph.kind, number_of), strict=True),
-        graph.edges.rows(),
+        graph.edges,
         (([number_of[square] for square in end.squares], end.length_m) for end in dead_ends(graph.structure)),
         _standing(layout),
     )

@@ -116,14 +116,15 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
     """A wheel stop near the rear of each stall that cars park in."""
     if not fittings.wheel_stops:
         return []
-    placements = []
-    for stall in stalls:
-        if not stall.use.takes_cars:
-            continue
-        spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
-        point = 0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M
-        placements.append(stall.placement("WheelStop", spec, point))
-    return placements
+    return [
+        stall.placement(
+            "WheelStop",
+            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3))),
+            (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
+        )
+        for stall in stalls
+        if stall.use.takes_cars
+    ]
 
 
 def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: SquareDraws) -> list[Placement]:

@@ -136,18 +136,9 @@ class Stall:
         yaw_rad: float | None = None,
         piece: int | None = None,
     ) -> Placement:
-        """An object that belongs to this stall, on its floor.
+        """Place an object of this stall at (x, z) from its middle, the mouth at +Z, and turned as it unless told.
 
-        Parameters
-        ----------
-        name, piece
-            ``Car`` is named ``Car_2`` in the second stall of a square, and piece 3 of ``Cone`` there ``Cone_2_3``.
-        spec
-            Its shape.
-        point
-            (x, z) from the stall's middle, the mouth at +Z.
-        yaw_rad
-            Its turn in the garage; left out, the stall's.
+        In the second stall of a square ``Car`` is named ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
         """
         x, z = to_world(point, self.centre_m, self.yaw_rad)
         return Placement(

@@ -63,15 +63,15 @@ def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
 
 
 def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
-    ends, is_one_way, width_m = graph.edges
+    ends = np.array([(edge.start, edge.end) for edge in graph.edges], dtype=np.int32).reshape(-1, 2)
     lines = graph.middles_m[ends]
     prim = _author_curves(layer, path, lines, closed=False)
     for name, numbers in (("from", ends[:, 0]), ("to", ends[:, 1])):
         _author_numbers(prim, f"garage:lane:{name}", numbers)
-    _author_words(prim, "garage:lane:direction", np.where(is_one_way, "forward", "both").tolist())
+    _author_words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in graph.edges))
     lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).astype(np.float32)
     attribute(prim, "garage:lane:length", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(lengths))
-    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray.FromNumpy(width_m.astype(np.float32)))
+    attribute(prim, "garage:lane:width", _TYPES.FloatArray, Vt.FloatArray([edge.width_m for edge in graph.edges]))
 
 
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: LaneGraph) -> None:

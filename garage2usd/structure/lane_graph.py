@@ -1,7 +1,6 @@
 """The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
 
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -16,16 +15,7 @@ from garage2usd.errors import UnreachableStallError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
-__all__ = [
-    "LaneEdge",
-    "LaneEdges",
-    "LaneGraph",
-    "LaneKind",
-    "Square",
-    "StallType",
-    "build_lane_graph",
-    "unproven_lane_graph",
-]
+__all__ = ["LaneEdge", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
 
@@ -70,29 +60,6 @@ class LaneEdge(NamedTuple):
         """From node to node, in each direction that it is driven in."""
         there, back = (self.start, self.end), (self.end, self.start)
         return (there,) if self.one_way else (there, back)
-
-
-class LaneEdges(NamedTuple):
-    """Pairs of squares that join, one a row.
-
-    Attributes
-    ----------
-    ends
-        int32, shape (edges, 2): numbers of the nodes; from the first to the second where it is one-way.
-    is_one_way
-        bool, shape (edges,).
-    width_m
-        float64, shape (edges,): between the columns on both sides.
-    """
-
-    ends: NDArray[np.int32]
-    is_one_way: NDArray[np.bool_]
-    width_m: NDArray[np.float64]
-
-    def rows(self) -> Iterator[LaneEdge]:
-        """Each edge by itself."""
-        for (start, end), is_one_way, width_m in zip(*(column.tolist() for column in self), strict=True):
-            yield LaneEdge(start, end, width_m, is_one_way)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,24 +119,19 @@ class LaneGraph:
         return clear
 
     @cached_property
-    def edges(self) -> LaneEdges:
-        """All edges, in reading order.
-
-        Notes
-        -----
-        One-way are those at portals: one comes from an entrance and goes into an exit.
-        """
-        ends, one_way = [], []
+    def edges(self) -> tuple[LaneEdge, ...]:
+        """The pairs of squares that join, in reading order; one-way from an entrance and into an exit."""
+        edges = []
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
             kinds = self.kind(first), self.kind(second)
+            one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
             if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
                 first, second = second, first  # noqa: PLW2901
-            ends.append((self.number_of[first], self.number_of[second]))
-            one_way.append(LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds)
-        pairs = np.array(ends, dtype=np.int32).reshape(-1, 2)
-        across = np.where(self.squares[pairs[:, 0], 1] == self.squares[pairs[:, 1], 1], 0, 1)
-        # squares that join in a line have the same side across it: R and C are constant along lines
-        return LaneEdges(pairs, np.array(one_way, dtype=np.bool_), self.clear_m[pairs[:, 0], across])
+            start, end = self.number_of[first], self.number_of[second]
+            # squares that join in a line have the same side across it: R and C are constant along lines
+            width_m = float(self.clear_m[start, int(first[1] != second[1])])
+            edges.append(LaneEdge(start, end, width_m, one_way))
+        return tuple(edges)
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
