@@ -1,4 +1,4 @@
-"""A garage that is driven in, put together from plain values, wherever these come from."""
+"""The one assembly of a garage that is driven in, from the plain values that a layout and a checked file give."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
@@ -50,7 +50,7 @@ def assembled(
     dead_ends: Iterable[tuple[Sequence[int], float]],
     standing: Iterable[StandingThing],
 ) -> DrivenGarage:
-    """Put a garage together.
+    """Assemble the garage that cars are driven in.
 
     Parameters
     ----------
@@ -59,9 +59,9 @@ def assembled(
     squares
         Middle (x, z), extents along X and Z in metres and kind (`LaneKind`) of each lane and portal.
     edges
-        The pairs of squares that join.
+        The pairs of squares that join, by their numbers.
     dead_ends
-        The squares of each dead end, walking back from its tip, and its length in metres.
+        The numbers of the squares of each dead end, from its tip back to the junction, and its length in metres.
     standing
         What a car could touch, the parked cars included.
     """

@@ -136,9 +136,10 @@ class Stall:
         yaw_rad: float | None = None,
         piece: int | None = None,
     ) -> Placement:
-        """Place an object of this stall at (x, z) from its middle, the mouth at +Z, and turned as it unless told.
+        """Place an object that belongs to this stall at (x, z) from its middle, the mouth at +Z.
 
-        In the second stall of a square ``Car`` is named ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
+        It is turned as the stall is unless `yaw_rad` is given. In the second stall of a square, ``Car`` is named
+        ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
         """
         x, z = to_world(point, self.centre_m, self.yaw_rad)
         return Placement(
