@@ -11,7 +11,7 @@ from garage2usd.layout import Layout, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects import KINDS, Spec
-from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
+from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
@@ -30,7 +30,7 @@ def layout_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in layout.stalls),
         nodes=_nodes(graph),
-        edges=_edges(graph),
+        edges=graph.edges,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -49,7 +49,7 @@ def unlaid_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
         nodes=_nodes(graph),
-        edges=_edges(graph),
+        edges=graph.edges,
         structure=structure,
         faults=faults,
     )
@@ -67,11 +67,6 @@ def _nodes(graph: LaneGraph) -> tuple[LaneNode, ...]:
         LaneNode(graph.kind((row, col)).value, (x, z), (across_x, across_z), f"[{row}, {col}]")
         for (row, col), (x, z), (across_x, across_z) in rows
     )
-
-
-def _edges(graph: LaneGraph) -> tuple[LaneEdge, ...]:
-    rows = zip(*(column.tolist() for column in graph.edges), strict=True)
-    return tuple(LaneEdge(start, end, width_m, is_one_way) for (start, end), is_one_way, width_m in rows)
 
 
 def _things(layout: Layout) -> tuple[Thing, ...]:

@@ -12,11 +12,12 @@ from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, UnreachableStallError
 from garage2usd.layout import Layout, lay_out
-from garage2usd.planning import dimension
+from garage2usd.planning import dimensioned
 from garage2usd.profiles import Profile
 from garage2usd.reading.ground import Fault
+from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
-from garage2usd.structure.grid import Cell, Structure, cells_from_text, sides_mm
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
 
 __all__ = ["plan_subject"]
@@ -87,19 +88,8 @@ def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
 def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
-    cells = cells_from_text(config.site.structure, field="site.structure")
-    bay = config.bay
-    widths, depths = (
-        sides_mm(bay.square_side_m if sides is None else sides, field=field, shape=cells.shape, axis=axis)
-        for sides, field, axis in (
-            (bay.column_widths_m, "bay.column_widths_m", 1),
-            (bay.row_depths_m, "bay.row_depths_m", 0),
-        )
-    )
-    structure = Structure(cells, widths, depths)
-    if bay.dimensioned:
-        structure = dimension(structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
-    return _subject(structure, config, path, kind=kind)
+    structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
+    return _subject(dimensioned(structure, config.bay), config, path, kind=kind)
 
 
 def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, GarageConfig]:

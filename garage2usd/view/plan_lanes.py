@@ -65,16 +65,10 @@ def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Ite
 
 def arrows(graph: LaneGraph) -> Iterator[Line]:
     """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
-    nodes = graph.graph.nodes
-    for one, other in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
-        ends = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in (one, other)]
-        kinds = graph.kind(one), graph.kind(other)
-        backwards = kinds[1] is LaneKind.ENTRANCE or kinds[0] is LaneKind.EXIT
-        is_one_way = bool({LaneKind.ENTRANCE, LaneKind.EXIT} & set(kinds))
-        if not backwards:
-            yield _chevron(ends[0], ends[1], 0.0 if is_one_way else _KEEP_RIGHT_M)
-        if backwards or not is_one_way:
-            yield _chevron(ends[1], ends[0], 0.0 if is_one_way else _KEEP_RIGHT_M)
+    middles_m = graph.middles_m.tolist()
+    for edge in graph.edges:
+        for start, end in edge.ways:
+            yield _chevron(middles_m[start], middles_m[end], 0.0 if edge.one_way else _KEEP_RIGHT_M)
 
 
 def _chevron(start: Point, end: Point, aside_m: float) -> Line:

@@ -117,12 +117,12 @@ def _stall_words(use: StallUse) -> str:
 
 
 def _stalls(layout: Layout) -> Iterator[Area | Line | Text]:
-    cars = {(place.square, place.name): place for place in layout.of_kind("car")}
+    cars = {car.stall: car for car in layout.of_kind("car")}
     for stall in layout.stalls:
         corners = stall.corners_m()
         yield Area(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
-        car = cars.get((stall.square, stall.named("Car")))
+        car = cars.get(stall.name)
         if car:
             yield Area(_car_outline(car), _CAR, "car")
         if stall.number:
