@@ -295,11 +295,11 @@ def learn_aisles(
         begin = 0 if direction == 0 else runs.turned[0]
         if entry >= 0:
             part_begin = begin + below(random, runs.turned[direction] - begin)
-            part_end = part_begin + 1 + below(random, _LONGEST_PART)
+            part_end = part_begin + 1 + below(random, np.int64(_LONGEST_PART))
         for run in range(begin, runs.turned[direction]):
             head, length = runs.first[run], runs.length[run]
             state, most = _state(board, head, length, along, across, profiles)
-            option = below(random, OPTIONS)
+            option = below(random, np.int64(OPTIONS))
             if run < part_begin or run >= part_end:
                 option = archive.tapes[entry, run]
             elif uniform(random) >= explored:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner
+from garage2usd.compiled import Whole, compiled, compiled_inner, copy_row
 from garage2usd.planning.ground import Ground
 
 __all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "uniform"]
@@ -81,7 +81,7 @@ def uniform(random: NDArray[np.uint64]) -> float:
 
 
 @compiled_inner
-def below(random: NDArray[np.uint64], count: int) -> int:
+def below(random: NDArray[np.uint64], count: Whole) -> int:
     """A whole number from 0 to below `count`."""
     return int(uniform(random) * count)
 
@@ -126,6 +126,6 @@ def keep(
     for q in laid:
         archive.lanes[place, np.searchsorted(ground.squares, q)] = True
     archive.starts[place], archive.lengths[place] = start, len(tape)
-    archive.tapes[place, : len(tape)] = tape
+    copy_row(archive.tapes[place], tape)
     if count[0] == size:
         count[1] = np.argmin(archive.values)

@@ -71,7 +71,6 @@ class Board(NamedTuple):
     tally: NDArray[np.int64]
 
 
-@compiled
 def new_board(ground: Ground) -> Board:
     """Room for a board; `clear` it before use."""
     size = len(ground.cells)

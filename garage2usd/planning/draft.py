@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled_inner
+from garage2usd.compiled import Whole, compiled_inner
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.ground import Ground
 
@@ -83,7 +83,7 @@ def new_draft(ground: Ground) -> Draft:
 
 
 @compiled_inner
-def add_square(draft: Draft, q: int, label: int) -> bool:
+def add_square(draft: Draft, q: int, label: Whole) -> bool:
     """Have a square in the move; False if there is no room for it."""
     if draft.size[0] >= _MOVED:
         return False

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner
+from garage2usd.compiled import compiled, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
 from garage2usd.planning.ground import Ground
@@ -101,7 +101,7 @@ def drift(
             stalls, time, unused, changed = board.tally[0], board.tally[1], board.tally[2], 0
             if measured > best:
                 best = measured
-                best_cells[:] = cells
+                copy_row(best_cells, cells)
         draw = next_random(random)
         q = ground.squares[int((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
         step = (0, 0, 1, stride)[int(draw & np.uint64(3))]
@@ -160,7 +160,7 @@ def drift(
                         stalls, time, unused, changed = board.tally[0], board.tally[1], board.tally[2], 0
                         if exact > best:
                             best = exact
-                            best_cells[:] = cells
+                            copy_row(best_cells, cells)
                     else:
                         whole = True
         if not accepted:
@@ -170,6 +170,6 @@ def drift(
             else:
                 _reach(board, stride, q, p)
     if measure(ground, board) > best:
-        best_cells[:] = cells
-    cells[:] = best_cells
+        copy_row(best_cells, cells)
+    copy_row(cells, best_cells)
     return measure(ground, board)

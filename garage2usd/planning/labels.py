@@ -18,7 +18,7 @@ def label_lanes(ground: Ground, board: Board, draft: Draft) -> None:
     """Label the lanes on the board: short dead ends by their depth, all else as driven through."""
     cells, label, state, queue = board.cells, draft.label, board.state, draft.queue
     deepest = ground.rules.dead_end_squares
-    survey(ground.squares, ground.stride, cells, state, board.queue, deepest, 0)
+    survey(ground.squares, ground.stride, cells, state, board.queue, deepest, np.int64(0))
     label[:] = 0
     for q in ground.squares:
         if cells[q] == 1:

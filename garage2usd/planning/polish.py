@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner
+from garage2usd.compiled import compiled, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.sizes import Sizes, floor_cost, settle, side_now, sync
+from garage2usd.planning.sizes import Sizes, copy_sides, floor_cost, settle, side_now, sync
 
 __all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
 
@@ -193,9 +193,9 @@ def anneal(
         draw = next_random(random)
         threshold = value + heat * np.log(max(uniform(random), 1e-300))
         if is_sized and (draw >> np.uint64(40)) % np.uint64(_RESIZED_EVERY) == 0:
-            axis = int((draw >> np.uint64(4)) & np.uint64(1))
+            axis = np.int64((draw >> np.uint64(4)) & np.uint64(1))
             count = len(cells) // ground.stride if axis == 0 else ground.stride
-            line = int((draw >> np.uint64(8)) % np.uint64(count))
+            line = np.int64((draw >> np.uint64(8)) % np.uint64(count))
             if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0:
                 continue
             kept = sizes.kept_mm[axis, line]
@@ -222,10 +222,10 @@ def anneal(
             faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and value > best + 1e-9):
                 best, best_faults = value, faults
-                best_cells[:] = cells
-                best_kept[:] = sizes.kept_mm
+                copy_row(best_cells, cells)
+                copy_sides(best_kept, sizes.kept_mm)
         else:
             flip(cells, q, p)
-    cells[:] = best_cells
-    sizes.kept_mm[:] = best_kept
+    copy_row(cells, best_cells)
+    copy_sides(sizes.kept_mm, best_kept)
     return worth(ground, board, sizes, -np.inf)

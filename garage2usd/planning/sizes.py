@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled_inner
+from garage2usd.compiled import Whole, compiled_inner, copy_row
 from garage2usd.config import BayConfig
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
@@ -17,6 +17,7 @@ __all__ = [
     "ALONG_X",
     "ALONG_Z",
     "Sizes",
+    "copy_sides",
     "driven_ways",
     "floor_cost",
     "foresee",
@@ -133,7 +134,7 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
 
 
 @compiled_inner
-def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
+def _fits(sizes: Sizes, depth: int, width: int, edges: Whole) -> int:
     """Stalls on a square by its sides and its edges open to lanes, as `garage2usd.structure.stalls` counts them."""
     stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
     x, z = edges & 3, edges >> 2
@@ -180,7 +181,7 @@ def weigh(
         across += other
         if cells[q] != 0:
             continue
-        edges, near = 0, FAR
+        edges, near = np.int64(0), FAR
         for way in range(4):
             p = q + (-stride, stride, -1, 1)[way]
             if cells[p] == 1:
@@ -245,7 +246,14 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
 
 
 @compiled_inner
-def side_now(sizes: Sizes, axis: int, line: int) -> int:
+def copy_sides(target: NDArray[np.int64], source: NDArray[np.int64]) -> None:
+    """Copy the sides of all lines, shape (2, lines)."""
+    copy_row(target[0], source[0])
+    copy_row(target[1], source[1])
+
+
+@compiled_inner
+def side_now(sizes: Sizes, axis: Whole, line: Whole) -> int:
     """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
     side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
     return int(max(side, sizes.least_mm[axis, line]))
