@@ -96,19 +96,19 @@ def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     from garage2usd.documents import is_file  # noqa: PLC0415
     from garage2usd.errors import ConfigError  # noqa: PLC0415
     from garage2usd.pipeline import generate  # noqa: PLC0415
-    from garage2usd.report import read_report  # noqa: PLC0415
+    from garage2usd.reading.report import read_report  # noqa: PLC0415
     from garage2usd.stage import StageFormat  # noqa: PLC0415
 
     if path.suffix == ".toml":
         return generate(load_config(path), seed=seed, progress=progress)
     refuse_seed(seed)
     if path.suffix == ".json":
-        return generate(read_report(path), progress=progress)
+        return generate(read_report(path).garage_config(), progress=progress)
     if path.suffix in set(StageFormat):
         if not is_file(path):
             raise ConfigError("PATH", str(path), "an existing file")
         report = path.with_name(f"{path.stem}_report.json")
         if not is_file(report):
             raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
-        return generate(read_report(report), progress=progress)
+        return generate(read_report(report).garage_config(), progress=progress)
     raise ConfigError("PATH", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")
