@@ -12,25 +12,25 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 from garage2usd.planning.board import FAR, Board, measure
-from garage2usd.planning.broken_profile import FORBIDDEN, Sheet, first_frontier, step
+from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, first_frontier, step
 from garage2usd.planning.ground import PADDING, Ground
 
-__all__ = ["Search", "advance", "enumerate_layouts", "new_search", "suffix_values"]
+__all__ = ["Enumeration", "advance", "enumerate_layouts", "new_enumeration", "suffix_values"]
 
 
 @compiled
 def advance(
-    sheet: Sheet, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
+    table: SquareTable, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """All frontiers after a square, each with its best value so far; keys ascend."""
-    room = np.zeros((3, sheet.cols + 2), np.int64)
-    choices = sheet.depth + 2 if sheet.depth >= 0 else 2
+    room = np.zeros((3, table.cols + 2), np.int64)
+    choices = table.depth + 2 if table.depth >= 0 else 2
     next_keys = np.empty(choices * len(keys), np.int64)
     next_values = np.empty(choices * len(keys))
     count = 0
     for row in range(len(keys)):
         for choice in range(choices):
-            key, gain = step(sheet, index, keys[row], choice, room)
+            key, gain = step(table, index, keys[row], choice, room)
             if gain == FORBIDDEN:
                 continue
             next_keys[count], next_values[count] = key, values[row] + gain
@@ -49,15 +49,19 @@ def advance(
 
 @compiled
 def suffix_values(
-    sheet: Sheet, index: int, keys: NDArray[np.int64], next_keys: NDArray[np.int64], next_suffix: NDArray[np.float64]
+    table: SquareTable,
+    index: int,
+    keys: NDArray[np.int64],
+    next_keys: NDArray[np.int64],
+    next_suffix: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """The most that square `index` and all after it add to each frontier before it."""
-    room = np.zeros((3, sheet.cols + 2), np.int64)
+    room = np.zeros((3, table.cols + 2), np.int64)
     suffix = np.full(len(keys), FORBIDDEN)
-    choices = sheet.depth + 2 if sheet.depth >= 0 else 2
+    choices = table.depth + 2 if table.depth >= 0 else 2
     for row in range(len(keys)):
         for choice in range(choices):
-            key, gain = step(sheet, index, keys[row], choice, room)
+            key, gain = step(table, index, keys[row], choice, room)
             if gain == FORBIDDEN:
                 continue
             place = np.searchsorted(next_keys, key)
@@ -115,7 +119,7 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
     return more
 
 
-class Search(NamedTuple):
+class Enumeration(NamedTuple):
     """An enumeration on its way, which `enumerate_layouts` carries on.
 
     Attributes
@@ -149,12 +153,12 @@ class Search(NamedTuple):
     counts: NDArray[np.int64]
 
 
-def new_search(sheet: Sheet, ground: Ground, floor: float) -> Search:
+def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumeration:
     """An enumeration of the layouts that beat a value."""
-    total, choices = len(sheet.kinds), sheet.depth + 2 if sheet.depth >= 0 else 2
+    total, choices = len(table.kinds), table.depth + 2 if table.depth >= 0 else 2
     keys = np.zeros(total + 1, np.int64)
-    keys[0] = first_frontier(sheet)
-    return Search(
+    keys[0] = first_frontier(table)
+    return Enumeration(
         ways=np.zeros((total, choices), np.int64),
         next_keys=np.zeros((total, choices), np.int64),
         next_values=np.zeros((total, choices)),
@@ -171,9 +175,9 @@ def new_search(sheet: Sheet, ground: Ground, floor: float) -> Search:
 
 @compiled
 def enumerate_layouts(
-    search: Search,
+    state: Enumeration,
     steps: int,
-    sheet: Sheet,
+    table: SquareTable,
     ground: Ground,
     board: Board,
     offsets: NDArray[np.int64],
@@ -186,12 +190,12 @@ def enumerate_layouts(
 
     Parameters
     ----------
-    search
+    state
         What is enumerated; `board` holds its layout from call to call, at first that of `ground`.
     steps
         After how many steps, a square decided or taken back, to return.
-    sheet, ground, board
-        The site; `ground` and `sheet` hold the same squares.
+    table, ground, board
+        The site; `ground` and `table` hold the same squares.
     offsets
         int64, shape (squares + 2,): where the frontiers before each square start in `keys`.
     keys, suffixes
@@ -199,33 +203,33 @@ def enumerate_layouts(
     relaxed, price
         Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
     """
-    total, choices = search.ways.shape
-    room = np.zeros((3, sheet.cols + 2), np.int64)
-    ways, bounds, children, tried = search.ways, search.bounds, search.children, search.tried
-    next_keys, next_values = search.next_keys, search.next_values
+    total, choices = state.ways.shape
+    room = np.zeros((3, table.cols + 2), np.int64)
+    ways, bounds, children, tried = state.ways, state.bounds, state.children, state.tried
+    next_keys, next_values = state.next_keys, state.next_values
     stride = ground.stride
     border = PADDING * (stride + 1)
-    best, depth = search.best[0], search.counts[0]
+    best, depth = state.best[0], state.counts[0]
     for _ in range(steps):
         if depth < 0:
             break
         if depth == total:
             value = measure(ground, board)
-            search.counts[1] += 1
+            state.counts[1] += 1
             if value > best + 1e-9:
                 best = value
-                search.best_cells[:] = board.cells
+                state.best_cells[:] = board.cells
             depth -= 1
             continue
         if tried[depth] < 0:
             children[depth] = tried[depth] = 0
             first, last = offsets[depth + 1], offsets[depth + 2]
             for choice in range(choices):
-                key, gain = step(sheet, depth, search.keys[depth], choice, room)
+                key, gain = step(table, depth, state.keys[depth], choice, room)
                 if gain == FORBIDDEN:
                     continue
                 place = first + np.searchsorted(keys[first:last], key)
-                value = search.values[depth] + gain
+                value = state.values[depth] + gain
                 bound = value + suffixes[place]
                 if bound <= best + 1e-9:
                     continue
@@ -238,7 +242,7 @@ def enumerate_layouts(
                 ways[depth, slot], bounds[depth, slot] = choice, bound
                 next_keys[depth, slot], next_values[depth, slot] = key, value
                 children[depth] += 1
-        square = border + (depth // sheet.cols) * stride + depth % sheet.cols
+        square = border + (depth // table.cols) * stride + depth % table.cols
         slot = tried[depth]
         if slot == children[depth] or bounds[depth, slot] <= best + 1e-9:
             board.cells[square] = ground.cells[square]
@@ -247,11 +251,11 @@ def enumerate_layouts(
             continue
         tried[depth] += 1
         board.cells[square] = 1 if ways[depth, slot] > 0 else ground.cells[square]
-        if (depth + 1) % sheet.cols == 0:
-            detour = price * _detour(ground, board, sheet.cols, depth + 1, relaxed)
+        if (depth + 1) % table.cols == 0:
+            detour = price * _detour(ground, board, table.cols, depth + 1, relaxed)
             if bounds[depth, slot] - detour <= best + 1e-9:
                 continue
-        search.keys[depth + 1], search.values[depth + 1] = next_keys[depth, slot], next_values[depth, slot]
+        state.keys[depth + 1], state.values[depth + 1] = next_keys[depth, slot], next_values[depth, slot]
         depth += 1
-    search.best[0], search.counts[0] = best, depth
+    state.best[0], state.counts[0] = best, depth
     return bool(depth < 0)

@@ -17,7 +17,7 @@ from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, CellArray, Structure
 
 if TYPE_CHECKING:
-    from garage2usd.planning.broken_profile import Sheet
+    from garage2usd.planning.broken_profile import SquareTable
 
 __all__ = ["Optimum", "find_optimum", "free_hops"]
 
@@ -108,7 +108,7 @@ def find_optimum(
         score = evaluate(known, bay=bay, plan=plan)
         value = score.value if score.stalls else -np.inf
     try:
-        found = _beat(ground, _sheet(ground, upright.shape[1]), value, progress)
+        found = _beat(ground, _table_of(ground, upright.shape[1]), value, progress)
     except _TooLargeError as error:
         rows, cols = site.shape
         raise ConfigError("site", f"{rows} x {cols} squares", f"{error}, for a proven optimum") from None
@@ -123,9 +123,9 @@ class _TooLargeError(Exception):
     """Says what is allowed."""
 
 
-def _sheet(ground: Ground, cols: int) -> "Sheet":
+def _table_of(ground: Ground, cols: int) -> "SquareTable":
     """The site as the search reads it; nothing is worth anything yet."""
-    from garage2usd.planning.broken_profile import Sheet, column_bits  # noqa: PLC0415 - only planning pays for it
+    from garage2usd.planning.broken_profile import SquareTable, column_bits  # noqa: PLC0415 - only planning pays for it
 
     rules = ground.rules
     depth = min(rules.dead_end_squares, len(ground.squares)) if rules.is_asked else -1
@@ -138,7 +138,7 @@ def _sheet(ground: Ground, cols: int) -> "Sheet":
     squares = _squares_of(ground)
     beside = (squares + step for step in (-ground.stride, ground.stride, -1, 1))
     portals = np.sum([ground.cells[others] >= Cell.ENTRANCE for others in beside], axis=0)
-    return Sheet(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
+    return SquareTable(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
 
 
 def _under(rules: CirculationRules) -> str:
@@ -152,56 +152,56 @@ class _Beaten:
     frontiers: int
 
 
-def _beat(ground: Ground, sheet: "Sheet", value: float, progress: Progress) -> _Beaten:
+def _beat(ground: Ground, table: "SquareTable", value: float, progress: Progress) -> _Beaten:
     """Look for a layout of more than `value`."""
     from garage2usd.planning.board import NO_VALUE, new_board  # noqa: PLC0415
     from garage2usd.planning.broken_profile import FORBIDDEN, complete  # noqa: PLC0415
-    from garage2usd.planning.frontier import enumerate_layouts, new_search, suffix_values  # noqa: PLC0415
+    from garage2usd.planning.frontier import enumerate_layouts, new_enumeration, suffix_values  # noqa: PLC0415
 
     squares, floor = _squares_of(ground), max(value, NO_VALUE)
-    stalls = sheet._replace(worth=ground.capacity[squares].astype(np.float64))
+    stalls = table._replace(worth=ground.capacity[squares].astype(np.float64))
     keys, counts = _frontiers(stalls, progress)[-1]
     most = max((count for key, count in zip(keys, counts, strict=True) if complete(stalls, key)), default=0.0)
     if most == 0:
         return _Beaten(None, 0, 0)
     hops, price = free_hops(ground), -float(ground.weights[1]) / most
-    sheet = sheet._replace(worth=_worth(ground, hops, price))
-    layers = _frontiers(sheet, progress)
-    suffixes = [np.array([0.0 if complete(sheet, key) else FORBIDDEN for key in layers[-1][0]])]
+    table = table._replace(worth=_worth(ground, hops, price))
+    layers = _frontiers(table, progress)
+    suffixes = [np.array([0.0 if complete(table, key) else FORBIDDEN for key in layers[-1][0]])]
     for index in reversed(range(len(squares))):
-        suffixes.append(suffix_values(sheet, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
+        suffixes.append(suffix_values(table, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
         progress("suffixes", len(squares) - index, len(squares))
     suffixes.reverse()
     offsets = np.concatenate(([0], np.cumsum([len(keys) for keys, _ in layers])))
     frontiers = int(offsets[-1])
     if suffixes[0][0] <= floor:
         return _Beaten(None, 0, frontiers)
-    board, search = new_board(ground), new_search(sheet, ground, floor)
+    board, state = new_board(ground), new_enumeration(table, ground, floor)
     board.cells[:] = ground.cells
     keys, follow = np.concatenate([keys for keys, _ in layers]), np.concatenate(suffixes)
     batch = 0
-    while not enumerate_layouts(search, _STEPS, sheet, ground, board, offsets, keys, follow, hops, price):
+    while not enumerate_layouts(state, _STEPS, table, ground, board, offsets, keys, follow, hops, price):
         batch += 1
         progress("layouts", batch, _MAX_BATCHES)
         if batch == _MAX_BATCHES:
             raise _TooLargeError(f"squares of which {_MAX_BATCHES * _STEPS} steps enumerate the layouts that may win")
-    lanes = search.best_cells[ground.squares] == Cell.LANE if search.best[0] > floor else None
-    return _Beaten(lanes, int(search.counts[1]), frontiers)
+    lanes = state.best_cells[ground.squares] == Cell.LANE if state.best[0] > floor else None
+    return _Beaten(lanes, int(state.counts[1]), frontiers)
 
 
-def _frontiers(sheet: "Sheet", progress: Progress) -> _Frontiers:
+def _frontiers(table: "SquareTable", progress: Progress) -> _Frontiers:
     """The frontiers before each square and after the last, each with the most that leads to it."""
     from garage2usd.planning.broken_profile import first_frontier  # noqa: PLC0415
     from garage2usd.planning.frontier import advance  # noqa: PLC0415
 
-    layers = [(np.array([first_frontier(sheet)], dtype=np.int64), np.zeros(1))]
+    layers = [(np.array([first_frontier(table)], dtype=np.int64), np.zeros(1))]
     kept = 1
-    for index in range(len(sheet.kinds)):
-        layers.append(advance(sheet, index, *layers[-1]))
+    for index in range(len(table.kinds)):
+        layers.append(advance(table, index, *layers[-1]))
         kept += len(layers[-1][0])
         if kept > _MAX_FRONTIERS:
             raise _TooLargeError(f"squares of at most {_MAX_FRONTIERS} frontiers, fewer squares that is")
-        progress("frontiers", index + 1, len(sheet.kinds))
+        progress("frontiers", index + 1, len(table.kinds))
     return layers
 
 

@@ -8,7 +8,7 @@ from pydantic import BaseModel, Field, ValidationError
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
 from garage2usd.errors import ConfigError, ReportError
-from garage2usd.layout.lighting import Illuminance
+from garage2usd.layout.lighting import LightLevels
 from garage2usd.planning import Principles, Score
 from garage2usd.settings import FILE_FORMAT, first_fault
 
@@ -126,7 +126,7 @@ class Report(BaseModel):
     circulation: CirculationFigures | None = None
     area_per_stall_m2: float | None = None
     stall_uses: dict[str, int] = {}
-    illuminance: Illuminance | None = None
+    illuminance: LightLevels | None = None
     lane_kinds: dict[str, int] = {}
     object_counts: dict[str, int] = {}
     unreachable_stalls: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ from garage2usd.objects.outline import rectangle
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.structure.lane_graph import LaneKind
-from garage2usd.view.drawing import Area, Colour, Line, Point, Text, text_width
+from garage2usd.view.drawing import Colour, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_lanes import LANE_COLOUR, LINE_M
 from garage2usd.view.plan_sheet import ARROW_END_M, GREY, INK, PAPER, Sheet
 
@@ -20,7 +20,7 @@ _TREAD_M = 0.8
 _BREAK_M = 0.35
 
 
-def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
+def ramps(layout: Layout, sheet: Sheet) -> Iterator[Region | Line]:
     """Each ramp from its door to a broken edge, where the sheet cuts it off, or to its end."""
     for place in layout.of_kind("ramp"):
         spec = place.spec
@@ -41,7 +41,7 @@ def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
             yield _line(place, [*zigzag, (_BREAK_M, -far), (out, -far)], GREY, LINE_M)
 
 
-def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
+def portals(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
     """The wall beside a door, and outside of it an arrow with a word."""
     for place in layout.of_kind("portal"):
         spec = place.spec
@@ -66,10 +66,10 @@ def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
         yield Text(at, word, sheet.letters_m, LANE_COLOUR[kind], kind="portal")
 
 
-def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Area:
+def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Region:
     """A shape where a placement has it."""
     x, _, z = place.position_m
-    return Area([to_world(point, (x, z), place.yaw_rad) for point in shape], colour, kind)
+    return Region([to_world(point, (x, z), place.yaw_rad) for point in shape], colour, kind)
 
 
 def _line(place: Placement, shape: Sequence[Point], colour: Colour, width_m: float) -> Line:

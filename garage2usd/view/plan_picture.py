@@ -17,7 +17,7 @@ from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge
-from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
+from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps, turned
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
@@ -25,7 +25,7 @@ from garage2usd.view.route import route_of
 
 __all__ = ["Mark", "draw_plan"]
 
-_Element = Area | Line | Disc | Text
+_Element = Region | Line | Disc | Text
 
 _STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.STANDARD: (206, 222, 238),
@@ -122,15 +122,15 @@ def _stall_words(use: StallUse) -> str:
     return _STALL_WORDS.get(use, f"{use} stall")
 
 
-def _stalls(layout: Layout) -> Iterator[Area | Line | Text]:
+def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     cars = {(place.square, place.name): place for place in layout.of_kind("car")}
     for stall in layout.stalls:
         corners = stall.corners_m()
-        yield Area(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
+        yield Region(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
         car = cars.get((stall.square, stall.named("Car")))
         if car:
-            yield Area(_car_outline(car), _CAR, "car")
+            yield Region(_car_outline(car), _CAR, "car")
         if stall.number:
             yield _number(stall)
 
@@ -159,7 +159,7 @@ def _number(stall: Stall) -> Text:
     return Text(at, stall.number, height, INK, kind="number")
 
 
-def _building(layout: Layout) -> Iterator[Area | Line]:
+def _building(layout: Layout) -> Iterator[Region | Line]:
     for place in layout.of_kind("obstacle"):
         if isinstance(place.spec, ObstacleSpec):
             yield _placed(place, place.spec.width_m, place.spec.depth_m, _SOLID, "obstacle")
@@ -178,7 +178,7 @@ def _building(layout: Layout) -> Iterator[Area | Line]:
             yield _placed(place, place.spec.size_m, place.spec.size_m, INK, "column")
 
 
-def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
+def _route(graph: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
     """Both ways on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()
@@ -227,5 +227,5 @@ def _distinct(points: Sequence[Point]) -> list[Point]:
     return kept
 
 
-def _placed(place: Placement, width_m: float, depth_m: float, colour: Colour, kind: str) -> Area:
+def _placed(place: Placement, width_m: float, depth_m: float, colour: Colour, kind: str) -> Region:
     return turned(place, rectangle(-width_m / 2, -depth_m / 2, width_m / 2, depth_m / 2), colour, kind)

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.view.viewer.meshes import Triangles
-from garage2usd.view.viewer.scene import Collider, moved
+from garage2usd.view.viewer.scene import ColliderMesh, moved
 
 __all__ = ["collider_lines", "collider_of"]
 
@@ -25,7 +25,7 @@ def collider_of(prim: Usd.Prim) -> str:
     return str(prim.GetAttribute("physics:approximation").Get() or "none")
 
 
-def collider_lines(collider: Collider) -> NDArray[np.float32]:
+def collider_lines(collider: ColliderMesh) -> NDArray[np.float32]:
     """Pairs of points that draw a collider in its object's space: edges of the box or hull, or creases of the mesh.
 
     Returns

@@ -10,8 +10,8 @@ from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
 from garage2usd.view.viewer.meshes import DRAWN_TYPES, Triangles, display_colour, face_sets, triangles_of
-from garage2usd.view.viewer.scene import UNLABELLED, Collider, Light, Placed, Shape
-from garage2usd.view.viewer.surfaces import PLAIN, Surface, surface_of
+from garage2usd.view.viewer.scene import UNLABELLED, ColliderMesh, Light, Placed, Shape
+from garage2usd.view.viewer.surfaces import PLAIN, SurfaceLook, surface_of
 
 __all__ = ["Looks"]
 
@@ -31,13 +31,13 @@ class Looks:
         self.meshes: list[Triangles] = []
         self.shapes: list[Shape] = []
         self.palettes: list[tuple[int, ...]] = []
-        self.surfaces: list[Surface] = []
+        self.surfaces: list[SurfaceLook] = []
         self.undrawn: Counter[str] = Counter()
         self._mesh_of: dict[bytes, int] = {}
         self._triangles_of: dict[tuple[object, ...], Triangles | None] = {}
         self._shape_of: dict[tuple[object, ...], int] = {}
         self._palette_of: dict[tuple[int, ...], int] = {}
-        self._surface_of: dict[Surface, int] = {}
+        self._surface_of: dict[SurfaceLook, int] = {}
         self._surface_of_material: dict[str, int] = {}
 
     def objects(self, stage: Usd.Stage, to_metres: Matrix) -> list[Placed]:
@@ -92,7 +92,7 @@ class Looks:
                     matrices=[matrix for _, matrix, _ in parts],
                     slots=slots,
                     blended=blended,
-                    colliders=[Collider(word, self.meshes[mesh], place) for mesh, word, place in colliders],
+                    colliders=[ColliderMesh(word, self.meshes[mesh], place) for mesh, word, place in colliders],
                     lights=tuple(lights),
                 )
             )
@@ -141,6 +141,6 @@ class Looks:
         return number
 
 
-def _plain(colour_rgb: tuple[float, float, float] | None) -> Surface:
+def _plain(colour_rgb: tuple[float, float, float] | None) -> SurfaceLook:
     """What has no material looks like."""
-    return PLAIN if colour_rgb is None else Surface(colour_rgb=colour_rgb)
+    return PLAIN if colour_rgb is None else SurfaceLook(colour_rgb=colour_rgb)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.view.viewer.meshes import Triangles
-from garage2usd.view.viewer.surfaces import Surface
+from garage2usd.view.viewer.surfaces import SurfaceLook
 
-__all__ = ["UNLABELLED", "Collider", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallCorners", "moved"]
+__all__ = ["UNLABELLED", "ColliderMesh", "LaneCurves", "Light", "Placed", "Scene", "Shape", "StallCorners", "moved"]
 
 UNLABELLED = "unlabelled"
 """Class of what the stage gives no semantic label."""
@@ -23,7 +23,7 @@ def moved(points_m: NDArray[Any], place: NDArray[np.float64]) -> NDArray[np.floa
 
 
 @dataclass(frozen=True, eq=False)
-class Collider:
+class ColliderMesh:
     """What a physics engine makes of a mesh.
 
     Attributes
@@ -102,7 +102,7 @@ class Shape:
     matrices: Sequence[NDArray[np.float64]]
     slots: Sequence[int]
     blended: Sequence[bool]
-    colliders: Sequence[Collider] = ()
+    colliders: Sequence[ColliderMesh] = ()
     lights: Sequence[Light] = ()
 
 
@@ -194,7 +194,7 @@ class Scene:
     objects: Sequence[Placed]
     shapes: Sequence[Shape]
     palettes: Sequence[Sequence[int]]
-    surfaces: Sequence[Surface]
+    surfaces: Sequence[SurfaceLook]
     lanes: LaneCurves | None
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]
