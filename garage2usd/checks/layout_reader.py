@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
+from garage2usd.checks.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.checks.subject import Subject
 from garage2usd.config import BayConfig
 from garage2usd.layout import Layout, Stall, StallUse
@@ -82,11 +82,11 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
 
 
 @lru_cache(maxsize=1024)
-def _shapes(spec: Spec) -> tuple[tuple[Shape, bool], ...]:
+def _shapes(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
     """The meshes of a spec, and whether each has a collider."""
     return tuple(
         (
-            Shape(
+            MeshShape(
                 part.points.astype(np.float64), part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
             ),
             part.collider is not None,
