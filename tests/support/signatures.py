@@ -34,9 +34,8 @@ def main():
         for function, value in vars(module).items()
         if isinstance(value, Dispatcher) and value.__module__ == name
     }
-    print(
-        json.dumps({"compiled": sum(map(bool, forms.values())), "several": {k: v for k, v in forms.items() if v[1:]}})
-    )
+    several = {function: signatures for function, signatures in forms.items() if len(signatures) > 1}
+    json.dump({"compiled": sum(map(bool, forms.values())), "several": several}, sys.stdout)
 
 
 if __name__ == "__main__":
