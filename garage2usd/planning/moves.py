@@ -13,6 +13,8 @@ from garage2usd.planning.labels import through
 
 __all__ = ["propose"]
 
+# longest leg of a connector, share of bent ones, longest path taken out and longest run shifted: moves stay small, so
+# that each is judged in a short time
 _CONNECTOR, _BENT_SHARE, _PATH, _RUN = 6, 0.3, 20, 40
 _FLIP, _RELABEL, _EXCHANGE, _PAIR, _CONNECT, _TAKE, _LINE = 0.38, 0.50, 0.68, 0.78, 0.88, 0.94, 0.97
 """Shares of the moves, each added to those before it; the rest are runs that shift."""
