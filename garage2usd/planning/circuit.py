@@ -27,6 +27,7 @@ from garage2usd.planning.sizes import (
 
 __all__ = ["anneal_labels"]
 
+# shares of the moves that are of a side, and that start at what is broken
 _RESIZED, _FAULTY_SHARE = 0.02, 0.25
 
 # what a fault weighs, in stalls, in the choice of the best plan: while annealing, and where faults are mended

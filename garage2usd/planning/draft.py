@@ -13,6 +13,7 @@ from garage2usd.planning.ground import Ground
 __all__ = ["Draft", "add_square", "apply", "gather", "new_draft", "revert"]
 
 _MOVED = 400
+"""Room for the squares of one move; what needs more is not a move."""
 
 
 class Draft(NamedTuple):

@@ -12,8 +12,11 @@ from garage2usd.planning.ground import Ground
 __all__ = ["drift"]
 
 _RING = 8
+"""Neighbours of a square by edge and corner."""
 _ENTRANCE = 2
+"""`Cell.ENTRANCE`, as numba reads it."""
 _WHOLE_SHARE = 30
+"""Squares measured for flips that may part the lanes, for each trial: it bounds their part of the time."""
 
 
 @compiled_inner

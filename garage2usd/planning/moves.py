@@ -15,6 +15,8 @@ __all__ = ["propose"]
 
 _OFF, _THROUGH, _TIP = np.int64(0), np.int64(1), np.int64(2)
 """Labels of squares: free, a lane that is driven through, the first lane of a dead end."""
+# longest leg of a connector, share of bent ones, longest path taken out and longest run shifted: moves stay small, so
+# that each is judged in a short time
 _CONNECTOR, _BENT_SHARE, _PATH, _RUN = np.int64(6), 0.3, 20, 40
 _FLIP, _RELABEL, _EXCHANGE, _PAIR, _CONNECT, _TAKE, _LINE = 0.38, 0.50, 0.68, 0.78, 0.88, 0.94, 0.97
 """Shares of the moves, each added to those before it; the rest are runs that shift."""

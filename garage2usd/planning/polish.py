@@ -12,7 +12,9 @@ from garage2usd.planning.sizes import Sizes, copy_sides, floor_cost, settle, sid
 __all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
 
 _RESIZED_EVERY = 40
+"""One move in so many is of a side, of which there are far fewer than squares."""
 _SETTLING_PASSES = 2
+"""Over all lines, and more than one, as the side that pays best depends on the others."""
 
 
 @compiled
