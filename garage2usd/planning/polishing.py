@@ -49,7 +49,7 @@ _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 _ANNEALED, _ANNEALED_MIDDLE = (6, 6_000_000, (3.0, 0.5)), (6, 48_000_000, (2.0, 0.4))
 
 # annealing under rules: how many runs, more while none keeps the rules, and how many moves in each; on large sites few,
-# and at most 450,000 moves, so that planning takes at most twice as long as without rules
+# and at most 400,000 moves, so that planning takes at most twice as long as without rules
 _LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 6, 3, 10
 _LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 350, (160_000, 400_000), 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), ((8.0, 40.0, 8.0, 30.0), (4.0, 40.0, 5.0, 20.0))
