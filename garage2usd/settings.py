@@ -4,10 +4,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["FILE_FORMAT", "Settings", "first_fault"]
-
-FILE_FORMAT = ConfigDict(frozen=True, allow_inf_nan=False, populate_by_name=True)
-"""Of models of files that garage2usd writes and reads again: keys of other versions are left aside."""
+__all__ = ["Record", "Settings", "first_fault"]
 
 
 class Settings(BaseModel):
@@ -16,6 +13,12 @@ class Settings(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True, validate_default=True
     )
+
+
+class Record(BaseModel):
+    """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
+
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False, populate_by_name=True)
 
 
 def first_fault(error: ValidationError) -> str:

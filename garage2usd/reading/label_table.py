@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Annotated, Self
 
-from pydantic import BaseModel, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from garage2usd.documents import is_file, read_bytes
 from garage2usd.errors import StageError
-from garage2usd.settings import FILE_FORMAT, first_fault
+from garage2usd.settings import Record, first_fault
 
 __all__ = ["LARGEST_CLASS_ID", "LARGEST_ID", "LabelTable", "LabelledObject", "SemanticClass", "read_label_table"]
 
@@ -18,17 +18,15 @@ LARGEST_CLASS_ID = 255
 _MAX_FILE_BYTES = 1024 * 1024 * 1024
 
 
-class SemanticClass(BaseModel):
+class SemanticClass(Record):
     """A class of objects: its name, its id from 1, and the nearest class of Cityscapes, where one is known."""
-
-    model_config = FILE_FORMAT
 
     name: str
     id: Annotated[int, Field(ge=1, le=LARGEST_CLASS_ID)]
     cityscapes: str | None = None
 
 
-class LabelledObject(BaseModel):
+class LabelledObject(Record):
     """An object of a stage.
 
     Attributes
@@ -43,8 +41,6 @@ class LabelledObject(BaseModel):
         (x, y, z) of the corners of its bounds in the world, for people and programs of their own.
     """
 
-    model_config = FILE_FORMAT
-
     path: str
     id: Annotated[int, Field(ge=1, le=LARGEST_ID)]
     class_name: Annotated[str, Field(alias="class")]
@@ -52,10 +48,8 @@ class LabelledObject(BaseModel):
     max_m: tuple[float, float, float] | None = None
 
 
-class LabelTable(BaseModel):
+class LabelTable(Record):
     """All classes, and all objects with a path and an id of their own."""
-
-    model_config = FILE_FORMAT
 
     classes: tuple[SemanticClass, ...]
     objects: tuple[LabelledObject, ...]

@@ -3,14 +3,14 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
 from garage2usd.errors import ConfigError, ReportError
 from garage2usd.layout.lighting import LightLevels
 from garage2usd.planning import Principles, Score
-from garage2usd.settings import FILE_FORMAT, first_fault
+from garage2usd.settings import Record, first_fault
 
 __all__ = [
     "CirculationFigures",
@@ -25,20 +25,16 @@ __all__ = [
 ]
 
 
-class PlanFigures(BaseModel):
+class PlanFigures(Record):
     """The figures of a plan, or what they differ by between two."""
-
-    model_config = FILE_FORMAT
 
     value: float
     stalls: int
     area_per_stall_m2: float
 
 
-class LearningFigures(BaseModel):
+class LearningFigures(Record):
     """What learning alone found, and what polish added to it."""
-
-    model_config = FILE_FORMAT
 
     learnt: PlanFigures
     polish: PlanFigures
@@ -46,10 +42,8 @@ class LearningFigures(BaseModel):
     steps: int
 
 
-class CirculationFigures(BaseModel):
+class CirculationFigures(Record):
     """How traffic circulates, which of R1 to R4 were asked for, and which of these are broken, with where."""
-
-    model_config = FILE_FORMAT
 
     loops: int
     longest_dead_end_m: float
@@ -62,20 +56,16 @@ class CirculationFigures(BaseModel):
     neither_share: float
 
 
-class StairCore(BaseModel):
+class StairCore(Record):
     """A stair core: (row, col) of its square, (x, z) of its door, and the stalls in whose place it stands."""
-
-    model_config = FILE_FORMAT
 
     square: tuple[int, int]
     door_m: tuple[float, float]
     in_place_of: tuple[str, ...]
 
 
-class FireCompartment(BaseModel):
+class FireCompartment(Record):
     """A fire compartment with how many stalls and doors of stair cores it has."""
-
-    model_config = FILE_FORMAT
 
     name: str
     area_m2: float
@@ -83,10 +73,8 @@ class FireCompartment(BaseModel):
     stair_cores: int
 
 
-class ReportedStall(BaseModel):
+class ReportedStall(Record):
     """A stall; squares are (row, col), its centre is (x, z)."""
-
-    model_config = FILE_FORMAT
 
     name: str
     number: str
@@ -100,15 +88,13 @@ class ReportedStall(BaseModel):
     length_m: float
 
 
-class Report(BaseModel):
+class Report(Record):
     """A report, key by key in the order of the file.
 
     What makes the garage again has to be there: ``seed``, ``config``, ``S`` as rows of symbols, ``R`` and ``C`` as
     metres by column and by row. A report may lack the rest. An entry of ``stalls`` that is not a stall is kept as it
     stands, for `garage2usd.checks` to name.
     """
-
-    model_config = FILE_FORMAT
 
     version: str = ""
     seed: int
@@ -125,16 +111,16 @@ class Report(BaseModel):
     principles: Principles | None = None
     circulation: CirculationFigures | None = None
     area_per_stall_m2: float | None = None
-    stall_uses: dict[str, int] = {}
+    stall_uses: dict[str, int] | None = None
     illuminance: LightLevels | None = None
-    lane_kinds: dict[str, int] = {}
-    object_counts: dict[str, int] = {}
+    lane_kinds: dict[str, int] | None = None
+    object_counts: dict[str, int] | None = None
     unreachable_stalls: tuple[str, ...] = ()
     stair_cores: tuple[StairCore, ...] = ()
     fire_compartments: tuple[FireCompartment, ...] = ()
     stalls: tuple[Annotated[ReportedStall | Any, Field(union_mode="left_to_right")], ...] | None = None
     learning_curve: tuple[float, ...] = ()
-    seconds: dict[str, float] = {}
+    seconds: dict[str, float] | None = None
 
     def garage_config(self) -> GarageConfig:
         """Settings that make the garage again, without planning: its lanes and sizes are given.
