@@ -62,7 +62,7 @@ class LabelTable(Record):
                 raise ValueError(f"{entry.path} is of the class {entry.class_name!r}, which is not listed")
         for values in ({entry.path for entry in self.objects}, {entry.id for entry in self.objects}):
             if len(values) < len(self.objects):
-                raise ValueError("a path or an id stands there twice")
+                raise ValueError("a path or an id occurs twice")
         return self
 
 
@@ -83,4 +83,4 @@ def read_label_table(stage: Path) -> LabelTable | None:
     try:
         return LabelTable.model_validate_json(text)
     except ValidationError as error:
-        raise StageError(path, f"no table of labels: {first_fault(error)}") from None
+        raise StageError(path, f"not a table of labels: {first_fault(error)}") from None

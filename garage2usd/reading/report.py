@@ -167,4 +167,4 @@ def _refusal(error: ValidationError, path: Path) -> ConfigError | ReportError:
         cause = fault.get("ctx", {}).get("error")
         if isinstance(cause, ConfigError):
             return cause
-    return ReportError(path, f"no report of a build: {first_fault(error)}")
+    return ReportError(path, f"not a report of a build: {first_fault(error)}")

@@ -403,8 +403,8 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
         (["none.json"], 1, "none.json'; allowed: a readable file (No such file"),
         (["none.obj"], 1, "PATH: got 'none.obj'"),
         (["pipe.json"], 1, "allowed: a regular file"),
-        (["broken.json"], 1, "broken.json: no report of a build"),
-        (["other.json"], 1, "other.json: no report of a build: seed"),
+        (["broken.json"], 1, "broken.json: not a report of a build"),
+        (["other.json"], 1, "other.json: not a report of a build: seed"),
         (["other.json", "--seed", "3"], 1, "a seed beside a configuration only"),
     ],
 )
