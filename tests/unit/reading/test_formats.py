@@ -51,7 +51,7 @@ def test_all_who_read_a_report_name_what_is_wrong_alike(build, tmp_path, said):
     path.write_text(json.dumps(document))
     with pytest.raises(ReportError) as caught:
         read_report(path)
-    assert str(caught.value).startswith(f"{path}: no report of a build: {said}")
+    assert str(caught.value).startswith(f"{path}: not a report of a build: {said}")
     with pytest.raises(ConfigError) as caught:
         check_file(path)
     assert said in str(caught.value)
