@@ -81,7 +81,7 @@ TABLES = {
     "objects.3.id: got 0; allowed: greater than or equal to 1": lambda table: table["objects"][3].update(id=0),
     "objects.2.path: Field required": lambda table: table["objects"][2].pop("path"),
     "objects.1.min_m.0: got 'x'; allowed: a valid number": lambda table: table["objects"][1].update(min_m=["x", 0, 0]),
-    "a path or an id stands there twice": lambda table: table["objects"].append(table["objects"][0]),
+    "a path or an id occurs twice": lambda table: table["objects"].append(table["objects"][0]),
     "classes.0.id: got 256; allowed: less than or equal to 255": lambda table: table["classes"][0].update(id=256),
 }
 
@@ -95,4 +95,4 @@ def test_viewer_and_renderer_refuse_a_table_of_labels_alike(build, tmp_path, sai
     for read in (read_labels, read_scene):
         with pytest.raises(StageError) as caught:
             read(stage, tmp_path / "g.usdc")
-        assert str(caught.value).startswith(f"{tmp_path / 'g_labels.json'}: no table of labels: {said}")
+        assert str(caught.value).startswith(f"{tmp_path / 'g_labels.json'}: not a table of labels: {said}")
