@@ -127,7 +127,7 @@ def test_the_built_reference_has_all_that_the_code_has(site):
         assert name in configuration
         for setting in getattr(field.annotation, "model_fields", {}):
             assert re.search(rf"\b{setting}\b", configuration), f"{name}.{setting}"
-    assert "0.1 paper, 0.5 tuned, 0.03 over aisles Learning rate" in configuration
+    assert "0.1 paper, 0.1 tuned, 0.03 over aisles Learning rate" in configuration
 
     commands = text_of(site / "reference" / "command_line.html")
     for name, command in main.commands.items():
