@@ -103,7 +103,7 @@ def _describe(made: "Build") -> None:
         ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
-        *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
+        *(("assets", f"{folder}/") for folder in (made.asset_folder, made.shared_assets) if folder),
         *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("labels", str(made.labels)),
@@ -147,4 +147,6 @@ def _checked(made: "Build") -> str:
 
 def _dropped(made: "Build") -> str:
     """What a Unity project needs of a build."""
-    return made.stage.name if made.asset_folder is None else f"{made.stage.name} and {made.asset_folder.name}/"
+    own = [f"{made.asset_folder.name}/"] if made.asset_folder else []
+    shared = [f"{made.garage.config.stage.asset_folder}/"] if made.shared_assets else []
+    return " and ".join([made.stage.name, *own, *shared])
