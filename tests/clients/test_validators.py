@@ -79,8 +79,8 @@ def test_nvidia_validation_sees_a_broken_prototype(builds, tmp_path):
     """Or else the test above would prove nothing of a folder of prototypes."""
     sample = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
     folder = shutil.copytree(builds(sample, "usdc").asset_folder, tmp_path / "assets")
-    layer = Sdf.Layer.FindOrOpen(str(folder / "Column_01.usdc"))
-    mesh = next(iter(layer.GetPrimAtPath("/Column_01/Geom").nameChildren))
+    layer = Sdf.Layer.FindOrOpen(str(min(folder.glob("Column_*.usdc"))))
+    mesh = next(iter(layer.GetPrimAtPath("/Asset/Geom").nameChildren))
     mesh.attributes["extent"].default = [(0, 0, 0), (0.1, 0.1, 0.1)]
     layer.Save()
     findings = nvidia_findings(folder, tmp_path / "findings.csv", "--no-variants")
