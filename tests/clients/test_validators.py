@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from pxr import Sdf, Usd, UsdValidation
 from support.sample_files import SAMPLES, each_build, each_format, each_sample
+from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
 
@@ -68,6 +69,14 @@ def test_tiles_that_share_prototypes_pass_both(builds, tmp_path):
     stage = builds(next(sample for sample in SAMPLES if sample.stem == "irregular"), "usdc", "nested").stage
     assert usd_findings(stage) == []
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants") == []
+
+
+def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
+    config = GarageConfig(**{**SETTINGS, "stage": {**SETTINGS["stage"], "assets": "shared"}})
+    made = build(config, tmp_path / "a" / "small.usdc")
+    assert usd_findings(made.stage) == []
+    for number, path in enumerate((made.stage, made.shared_assets)):
+        assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
 
 
 @pytest.mark.parametrize("sample", [sample for sample in SAMPLES if sample not in IN_FULL], ids=lambda path: path.stem)

@@ -6,12 +6,15 @@ import values_of_pxr
 from pxr import Sdf, Tf, Usd, UsdUtils
 from small_stages import SMALL_STAGES
 from support.sample_files import SAMPLES, each_sample
+from support.small_garage import SETTINGS
 from test_layers import STAGES, installed
 
+from garage2usd import GarageConfig, build
 
-def same(reader, path) -> list[str]:
-    """Both say the same of a stage; gives the warnings."""
-    found = reader.ask("stage", path)
+
+def same(reader, path, *root) -> list[str]:
+    """Both say the same of a stage, of a root folder where one is given; gives the warnings."""
+    found = reader.ask("stage", path, *root)
     assert "refused" not in found, found
     warnings = found.pop("warnings")
     wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))
@@ -56,6 +59,16 @@ def "A" ( references = @sub/package.usdz@</World> ) {}
 def "B" ( references = @sub/package.usdz[root.usd]@</World/I1> ) {}
 """
     same(usd_dump, written(tmp_path, {"outer.usda": text}, "usda"))
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested"])
+def test_stage_with_shared_assets(usd_dump, tmp_path, form):
+    stage = {**SETTINGS["stage"], "form": form, "assets": "shared"}
+    made = build(GarageConfig(**{**SETTINGS, "stage": stage}), tmp_path / "garage" / "g.usdc")
+    assert same(usd_dump, made.stage, tmp_path) == []
+    # the folder of the stage is the root where none is named, and leads to none of the assets
+    alone = usd_dump.ask("stage", made.stage)["warnings"]
+    assert any("../assets/" in warning and "within the root folder" in warning for warning in alone)
 
 
 @pytest.mark.parametrize("path", sorted(STAGES.glob("*.usda")), ids=lambda path: path.stem)
