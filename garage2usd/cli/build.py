@@ -56,7 +56,8 @@ def build(
     """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
 
     Beside the stage, say out/a.usda, it writes a picture of the plan (out/a_plan.png), a report (a_report.json), the
-    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/).
+    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/); meshes
+    and textures go into a folder that many garages share instead if the configuration says so (stage.assets).
 
     \b
     Examples:

@@ -37,9 +37,8 @@ def asset_file(shape: Spec, quality: TextureQuality) -> AssetFile:
     Notes
     -----
     What is authored is kept for the next garage of the process: the 4096 assets that were used last. Twenty garages of
-    7 x 9 squares need 182, which take 1.7 MB; the largest is a car of at most 150 KB. Bytes are a function of the shape
-    and the quality alone, as the names of textures in them are of what those hold, so that a stage is the same whatever
-    was built before it.
+    7 x 9 squares need 346, which take 2.6 MB; the largest is a car of at most 150 KB. The bytes depend on the shape and
+    the quality alone, so that a stage is the same whatever was built before it.
     """
     asset = asset_of(shape)
     with tempfile.TemporaryDirectory(prefix="garage2usd-") as folder:
