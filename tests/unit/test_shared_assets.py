@@ -4,12 +4,14 @@ import hashlib
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdShade
 from support.small_garage import SETTINGS
 
+from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
 from garage2usd.errors import ConfigError, StageError
@@ -18,6 +20,8 @@ from garage2usd.reading.files import open_stage
 from garage2usd.stage.asset_files import asset_file
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.stage.texture_files import texture_file
+from garage2usd.view.viewer import read_scene
+from garage2usd.view.viewer.wire import encode_scene
 
 
 def small(seed=2, **stage):
@@ -114,6 +118,17 @@ def test_shared_assets_make_the_same_stage_wherever_all_of_it_stands(tmp_path, f
     assert not list(shared.asset_folder.rglob("*_????????????????.*"))
     (tmp_path / "shared").rename(tmp_path / "moved")
     assert composed(tmp_path / "moved" / "1" / "g.usdc") == composed(own.stage)
+
+
+def test_check_and_view_read_shared_assets_as_ones_of_the_stages_own(tmp_path):
+    found, shown = [], []
+    for assets in ("own", "shared"):
+        path = build(small(assets=assets), tmp_path / assets / "a" / "g.usdc").stage
+        found.append(check_file(path)[0])
+        # but for the digest of the configuration, which says where the assets are
+        shown.append(encode_scene(replace(read_scene(open_stage(path), path), facts={})))
+    assert found[0] == found[1]
+    assert shown[0] == shown[1]
 
 
 def test_garages_that_share_assets_are_small(tmp_path):
