@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pxr import Usd, UsdGeom, UsdShade
+from pxr import Usd, UsdGeom, UsdShade, UsdUtils
 from support.small_garage import SETTINGS
 
 from garage2usd.checks import check_file
@@ -85,6 +85,10 @@ def test_what_a_process_keeps_is_bounded():
 
 def composed(path):
     """Every prim of a stage with its type, place, points, material and textures, instances included."""
+    layers, textures, missing = UsdUtils.ComputeAllDependencies(str(path))
+    assert len(layers) > 50
+    assert textures
+    assert not missing
     stage = Usd.Stage.Open(str(path))
     cache, found = UsdGeom.XformCache(), {}
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
