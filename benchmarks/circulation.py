@@ -3,11 +3,11 @@
 import statistics
 import time
 
+from annealing import anneal_alone
 from scale import combs
 
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimensioned, plan_lanes
-from garage2usd.planning.planner import anneal_alone
 from garage2usd.site import make_site
 from garage2usd.structure.grid import Structure
 

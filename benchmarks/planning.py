@@ -5,13 +5,12 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from annealing import anneal_alone
 from gates import GATE_BAY, GATES, held_out, site_of
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning import evaluate, plan_lanes
+from garage2usd.planning import evaluate, find_optimum, plan_lanes
 from garage2usd.planning.circulation import circulation, rules_of
-from garage2usd.planning.optimum import find_optimum
-from garage2usd.planning.planner import anneal_alone
 from garage2usd.structure.grid import Structure
 
 __all__ = ["planning"]

@@ -7,9 +7,8 @@ from typing import NamedTuple
 from gates import GATE_BAY, GATES, held_out, site_of
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning import Score
+from garage2usd.planning import Score, find_optimum
 from garage2usd.planning.circulation import circulation
-from garage2usd.planning.optimum import find_optimum
 from garage2usd.structure.grid import Structure
 
 __all__ = ["DEPTHS", "Proof", "plan_under_rules", "prove", "rules"]

@@ -7,13 +7,11 @@ import sys
 import time
 
 import numpy as np
+from annealing import anneal_alone
 from memory import peak_mb
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.planning import evaluate, is_feasible, plan_lanes
-from garage2usd.planning.bound import counting_bound
-from garage2usd.planning.optimum import find_optimum
-from garage2usd.planning.planner import anneal_alone
+from garage2usd.planning import counting_bound, evaluate, find_optimum, is_feasible, plan_lanes
 from garage2usd.site import make_site
 from garage2usd.structure.grid import Cell, Structure
 

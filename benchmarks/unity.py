@@ -14,10 +14,10 @@ from pathlib import Path
 from pxr import Sdf
 
 HERE = Path(__file__).parent
-sys.path.append(str(HERE.parent / "tests" / "unity"))
+sys.path.append(str(HERE.parent / "tests"))
 
-from layer import compile_prefab_dump  # noqa: E402
-from reader import compile_program  # noqa: E402
+from support.unity.layer import compile_prefab_dump  # noqa: E402
+from support.unity.reader import compile_program  # noqa: E402
 
 __all__ = ["unity"]
 

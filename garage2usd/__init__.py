@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.pipeline import Garage, build, generate
+    from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.structure.grid import Structure
 
 __all__ = [
@@ -20,9 +21,11 @@ __all__ = [
     "Garage2UsdError",
     "GarageConfig",
     "GenerationError",
+    "Optimum",
     "Structure",
     "UnreachableStallError",
     "build",
+    "find_optimum",
     "generate",
     "load_config",
 ]
@@ -33,9 +36,11 @@ _HOME = {
     "Garage2UsdError": "errors",
     "GarageConfig": "config",
     "GenerationError": "errors",
+    "Optimum": "planning.optimum",
     "Structure": "structure.grid",
     "UnreachableStallError": "errors",
     "build": "pipeline",
+    "find_optimum": "planning.optimum",
     "generate": "pipeline",
     "load_config": "config",
 }

@@ -4,11 +4,17 @@ from collections.abc import Callable
 from typing import ParamSpec, TypeVar, cast
 
 import numba
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["compiled"]
+__all__ = ["Whole", "compiled", "compiled_inner", "copy_row"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+Whole = int | np.int64
+"""A whole number that compiled code hands on; constants are of np.int64, as Numba compiles a function again for each
+literal."""
 
 
 def compiled(function: Callable[P, T]) -> Callable[P, T]:
@@ -16,7 +22,35 @@ def compiled(function: Callable[P, T]) -> Callable[P, T]:
 
     Beside the module where that folder can be written, else in the user's cache folder, else for this process only.
     """
+    return _compiled(function, is_inner=False)
+
+
+def compiled_inner(function: Callable[P, T]) -> Callable[P, T]:
+    """Compile a function that only compiled functions call.
+
+    It gets no way in from Python: unpacking what a function takes is often more code than the function itself, and
+    takes as long to compile.
+    """
+    return _compiled(function, is_inner=True)
+
+
+def _compiled(function: Callable[P, T], *, is_inner: bool) -> Callable[P, T]:
+    def jit(*, cache: bool) -> Callable[P, T]:
+        # its stubs lack these two options
+        made = numba.njit(cache=cache, no_cpython_wrapper=is_inner, no_cfunc_wrapper=is_inner)  # type: ignore[call-overload]
+        return cast("Callable[P, T]", made(function))
+
     try:
-        return cast("Callable[P, T]", numba.njit(cache=True)(function))
+        return jit(cache=True)
     except RuntimeError:  # no folder can be written
-        return cast("Callable[P, T]", numba.njit(function))
+        return jit(cache=False)
+
+
+@compiled_inner
+def copy_row(target: NDArray[np.generic], source: NDArray[np.generic]) -> None:
+    """Copy the numbers of one row over the first of another.
+
+    A loop, as Numba compiles the error messages of a slice assignment for seconds.
+    """
+    for index in range(len(source)):
+        target[index] = source[index]

@@ -10,7 +10,7 @@ from scipy.interpolate import PchipInterpolator
 
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["SHAPES", "Contour", "Shape", "Shell", "both_sides", "grid_quads", "needed"]
+__all__ = ["SHAPES", "Contour", "Shell", "SideView", "both_sides", "grid_quads", "needed"]
 
 _GROUND_CLEARANCE_M = 0.18
 _ARCH_GAP_M = 0.045
@@ -63,7 +63,7 @@ _TAIL_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.003, 0.038, 0.042, 0.048, 
 
 
 @dataclass(frozen=True)
-class Shape:
+class SideView:
     """Side view of a body as shares of its length (from the nose) and height.
 
     Attributes
@@ -104,7 +104,7 @@ class Shape:
 
 
 SHAPES = {
-    "hatchback": Shape(
+    "hatchback": SideView(
         shoulder=((0, 0.46), (0.02, 0.52), (0.12, 0.59), (0.27, 0.645), (0.6, 0.66), (0.9, 0.675), (1, 0.65)),
         roof=((0.26, 0.0), (0.44, 1.0), (0.83, 0.965), (0.965, 0.0)),
         pillars=(0.57,),
@@ -113,7 +113,7 @@ SHAPES = {
         tail=0.86,
         window_run_out_m=0.34,
     ),
-    "saloon": Shape(
+    "saloon": SideView(
         shoulder=(
             (0, 0.46),
             (0.02, 0.52),
@@ -131,7 +131,7 @@ SHAPES = {
         tail=0.84,
         window_run_out_m=0.34,
     ),
-    "suv": Shape(
+    "suv": SideView(
         shoulder=((0, 0.47), (0.015, 0.54), (0.1, 0.61), (0.25, 0.64), (0.6, 0.655), (0.9, 0.67), (1, 0.64)),
         roof=((0.245, 0.0), (0.40, 1.0), (0.87, 0.975), (0.985, 0.0)),
         pillars=(0.53, 0.76),
@@ -142,7 +142,7 @@ SHAPES = {
         bow_m=(0.10, 0.06),
         upright_tail=True,
     ),
-    "van": Shape(
+    "van": SideView(
         shoulder=((0, 0.42), (0.015, 0.48), (0.08, 0.54), (0.19, 0.585), (0.6, 0.60), (0.9, 0.60), (1, 0.58)),
         roof=((0.17, 0.0), (0.35, 1.0), (0.935, 0.985), (0.99, 0.0)),
         pillars=(0.45, 0.70),
@@ -153,7 +153,7 @@ SHAPES = {
         bow_m=(0.12, 0.04),
         upright_tail=True,
     ),
-    "pickup": Shape(
+    "pickup": SideView(
         shoulder=((0, 0.50), (0.012, 0.56), (0.09, 0.605), (0.25, 0.63), (0.6, 0.64), (0.9, 0.64), (1, 0.63)),
         roof=((0.25, 0.0), (0.375, 1.0), (0.585, 0.985), (0.635, 0.0)),
         pillars=(0.465,),
@@ -165,7 +165,7 @@ SHAPES = {
         bed=(0.65, 0.975),
         upright_tail=True,
     ),
-    "compact_ev": Shape(
+    "compact_ev": SideView(
         shoulder=((0, 0.46), (0.02, 0.52), (0.1, 0.575), (0.22, 0.61), (0.6, 0.63), (0.9, 0.65), (1, 0.62)),
         roof=((0.19, 0.0), (0.40, 1.0), (0.80, 0.965), (0.965, 0.0)),
         pillars=(0.55,),
@@ -235,7 +235,7 @@ class Contour:
 class Shell:
     """Half rings along the car, each from the middle of the floor pan over the side to the middle of the roof."""
 
-    def __init__(self, body: CarBody, shape: Shape) -> None:
+    def __init__(self, body: CarBody, shape: SideView) -> None:
         self.body, self.shape = body, shape
         length, height = body.length_m, body.height_m
         self._shoulder = PchipInterpolator(

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -11,9 +12,11 @@ from garage2usd.checks.solids import Solid
 from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import LaneEdge, Point
+from garage2usd.reading.ground import Point
+from garage2usd.structure.dead_ends import walk_back
+from garage2usd.structure.lane_graph import LaneEdge
 
-__all__ = ["BOOK", "dead_end_of", "edge_name"]
+__all__ = ["BOOK", "dead_ends", "edge_name"]
 
 BOOK = RuleBook()
 _BUILDING = {"column", "wall", "obstacle"}
@@ -121,45 +124,33 @@ def _clear_width(subject: Subject, way: _Way, carriageway_m: float) -> tuple[flo
 def _dead_ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.dead_end_length is None:
         return
-    for tip in range(len(subject.nodes)):
-        if subject.nodes[tip].is_portal or len(subject.beside[tip]) > 1:
-            continue
-        squares, length = dead_end_of(tip, subject)
+    for squares, length in dead_ends(subject):
         if length <= profile.dead_end_length.amount + ROUNDING_M:
             continue
         uses = {stall.use for stall in subject.stalls if stall.access in squares}
         if uses and StallUse.TURNING not in uses:
-            node = subject.nodes[tip]
+            node = subject.nodes[squares[0]]
             message = "the dead-end aisle is too long without a stall kept free for turning"
             yield Miss(node.name, node.position, message, length, profile.dead_end_length.amount)
 
 
-def dead_end_of(tip: int, subject: Subject) -> tuple[list[int], float]:
-    """The lanes from a tip back to the next junction or portal, and their length in metres from the tip's far side."""
+def dead_ends(subject: Subject) -> Iterator[tuple[list[int], float]]:
+    """The lanes of each dead end from its tip on, and their length in metres from border to border."""
     nodes, beside = subject.nodes, subject.beside
-    squares, previous, node = [tip], -1, tip
-    length = 0.0
-    while True:
-        onward = [other for other in beside[node] if other != previous]
-        if not onward:
-            break
-        previous, node = node, onward[0]
-        length += math.dist(nodes[previous].position, nodes[node].position)
-        if nodes[node].is_portal or len(beside[node]) != 2:  # noqa: PLR2004 - neither end nor junction
-            # from border to border instead of from middle to middle
-            axis = int(abs(nodes[previous].position[0] - nodes[node].position[0]) < ROUNDING_M)
-            return squares, length + (_side(subject, tip) - nodes[node].widths_m[axis]) / 2
-        squares.append(node)
-    return squares, length + _side(subject, tip)
 
+    def side_m(node: int, other: int) -> float:
+        """Metres between the columns at a node along the aisle to another."""
+        (x, _), (other_x, _) = nodes[node].position, nodes[other].position
+        return nodes[node].widths_m[int(abs(x - other_x) < ROUNDING_M)]
 
-def _side(subject: Subject, tip: int) -> float:
-    """Metres between the columns at a tip along its aisle."""
-    node = subject.nodes[tip]
-    if not subject.beside[tip]:
-        return max(node.widths_m)
-    other = subject.nodes[subject.beside[tip][0]]
-    return node.widths_m[int(abs(node.position[0] - other.position[0]) < ROUNDING_M)]
+    for tip in range(len(nodes)):
+        if nodes[tip].is_portal or len(beside[tip]) > 1:
+            continue
+        lanes, end = walk_back(tip, beside.__getitem__, lambda node: not nodes[node].is_portal)
+        way = lanes if end is None else [*lanes, end]
+        length_m = sum(math.dist(nodes[one].position, nodes[other].position) for one, other in pairwise(way))
+        tip_m = side_m(tip, beside[tip][0]) if beside[tip] else max(nodes[tip].widths_m)
+        yield lanes, length_m + (tip_m if end is None else (tip_m - side_m(end, lanes[-1])) / 2)
 
 
 def edge_name(subject: Subject, edge: LaneEdge) -> str:

@@ -1,32 +1,28 @@
 """A garage that is checked, as plain geometry that a car drives in."""
 
 import math
-from collections import defaultdict
 from collections.abc import Collection, Iterator
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 import shapely
 
-from garage2usd.checks.aisle import dead_end_of
+from garage2usd.checks.aisle import dead_ends
 from garage2usd.checks.openings import section_of
 from garage2usd.checks.subject import Subject
-from garage2usd.driving import DrivenGarage, DrivenStall, LaneDirections, LaneSquare, Obstacles, SquareUse
+from garage2usd.driving import DrivenGarage
+from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.limits import allow_seconds
 from garage2usd.reading.ground import Point, StallOutline
-from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage"]
 
 CAR_HEIGHT_M = 2.0
 """Height of the design car where a profile gives none."""
 
-_USES = {"entrance": SquareUse.ENTRANCE, "exit": SquareUse.EXIT}
 _DRIVEN_THROUGH = {"vehicle_door", "ramp"}
 """What a convex outline would close; it counts by its section instead."""
 _DRIVEN_OVER = {"speed_bump"}
-_OWN = {"car", "wheel_stop", "traffic_cone"}
-"""What is not in the way of the car whose stall it stands in."""
 _CORNERS, _DIRECTIONS = 4, 8
 _SLACK_M2 = 0.05
 """Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
@@ -52,43 +48,28 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     -----
     A process with limits gets the time for the proof.
     """
-    shapes: list[tuple[str, shapely.Geometry]] = []
-    cars: list[tuple[str, shapely.Geometry]] = []
-    own, taken = defaultdict(list), set()
-    for name, label, ground in _standing(subject, height_m):
-        if name in left_out:
-            continue
-        home = subject.home_of(ground.convex_hull) if label in _OWN else None
-        if home is not None:
-            own[home.name].append(name)
-            if label == "car":
-                taken.add(home.name)
-        (cars if label == "car" else shapes).append((name, ground))
-    found = Obstacles.of(shapes + cars)
-    standing = Obstacles(found.names, found.owner, np.round(found.pieces, _DIGITS))
-    stalls = tuple(
-        DrivenStall(
-            name=stall.name,
-            centre_m=_rounded(stall.centre),
-            yaw_rad=_yaw_rad(stall),
-            access=stall.access,
-            absent=None if stall.name in taken else f"a car in {stall.name}",
-            own=tuple(own[stall.name]),
-        )
-        for stall in subject.parking_stalls
+    allow_seconds(_COMPILING_S + _STALL_S * len(subject.parking_stalls))
+    garage = assembled(
+        ((stall.name, _rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
+        ((_rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),
+        (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in subject.edges),
+        dead_ends(subject),
+        (thing for thing in _standing(subject, height_m) if thing.name not in left_out),
     )
-    allow_seconds(_COMPILING_S + _STALL_S * len(stalls))
-    return DrivenGarage(stalls, _directions(subject), standing)
+    return replace(garage, standing=replace(garage.standing, pieces=np.round(garage.standing.pieces, _DIGITS)))
 
 
-def _standing(subject: Subject, height_m: float) -> Iterator[tuple[str, str, shapely.Geometry]]:
-    """Name, class and ground of each thing that a car could touch."""
+def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
+    """Each thing that a car could touch; doors and ramps by their sections."""
     for name, label, pieces in subject.solids.grounds(height_m):
         if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
-            yield name, label, _simple(pieces)
+            ground = _simple(pieces)
+            home = subject.home_of(ground.convex_hull)
+            yield StandingThing(name, label, ground, home.name if home else None)
     for thing in subject.things:
         if thing.label in _DRIVEN_THROUGH:
-            yield thing.name, thing.label, shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
+            cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
+            yield StandingThing(thing.name, thing.label, cuts)
 
 
 def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:
@@ -121,28 +102,6 @@ def _eight_cornered(piece: shapely.Polygon) -> shapely.Geometry:
         np.linalg.solve(normals[[side, side - 1]], reach[[side, side - 1]]).tolist() for side in range(_DIRECTIONS)
     ]
     return shapely.Polygon(meets).convex_hull
-
-
-def _directions(subject: Subject) -> LaneDirections:
-    squares = tuple(
-        LaneSquare(_rounded(node.position), node.widths_m, _USES.get(node.kind, SquareUse.LANE))
-        for node in subject.nodes
-    )
-    widths: dict[tuple[int, int], float] = {}
-    for edge in subject.edges:
-        width = round(edge.width_m, _DIGITS)
-        widths[edge.start, edge.end] = width
-        if not edge.one_way:
-            widths[edge.end, edge.start] = width
-    backing: set[tuple[int, int]] = set()
-    for tip, node in enumerate(subject.nodes):
-        if node.is_portal or len(subject.beside[tip]) != 1:
-            continue
-        lanes, length_m = dead_end_of(tip, subject)
-        if length_m <= DEAD_END_LIMIT_MM / 1000:
-            backing.update((outside, lanes[-1]) for outside in subject.beside[lanes[-1]] if outside not in lanes)
-            backing.update(pairwise(reversed(lanes)))
-    return LaneDirections(squares, widths, frozenset(backing))
 
 
 def _yaw_rad(stall: StallOutline) -> float:

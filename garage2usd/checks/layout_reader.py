@@ -4,14 +4,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.checks.shapes import Body, Shape, Thing, turned_about_y
+from garage2usd.checks.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.checks.subject import Subject
 from garage2usd.config import BayConfig
 from garage2usd.layout import Layout, Stall, StallUse
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects import KINDS, Spec
-from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
+from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
@@ -30,7 +30,7 @@ def layout_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in layout.stalls),
         nodes=_nodes(graph),
-        edges=_edges(graph),
+        edges=graph.edges,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -49,7 +49,7 @@ def unlaid_subject(
         kind=kind,
         stalls=tuple(_outline(stall, graph) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
         nodes=_nodes(graph),
-        edges=_edges(graph),
+        edges=graph.edges,
         structure=structure,
         faults=faults,
     )
@@ -69,11 +69,6 @@ def _nodes(graph: LaneGraph) -> tuple[LaneNode, ...]:
     )
 
 
-def _edges(graph: LaneGraph) -> tuple[LaneEdge, ...]:
-    rows = zip(*(column.tolist() for column in graph.edges), strict=True)
-    return tuple(LaneEdge(start, end, width_m, is_one_way) for (start, end), is_one_way, width_m in rows)
-
-
 def _things(layout: Layout) -> tuple[Thing, ...]:
     paths = arrange(layout, nested=False).paths()
     objects = layout.placements
@@ -87,11 +82,11 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
 
 
 @lru_cache(maxsize=1024)
-def _shapes(spec: Spec) -> tuple[tuple[Shape, bool], ...]:
+def _shapes(spec: Spec) -> tuple[tuple[MeshShape, bool], ...]:
     """The meshes of a spec, and whether each has a collider."""
     return tuple(
         (
-            Shape(
+            MeshShape(
                 part.points.astype(np.float64), part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
             ),
             part.collider is not None,

@@ -10,13 +10,15 @@ from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
-from garage2usd.errors import ConfigError, UnreachableStallError
-from garage2usd.layout import Layout, lay_out
-from garage2usd.planning import dimension
+from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
+from garage2usd.layout import Layout, Stall, lay_out
+from garage2usd.planning import dimensioned
 from garage2usd.profiles import Profile
 from garage2usd.reading.ground import Fault
+from garage2usd.reading.report import ReportedStall, report_of
+from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
-from garage2usd.structure.grid import Cell, Structure, cells_from_text, sides_mm
+from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
 
 __all__ = ["plan_subject"]
@@ -87,32 +89,19 @@ def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
 def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
-    cells = cells_from_text(config.site.structure, field="site.structure")
-    bay = config.bay
-    widths, depths = (
-        sides_mm(bay.square_side_m if sides is None else sides, field=field, shape=cells.shape, axis=axis)
-        for sides, field, axis in (
-            (bay.column_widths_m, "bay.column_widths_m", 1),
-            (bay.row_depths_m, "bay.row_depths_m", 0),
-        )
-    )
-    structure = Structure(cells, widths, depths)
-    if bay.dimensioned:
-        structure = dimension(structure, bay=bay, rows=bay.row_depths_m is None, columns=bay.column_widths_m is None)
-    return _subject(structure, config, path, kind=kind)
+    structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
+    return _subject(dimensioned(structure, config.bay), config, path, kind=kind)
 
 
 def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, GarageConfig]:
-    settings, drawing = document["config"], document.get("S")
-    if not isinstance(settings, dict) or "R" not in document or "C" not in document:
-        raise ConfigError(_FIELD, str(path), "a report with config, S, R and C")
-    config = config_from_mapping(settings)
-    structure = Structure.from_arrays(cells_from_text(_drawing(drawing, path), field="S"), document["R"], document["C"])
-    listed, unreachable = document.get("stalls"), document.get("unreachable_stalls", [])
-    if not isinstance(unreachable, list) or not all(isinstance(name, str) for name in unreachable):
-        raise ConfigError(_FIELD, str(path), "a report whose unreachable_stalls are names of stalls")
-    told = listed if isinstance(listed, list) else None
-    return _subject(structure, config, path, kind="report", listed=told, unreachable=unreachable), config
+    try:
+        report = report_of(document, path)
+    except ReportError as error:
+        raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
+    structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
+    told, unreachable = report.stalls, report.unreachable_stalls
+    subject = _subject(structure, report.config, path, kind="report", listed=told, unreachable=unreachable)
+    return subject, report.config
 
 
 def _subject(
@@ -164,31 +153,23 @@ def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:
     made = {stall.name: stall for stall in layout.stalls}
     faults = []
     for entry in listed:
-        name = str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
+        name = entry.name if isinstance(entry, ReportedStall) else _name_in(entry)
         stall = made.pop(name, None)
         if stall is None:
             faults.append(Fault("report-stalls", name, None, "the report lists a stall that its plan does not have"))
-            continue
-        told = [*_numbers(entry.get("centre_m")), entry.get("width_m"), entry.get("length_m"), entry.get("use")]
-        real = [*stall.centre_m, stall.width_m, stall.length_m, str(stall.use)]
-        if not _alike(told, real):
+        elif not (isinstance(entry, ReportedStall) and _is_told(stall, entry)):
             faults.append(Fault("report-stalls", name, stall.centre_m, "the report tells another place, size or use"))
     return faults + [
         Fault("report-stalls", name, stall.centre_m, "the report does not list it") for name, stall in made.items()
     ]
 
 
-def _numbers(values: Any) -> list[Any]:  # noqa: ANN401
-    return list(values) if isinstance(values, list) else [values]
+def _name_in(entry: Any) -> str:  # noqa: ANN401
+    """What to call an entry of the list that is not a stall."""
+    return str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
 
 
-def _alike(told: list[Any], real: list[Any]) -> bool:
-    if len(told) != len(real):
-        return False
-    for one, other in zip(told, real, strict=True):
-        if isinstance(other, str):
-            if one != other:
-                return False
-        elif not isinstance(one, int | float) or not abs(one - other) <= _MOVED_M:
-            return False
-    return True
+def _is_told(stall: Stall, entry: ReportedStall) -> bool:
+    told = (*entry.centre_m, entry.width_m, entry.length_m)
+    real = (*stall.centre_m, stall.width_m, stall.length_m)
+    return entry.use == stall.use and all(abs(one - other) <= _MOVED_M for one, other in zip(told, real, strict=True))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-__all__ = ["Body", "Piece", "Shape", "Thing", "box_shape", "turned_about_y"]
+__all__ = ["Body", "MeshShape", "Piece", "Thing", "box_shape", "turned_about_y"]
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class Piece(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class MeshShape:
     """A mesh in its own coordinates.
 
     Attributes
@@ -102,11 +102,11 @@ def _outline(points: Array) -> Array:
     return points
 
 
-def box_shape(low: Array, high: Array) -> Shape:
+def box_shape(low: Array, high: Array) -> MeshShape:
     """A box by its corners."""
     corners = np.array([(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     faces = np.array([0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3])
-    return Shape(corners.astype(np.float64), np.full(6, 4), faces)
+    return MeshShape(corners.astype(np.float64), np.full(6, 4), faces)
 
 
 def turned_about_y(yaw_rad: float, position_m: tuple[float, float, float]) -> Array:
@@ -132,7 +132,7 @@ class Body(NamedTuple):
         Whether it has a collider.
     """
 
-    shape: Shape
+    shape: MeshShape
     matrix: Array
     touches: bool
 

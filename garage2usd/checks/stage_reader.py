@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.scene import RectLight, read_scene
+from garage2usd.checks.contents import PlacedLight, read_contents
 from garage2usd.checks.subject import Subject
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.layout import Placement
@@ -41,16 +41,16 @@ def stage_subject(path: Path) -> Subject:
 
 def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
     """Read a stage that is open, as it is composed now."""
-    ground, scene = read_lanes(stage), read_scene(stage)
+    ground, contents = read_lanes(stage), read_contents(stage)
     structure = _structure(stage)
-    lane_lux, stall_lux = _illuminances(ground, scene.lights, structure)
+    lane_lux, stall_lux = _illuminances(ground, contents.lights, structure)
     return Subject(
         source=source,
         kind="stage",
         stalls=tuple(ground.stalls),
         nodes=tuple(ground.nodes),
         edges=tuple(ground.edges),
-        things=scene.things,
+        things=contents.things,
         structure=structure,
         compartments=_compartments(stage, structure),
         lane_lux=lane_lux,
@@ -95,7 +95,7 @@ def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.i
 
 
 def _illuminances(
-    ground: Lanes, lights: Iterable[RectLight], structure: Structure | None
+    ground: Lanes, lights: Iterable[PlacedLight], structure: Structure | None
 ) -> tuple[float | None, float | None]:
     """Mean direct light on lanes and stalls, by the method of the layout."""
     tubes = [

@@ -1,5 +1,6 @@
 """What is checked: a garage as far as a stage, a report or a plan tells it, in metres, Y up."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,8 +13,9 @@ from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, StallOutline
+from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneEdge
 
 __all__ = ["Subject"]
 
@@ -118,30 +120,25 @@ class Subject:
     @cached_property
     def onward(self) -> tuple[tuple[int, ...], ...]:
         """For each node, the nodes that are driven to from it."""
-        ways: list[list[int]] = [[] for _ in self.nodes]
-        for edge in self.edges:
-            ways[edge.start].append(edge.end)
-            if not edge.one_way:
-                ways[edge.end].append(edge.start)
-        return tuple(map(tuple, ways))
+        return self._following(way for edge in self.edges for way in edge.ways)
 
     @cached_property
     def backward(self) -> tuple[tuple[int, ...], ...]:
         """For each node, the nodes that are driven from to it."""
-        ways: list[list[int]] = [[] for _ in self.nodes]
-        for node, others in enumerate(self.onward):
-            for other in others:
-                ways[other].append(node)
-        return tuple(map(tuple, ways))
+        return self._following((other, node) for node, others in enumerate(self.onward) for other in others)
 
     @cached_property
     def beside(self) -> tuple[tuple[int, ...], ...]:
         """For each node, the nodes that it is joined to, whichever way it is driven."""
-        joined: list[list[int]] = [[] for _ in self.nodes]
-        for edge in self.edges:
-            joined[edge.start].append(edge.end)
-            joined[edge.end].append(edge.start)
-        return tuple(map(tuple, joined))
+        ends = ((edge.start, edge.end) for edge in self.edges)
+        return self._following(way for one, other in ends for way in ((one, other), (other, one)))
+
+    def _following(self, ways: Iterable[tuple[int, int]]) -> tuple[tuple[int, ...], ...]:
+        """For each node, the second ones of the pairs that it is the first of."""
+        following: list[list[int]] = [[] for _ in self.nodes]
+        for node, other in ways:
+            following[node].append(other)
+        return tuple(map(tuple, following))
 
     @property
     def has_whole_graph(self) -> bool:

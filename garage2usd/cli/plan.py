@@ -17,12 +17,21 @@ if TYPE_CHECKING:
 __all__ = ["plan"]
 
 _FORMATS = (".png", ".svg")
+_ROUNDING = 1e-6
+"""Of scores that are added up in another order."""
 
 
 @click.command(short_help="Draw a plan with dimensions, as SVG or PNG.")
 @click.argument("path", type=INPUT_FILE)
 @click.option("--stall", "number", metavar="NUMBER|ID", help="A stall whose route is drawn, as B2-07.")
 @click.option("--findings", "with_findings", is_flag=True, help="Draw what `check` finds in PATH at its place.")
+@click.option(
+    "--optimum",
+    "with_optimum",
+    is_flag=True,
+    help="Prove the best score that any lanes have on the garage's squares, and print the plan's beside it. For sites "
+    "of up to about 9 x 9 squares.",
+)
 @seed_option
 @click.option(
     "--output",
@@ -33,7 +42,15 @@ _FORMATS = (".png", ".svg")
     multiple=True,
     help="The picture, .svg or .png; may be repeated.  [default: PATH's name with _plan.svg, in this folder]",
 )
-def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | None, outputs: tuple[Path, ...]) -> None:
+def plan(
+    *,
+    path: Path,
+    number: str | None,
+    with_findings: bool,
+    with_optimum: bool,
+    seed: int | None,
+    outputs: tuple[Path, ...],
+) -> None:
     """Draw the plan of a garage with dimensions, stall numbers and lanes.
 
     PATH is a configuration (.toml), the report of a build (.json), or a stage beside its report.
@@ -43,6 +60,7 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
       garage2usd plan garage.usdz
       garage2usd plan garage_report.json --stall B2-07 -o route.png -o route.svg
       garage2usd plan garage.usdz --findings -o findings.png
+      garage2usd plan samples/paper_7x9.toml --optimum
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.output import check_length, check_writable, publish, staging_folder  # noqa: PLC0415
@@ -59,6 +77,8 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
         check_writable(output.parent)
     with Bars(sys.stderr) as progress:
         garage = _garage(path, seed, progress)
+        # before a check of a stage, which limits the processor time of what follows
+        told = _beside_optimum(garage, progress) if with_optimum else []
     stall = find_stall(garage.layout, number) if number else None
     marks = _marks(path) if with_findings else []
     drawing = draw_plan(garage.layout, garage.graph, stall=stall, marks=marks)
@@ -75,6 +95,7 @@ def plan(*, path: Path, number: str | None, with_findings: bool, seed: int | Non
         for file, output in zip(made, outputs, strict=True):
             publish([file], output.parent)
             echo_table([("picture", str(output))])
+    echo_table(told)
 
 
 def _marks(path: Path) -> "list[Mark]":
@@ -90,25 +111,43 @@ def _marks(path: Path) -> "list[Mark]":
     ]
 
 
+def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, str]]:
+    """The score of a garage's plan, and how near it comes to the best that any lanes have on the same squares."""
+    from garage2usd.planning import find_optimum  # noqa: PLC0415 - keeps --help instant
+
+    plan, config = garage.plan, garage.config
+    best = find_optimum(
+        plan.structure, bay=config.bay, plan=config.plan, known=plan.structure, progress=progress
+    ).score.value
+    value = plan.score.value
+    if value > best + _ROUNDING:
+        share = "this plan has more, as it breaks the rules of circulation"
+    elif best > 0:
+        share = f"this plan has {100 * value / best:.1f} % of it"
+    else:
+        share = f"this plan has {best - value:.2f} less"
+    return [("score", f"{value:.2f}"), ("optimum", f"proven optimum {best:.2f}; {share}")]
+
+
 def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     """Made from a configuration, or again from a report."""
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
     from garage2usd.documents import is_file  # noqa: PLC0415
     from garage2usd.errors import ConfigError  # noqa: PLC0415
     from garage2usd.pipeline import generate  # noqa: PLC0415
-    from garage2usd.report import read_report  # noqa: PLC0415
+    from garage2usd.reading.report import read_report  # noqa: PLC0415
     from garage2usd.stage import StageFormat  # noqa: PLC0415
 
     if path.suffix == ".toml":
         return generate(load_config(path), seed=seed, progress=progress)
     refuse_seed(seed)
     if path.suffix == ".json":
-        return generate(read_report(path), progress=progress)
+        return generate(read_report(path).garage_config(), progress=progress)
     if path.suffix in set(StageFormat):
         if not is_file(path):
             raise ConfigError("PATH", str(path), "an existing file")
         report = path.with_name(f"{path.stem}_report.json")
         if not is_file(report):
             raise ConfigError("PATH", str(path), f"a stage with the report of its build beside it, {report.name}")
-        return generate(read_report(report), progress=progress)
+        return generate(read_report(report).garage_config(), progress=progress)
     raise ConfigError("PATH", str(path), f"a path that ends in .toml, .json, {', '.join(StageFormat)}")

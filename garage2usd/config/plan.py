@@ -93,6 +93,8 @@ class SarsaParameters(NamedTuple):
     starts: int
 
 
+# 'paper' is the prototype's reading of the paper, which prints no values; 'tuned' was tuned on the gates G1 to G3 of
+# benchmarks/gates.py, and is measured on others too
 _PAPER = SarsaParameters(
     alpha=0.1,
     gamma=0.95,
@@ -137,6 +139,7 @@ _PRESETS = {"paper": _PAPER, "tuned": _TUNED}
 _STARTS_ALONE = 12
 """Starts of the preset 'tuned' without polish, which evens out on a small site where learning came to."""
 
+# the agent over aisles starts with values from small sites: it explores less at first and learns in smaller steps
 _AISLES = _TUNED._replace(alpha=0.03, gamma=0.9, epsilon_start=0.3, epsilon_min=0.1, revisit_rate=0.9)
 
 
@@ -149,9 +152,9 @@ class PlanConfig(Settings):
     agent: Agent = Agent.AUTO
     """'squares', 'aisles', or 'auto': aisles on large sites, except with the preset 'paper'."""
     episodes: int = Field(5000, ge=1, le=1_000_000)
-    """Episodes of learning, of each start."""
+    """Episodes of learning, of each start; the default is the paper's."""
     archive_size: int = Field(200, ge=1, le=10_000)
-    """How many of the best plans are kept."""
+    """How many of the best plans are kept; the default is the paper's."""
     climb: bool | None = None
     """Polish the best plans by flips of squares after learning; left out, except with the preset 'paper'."""
     climb_top: int = Field(40, ge=1, le=10_000)

@@ -1,22 +1,21 @@
 """A layout and its lane graph as a garage that is driven in."""
 
-from collections import defaultdict
-from itertools import pairwise
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
 
 from garage2usd.config import GarageConfig
+from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.car import DesignCar
-from garage2usd.driving.garage import DrivenGarage, DrivenStall, StallProof, prove_garage
-from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, LaneSquare, SquareUse
+from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.proof import Limits
-from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
-from garage2usd.layout import Layout, Stall, lay_out
+from garage2usd.layout import Layout, Placement, lay_out
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.dead_ends import dead_ends
-from garage2usd.structure.lane_graph import LaneGraph, LaneKind
+from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["layout_garage", "prove_stalls", "square_directions", "without_unreachable"]
-
-_PORTALS = {LaneKind.ENTRANCE: SquareUse.ENTRANCE, LaneKind.EXIT: SquareUse.EXIT}
+__all__ = ["layout_garage", "object_name", "prove_stalls", "without_unreachable"]
 
 
 def prove_stalls(
@@ -74,44 +73,35 @@ def without_unreachable(
 
 def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:
     """The stalls that take cars, the lanes, and what stands on the floor, each by its `object_name`."""
-    present = {object_name(place) for place in layout.of_kind("car")}
-    cones = defaultdict(list)
-    for place in layout.of_kind("cone"):
-        cones[object_name(place).rpartition("_")[0]].append(object_name(place))
-    stalls = []
-    for stall in layout.stalls:
-        if stall.use.takes_cars:
-            car = _on_square("Car", stall)
-            own = (car, _on_square("WheelStop", stall), *cones[_on_square("Cone", stall)])
-            absent = None if car in present else car
-            access = graph.number_of[stall.access_square]
-            stalls.append(DrivenStall(stall.name, stall.centre_m, stall.yaw_rad, access, absent, own))
-    standing = fixed_objects(layout).joined(parked_cars(layout))
-    return DrivenGarage(tuple(stalls), square_directions(graph), standing)
-
-
-def square_directions(graph: LaneGraph) -> LaneDirections:
-    """The lanes of a graph by direction; both directions of each edge."""
-    squares = tuple(
-        LaneSquare((x, z), (width, depth), _PORTALS.get(graph.kind(square), SquareUse.LANE))
-        for square, (x, z), (width, depth) in zip(
-            graph.number_of, graph.middles_m.tolist(), graph.sides_m.tolist(), strict=True
-        )
+    number_of = graph.number_of
+    stalls = (stall for stall in layout.stalls if stall.use.takes_cars)
+    return assembled(
+        ((stall.name, stall.centre_m, stall.yaw_rad, number_of[stall.access_square]) for stall in stalls),
+        zip(graph.middles_m.tolist(), graph.sides_m.tolist(), map(graph.kind, number_of), strict=True),
+        graph.edges,
+        (([number_of[square] for square in end.squares], end.length_m) for end in dead_ends(graph.structure)),
+        _standing(layout),
     )
-    carriageways: dict[DirectedEdge, float] = {}
-    for (one, other), width_m in zip(graph.edges.ends.tolist(), graph.edges.width_m.tolist(), strict=True):
-        carriageways[one, other] = carriageways[other, one] = width_m
-    carriageways = dict(sorted(carriageways.items()))
-    backing: set[DirectedEdge] = set()
-    for end in dead_ends(graph.structure):
-        if not end.needs_turning_stall:
-            towards = [*reversed(end.squares)]
-            outside = [square for square in graph.graph[towards[0]] if square not in end.squares]
-            ways = [(square, towards[0]) for square in outside] + list(pairwise(towards))
-            backing.update((graph.number_of[one], graph.number_of[other]) for one, other in ways)
-    return LaneDirections(squares, carriageways, frozenset(backing))
 
 
-def _on_square(kind: str, stall: Stall) -> str:
-    row, col = stall.square
-    return f"r{row:02d}_c{col:02d}/{stall.named(kind)}"
+def object_name(place: Placement) -> str:
+    """A name that no other object of the garage has: ``r03_c07/Car_2`` on a square, else its own."""
+    if place.square is None:
+        return place.name
+    row, col = place.square
+    return f"r{row:02d}_c{col:02d}/{place.name}"
+
+
+def _standing(layout: Layout) -> Iterator[StandingThing]:
+    """Everything that a car could touch.
+
+    Notes
+    -----
+    Wheel stops count, as no tyre goes over them; the arms of all gates are down; speed bumps do not count, nor does
+    what hangs over the cars or is painted.
+    """
+    objects = layout.placements
+    is_touched = np.array([bool(spec.outlines()) for spec in objects.specs])
+    for place in objects.at(np.flatnonzero(is_touched[objects.spec])):
+        ground = shapely.MultiPolygon([shapely.Polygon(outline) for outline in place.outlines()])
+        yield StandingThing(object_name(place), place.spec.kind.label, ground, place.stall)

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled, compiled_inner
 from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
 
 __all__ = ["HEADINGS", "first_touch", "least_clearance", "search"]
@@ -28,6 +28,8 @@ _STEERING_M = 0.3
 _GREED = 2.0
 """Weight of the way that is left: the way found costs at most so many times the least."""
 _NEAR = 1e-7
+_FIRST, _SECOND = np.int64(0), np.int64(4)
+"""Rows of the corners of the first and the second of two footprints."""
 
 
 @compiled
@@ -61,7 +63,7 @@ def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, boxes: Floats
     return least
 
 
-@compiled
+@compiled_inner
 def _left_of_way(x: float, z: float, yaw: float, goals: Floats, radius: float) -> float:
     """A lower bound of the way to any goal, with no regard for what stands in it."""
     least = np.inf
@@ -74,7 +76,7 @@ def _left_of_way(x: float, z: float, yaw: float, goals: Floats, radius: float) -
     return least
 
 
-@compiled
+@compiled_inner
 def _reaches(x: float, z: float, yaw: float, goals: Floats) -> bool:
     for goal in range(goals.shape[0]):
         turn = (goals[goal, 0] * _TURN - yaw) % math.tau
@@ -84,15 +86,15 @@ def _reaches(x: float, z: float, yaw: float, goals: Floats) -> bool:
     return False
 
 
-@compiled
-def _cell(x: float, z: float, yaw: float, gear: int, cell_m: float) -> int:
+@compiled_inner
+def _cell(x: float, z: float, yaw: float, gear: Whole, cell_m: float) -> int:
     """A number for a place, a heading and a gear; places lie within 40 m of the origin."""
     column, row = math.floor(x / cell_m) + 1024, math.floor(z / cell_m) + 1024
     heading = round(yaw / _TURN) % HEADINGS
     return ((column * 2048 + row) * HEADINGS + heading) * 2 + (1 if gear > 0 else 0)
 
 
-@compiled
+@compiled_inner
 def _slot(keys: NDArray[np.int64], key: int) -> int:
     """Where a key is in a table of open addressing, or where it would be put."""
     mask = len(keys) - 1
@@ -166,12 +168,12 @@ def search(
         _, node = heapq.heappop(open_)
         x, z, yaw = place[node, 0], place[node, 1], place[node, 2]
         if node > 0:
-            slot = _slot(keys, _cell(x, z, yaw, code[node, 0], cell_m))
+            slot = _slot(keys, _cell(x, z, yaw, np.int64(code[node, 0]), cell_m))
             if cost[node] > best[slot]:
                 continue
             if _reaches(x, z, yaw, goals):
                 return 1, _steps(node, parent, code, step_m)
-        corners_at(x, z, yaw, body, corners, 0)
+        corners_at(x, z, yaw, body, corners, _FIRST)
         for gear in (-1, 1):
             is_change = code[node, 0] == -gear
             changes = code[node, 2] + (1 if is_change else 0)
@@ -204,7 +206,7 @@ def search(
                 slot = _slot(keys, key)
                 if keys[slot] == key and best[slot] <= paid:
                     continue
-                corners_at(to_x, to_z, to, body, corners, 4)
+                corners_at(to_x, to_z, to, body, corners, _SECOND)
                 hit = first_touch(corners, shapes, boxes, need)
                 if hit >= 0:
                     touched[hit] += 1
@@ -220,7 +222,7 @@ def search(
     return 0, np.empty((0, 3))
 
 
-@compiled
+@compiled_inner
 def _steps(node: int, parent: NDArray[np.int32], code: NDArray[np.int8], step_m: Floats) -> Floats:
     """The steps from the start to a node."""
     count, at = 0, node

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled
 
 __all__ = ["Floats", "bulge", "clearance", "corners_at"]
 
@@ -21,7 +21,7 @@ _SHORTEST = 1e-9
 
 
 @compiled
-def corners_at(x: float, z: float, yaw: float, body: Floats, corners: Floats, row: int) -> None:
+def corners_at(x: float, z: float, yaw: float, body: Floats, corners: Floats, row: Whole) -> None:
     """Write the footprint of a pose into four rows of `corners`; `body` is nose, tail and half the width."""
     sin, cos = math.sin(yaw), math.cos(yaw)
     for corner in range(4):

@@ -18,7 +18,7 @@ from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
 from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
-from garage2usd.layout.lighting import Illuminance, light_up
+from garage2usd.layout.lighting import LightLevels, light_up
 from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.overhead import exit_signs, mirrors
@@ -37,8 +37,8 @@ from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 
 __all__ = [
-    "Illuminance",
     "Layout",
+    "LightLevels",
     "ObjectTable",
     "Placement",
     "Stall",
@@ -79,7 +79,7 @@ class Layout:
     placements: ObjectTable
     stalls: StallTable
     ceiling_height_m: float
-    illuminance: Illuminance
+    illuminance: LightLevels
     cores: tuple[Core, ...]
     compartments: NDArray[np.int32]
     unreachable: frozenset[str] = frozenset()

@@ -7,7 +7,7 @@ from dataclasses import replace
 import shapely
 
 from garage2usd.config import ParkingConfig
-from garage2usd.layout.placement import Placement, Stall, StallUse, placed
+from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Surface
@@ -110,10 +110,8 @@ def _wheelchair() -> list[tuple[Point, ...]]:
 
 def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
     """A charging post at the rear of each charging stall, behind where cars end."""
-    posts = []
-    for stall in stalls:
-        if stall.use is StallUse.EV:
-            place = stall.to_world((0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
-            name = stall.named("Charger")
-            posts.append(placed(name, ChargerSpec(), place, yaw_rad=stall.yaw_rad, square=stall.square))
-    return posts
+    return [
+        stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))
+        for stall in stalls
+        if stall.use is StallUse.EV
+    ]

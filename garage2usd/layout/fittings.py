@@ -8,11 +8,10 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, placed, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, placed
 from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
-from garage2usd.objects.outline import Point
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.randomness import Step, generator
@@ -104,25 +103,23 @@ def cones(
     built_on: Container[Square] = (),
 ) -> list[Placement]:
     """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
-    taken = {(car.square, car.name) for car in cars}
+    taken = {car.stall for car in cars}
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
     found: list[Placement] = []
-
-    def place(name: str, points: Iterable[Point], middle: Point, yaw_rad: float, square: Square) -> None:
-        for number, point in enumerate(points, start=1):
-            foot = to_world(point, middle, yaw_rad)
-            found.append(placed(f"{name}_{number}", ConeSpec(), foot, yaw_rad=yaw_rad, square=square))
-
     for stall in stalls:
         is_drawn = numbers[stall.square][stall.ordinal] < fittings.cone_rate
-        if is_drawn and stall.use is StallUse.STANDARD and (stall.square, stall.named("Car")) not in taken:
+        if is_drawn and stall.use is StallUse.STANDARD and stall.name not in taken:
             along = stall.length_m / 2 - _CONES_FROM_MOUTH_M
-            points = [(across, along) for across in _CONES_ACROSS_M]
-            place(stall.named("Cone"), points, stall.centre_m, stall.yaw_rad, stall.square)
+            found += [
+                stall.placement("Cone", ConeSpec(), (across, along), piece=piece)
+                for piece, across in enumerate(_CONES_ACROSS_M, start=1)
+            ]
     for tile in grid:
         x, z = tile.half_x_m - _CONES_FROM_EDGE_M, tile.half_z_m - _CONES_FROM_EDGE_M
         is_hatched = tile.cell is Cell.FREE and tile.square not in grid.stall_places and tile.square not in built_on
         if is_hatched and min(x, z) > _CONES_FROM_EDGE_M and numbers[tile.square][0] < fittings.cone_rate:
-            place("Cone", ((-x, -z), (x, -z), (-x, z), (x, z)), tile.middle_m, 0.0, tile.square)
+            for number, (right, down) in enumerate(((-x, -z), (x, -z), (-x, z), (x, z)), start=1):
+                place = tile.x_m + right, tile.z_m + down
+                found.append(placed(f"Cone_{number}", ConeSpec(), place, square=tile.square))
     return found

@@ -13,7 +13,7 @@ from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.structure.grid import Cell
 
-__all__ = ["Illuminance", "Lux", "direct_lux", "lane_points_of", "light_up"]
+__all__ = ["LightLevels", "Lux", "direct_lux", "lane_points_of", "light_up"]
 
 UTILISATION, MAINTENANCE = 1.0, 0.8
 """Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
@@ -34,7 +34,7 @@ class Lux:
 
 
 @dataclass(frozen=True)
-class Illuminance:
+class LightLevels:
     """The light of a garage.
 
     Attributes
@@ -59,7 +59,7 @@ class Illuminance:
 
 def light_up(
     tubes: Sequence[Placement], grid: TileGrid, stalls: Sequence[Stall], fittings: FittingsConfig
-) -> tuple[list[Placement], Illuminance]:
+) -> tuple[list[Placement], LightLevels]:
     """The same tubes with the luminance that the floor needs, and what the floor then gets.
 
     Notes
@@ -84,7 +84,7 @@ def light_up(
     area = sum(tile.width_m * tile.depth_m for tile in grid)
     flux = sum(np.pi * luminance * spec.length_m * spec.width_m for _, spec in lamps)
     each = flux / len(lit) if lit else 0.0
-    return lit, Illuminance(
+    return lit, LightLevels(
         luminance,
         each,
         _lux(luminance * unit_lanes),

@@ -14,7 +14,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching, stall_lines
-from garage2usd.layout.placement import Placement, Stall, StallUse, placed
+from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.panel import Surface
@@ -101,16 +101,7 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterabl
 
 def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
     """The floor of each stall with its lines."""
-    return [
-        Placement(
-            stall.named("Stall"),
-            _stall_panel(stall.width_m, stall.length_m, stall.use),
-            (stall.centre_m[0], 0.0, stall.centre_m[1]),
-            stall.yaw_rad,
-            stall.square,
-        )
-        for stall in stalls
-    ]
+    return [stall.placement("Stall", _stall_panel(stall.width_m, stall.length_m, stall.use)) for stall in stalls]
 
 
 @lru_cache
@@ -125,15 +116,15 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Pla
     """A wheel stop near the rear of each stall that cars park in."""
     if not fittings.wheel_stops:
         return []
-    placements = []
-    for stall in stalls:
-        if not stall.use.takes_cars:
-            continue
-        place = stall.to_world((0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M))
-        spec = WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)))
-        name = stall.named("WheelStop")
-        placements.append(placed(name, spec, place, yaw_rad=stall.yaw_rad, square=stall.square))
-    return placements
+    return [
+        stall.placement(
+            "WheelStop",
+            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3))),
+            (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
+        )
+        for stall in stalls
+        if stall.use.takes_cars
+    ]
 
 
 def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: SquareDraws) -> list[Placement]:
@@ -174,11 +165,10 @@ def parked_cars(stalls: tuple[Stall, ...], parking: ParkingConfig, draws: Square
         side_slack = max(stall.width_m / 2 - _LINE_CLEARANCE_M - half_x, 0.0)
         rear_most = stall.length_m / 2 - _LINE_CLEARANCE_M - room_m + half_z
         along = rear_most + along_share * max(room_m - 2 * half_z, 0.0)
-        place = stall.to_world(((2 * side_share - 1) * side_slack, along))
         turned = stall.yaw_rad + yaw + (math.pi if is_reversed else 0.0)
         spec = CarSpec(body.name, PAINTS[int(paint_index * len(PAINTS))])
-        yaw_rad = round(math.remainder(turned, math.tau), 6)
-        placements.append(placed(stall.named("Car"), spec, place, yaw_rad=yaw_rad, square=stall.square))
+        point = (2 * side_share - 1) * side_slack, along
+        placements.append(stall.placement("Car", spec, point, yaw_rad=round(math.remainder(turned, math.tau), 6)))
     return placements
 
 

@@ -65,6 +65,8 @@ class Placement:
         Right-handed turn about +Y.
     square
         (row, col) of the tile that it belongs to, None for what belongs to the building.
+    ordinal
+        Number on that square of the stall that it belongs to, None for what belongs to no stall.
     """
 
     name: str
@@ -72,6 +74,7 @@ class Placement:
     position_m: tuple[float, float, float]
     yaw_rad: float = 0.0
     square: Square | None = None
+    ordinal: int | None = None
 
     @property
     def kind(self) -> str:
@@ -82,6 +85,11 @@ class Placement:
         """The (x, z) in the garage of a point of the shape."""
         x, _, z = self.position_m
         return to_world(point, (x, z), self.yaw_rad)
+
+    @property
+    def stall(self) -> str | None:
+        """Name of the stall that it belongs to, as a car, a wheel stop or a painted number does."""
+        return None if self.square is None or self.ordinal is None else stall_name(self.square, self.ordinal)
 
     def outlines(self) -> list[Polygon]:
         """Convex outlines (x, z) in the garage of what a car could touch of it; empty where a car touches nothing."""
@@ -137,9 +145,29 @@ class Stall:
         """Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z."""
         return edge_yaw_rad(self.edge)
 
-    def named(self, kind: str) -> str:
-        """Name of the object of a kind that belongs to this stall, on its square: ``Car_2`` in the second one."""
-        return f"{kind}_{self.ordinal}"
+    def placement(
+        self,
+        name: str,
+        spec: Spec,
+        point: Point = (0.0, 0.0),
+        *,
+        yaw_rad: float | None = None,
+        piece: int | None = None,
+    ) -> Placement:
+        """Place an object that belongs to this stall at (x, z) from its middle, the mouth at +Z.
+
+        It is turned as the stall is unless `yaw_rad` is given. In the second stall of a square, ``Car`` is named
+        ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
+        """
+        x, z = rounded(self.to_world(point))
+        return Placement(
+            f"{name}_{self.ordinal}" + ("" if piece is None else f"_{piece}"),
+            spec,
+            (x, 0.0, z),
+            self.yaw_rad if yaw_rad is None else yaw_rad,
+            self.square,
+            self.ordinal,
+        )
 
     def to_world(self, point: Point) -> Point:
         """The (x, z) in the garage of a point around the stall's middle, its mouth at +Z."""

@@ -58,6 +58,8 @@ class ObjectTable(Table[Placement]):
         Turn of each about +Y; float64, shape (n,).
     square
         (row, col) of the tile of each, (-1, -1) for what belongs to the building; signed, shape (n, 2).
+    ordinal
+        Number on its square of the stall that each belongs to, 0 for what belongs to none; signed, shape (n,).
     """
 
     def __init__(self, parts: Iterable[Iterable[Placement]]) -> None:
@@ -68,11 +70,12 @@ class ObjectTable(Table[Placement]):
         specs: dict[Spec, int] = {}
         names: dict[str, int] = {}
         columns = [_columns(part, specs, names) for part in parts]
-        spec, name, position, yaw, square = (np.concatenate(column) for column in zip(*columns, strict=True))
+        spec, name, position, yaw, square, ordinal = (np.concatenate(column) for column in zip(*columns, strict=True))
         order = np.lexsort((square[:, 1], square[:, 0], square[:, 0] < 0))
         kinds = np.array([_ROWS[shape.kind.name] for shape in specs], dtype=np.uint8)
         self.kind, self.spec, self.name = kinds[spec[order]], compact(spec[order]), compact(name[order])
-        self.position_m, self.yaw_rad, self.square = position[order], yaw[order], compact(square[order])
+        self.position_m, self.yaw_rad = position[order], yaw[order]
+        self.square, self.ordinal = compact(square[order]), compact(ordinal[order])
         self.specs, self.names = tuple(specs), np.array(list(names), dtype=np.bytes_)
 
     def __len__(self) -> int:
@@ -81,7 +84,7 @@ class ObjectTable(Table[Placement]):
 
     def at(self, rows: NDArray[np.intp]) -> list[Placement]:
         """The placements in some rows."""
-        columns = (self.name, self.spec, self.position_m, self.yaw_rad, self.square)
+        columns = (self.name, self.spec, self.position_m, self.yaw_rad, self.square, self.ordinal)
         return [
             Placement(
                 self.names[name].decode("ascii"),
@@ -89,8 +92,9 @@ class ObjectTable(Table[Placement]):
                 (x, y, z),
                 yaw,
                 (row, col) if row >= 0 else None,
+                ordinal or None,
             )
-            for name, spec, (x, y, z), yaw, (row, col) in zip(
+            for name, spec, (x, y, z), yaw, (row, col), ordinal in zip(
                 *(column[rows].tolist() for column in columns), strict=True
             )
         ]
@@ -114,7 +118,7 @@ def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]
 def _columns(
     placements: Iterable[Placement], specs: dict[Spec, int], names: dict[str, int]
 ) -> tuple[NDArray[Any], ...]:
-    """Shape, name, position, turn and square of placements as arrays; new shapes and names get a number."""
+    """Shape, name, position, turn, square and ordinal of placements as arrays; new shapes and names get a number."""
     placements = list(placements)
     return (
         np.array([specs.setdefault(place.spec, len(specs)) for place in placements], dtype=np.int32),
@@ -122,4 +126,5 @@ def _columns(
         np.array([place.position_m for place in placements], dtype=np.float64).reshape(-1, 3),
         np.array([place.yaw_rad for place in placements], dtype=np.float64),
         np.array([place.square or (-1, -1) for place in placements], dtype=np.int32).reshape(-1, 2),
+        np.array([place.ordinal or 0 for place in placements], dtype=np.int32),
     )

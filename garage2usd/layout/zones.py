@@ -10,7 +10,7 @@ import numpy as np
 
 from garage2usd.assets.glyphs import GLYPH_PITCH
 from garage2usd.config import FittingsConfig
-from garage2usd.layout.placement import Placement, Stall, placed
+from garage2usd.layout.placement import Placement, Stall
 from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.objects.zone_plate import ZonePlateSpec
 from garage2usd.structure.grid import Structure
@@ -82,9 +82,8 @@ def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Pla
         for piece, end in enumerate(range(len(painted), 0, -_PIECE_DIGITS), start=1):
             start = max(end - _PIECE_DIGITS, 0)
             across = (start + end - len(painted)) / 2 * pitch_m
-            name, spec = f"{stall.named('StallNumber')}_{piece}", NumberSpec(painted[start:end], _DIGIT_HEIGHT_M)
-            place = stall.to_world((across, along))
-            numbers.append(placed(name, spec, place, yaw_rad=stall.yaw_rad, square=stall.square))
+            spec = NumberSpec(painted[start:end], _DIGIT_HEIGHT_M)
+            numbers.append(stall.placement("StallNumber", spec, (across, along), piece=piece))
     return numbers
 
 

@@ -1,7 +1,9 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
+from garage2usd.planning.bound import counting_bound
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.measured import MeasuredCirculation, measured_circulation, neither_share
+from garage2usd.planning.optimum import Optimum, find_optimum
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles
@@ -11,13 +13,16 @@ from garage2usd.planning.tape import play, rank_of, tape_at, tape_of
 __all__ = [
     "ArchivedPlan",
     "MeasuredCirculation",
+    "Optimum",
     "Plan",
     "Principles",
     "Score",
     "area_per_stall_m2",
+    "counting_bound",
     "dimension",
     "dimensioned",
     "evaluate",
+    "find_optimum",
     "given_plan",
     "is_feasible",
     "measured_circulation",

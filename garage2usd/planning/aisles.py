@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
@@ -187,7 +187,7 @@ def new_values() -> NDArray[np.float64]:
     return np.full((_STATES, OPTIONS), _OPTIMISTIC)
 
 
-@compiled
+@compiled_inner
 def _profile(board: Board, square: int, across: int) -> int:
     """What lies behind a square: 0 to 3 squares or more up to a wall, or 4 to 8 for 0 to 4 squares up to a lane.
 
@@ -202,7 +202,7 @@ def _profile(board: Board, square: int, across: int) -> int:
     return min(gap, 3) if board.cells[q] != 0 else 8
 
 
-@compiled
+@compiled_inner
 def _state(
     board: Board, first: int, length: int, along: int, across: int, profiles: NDArray[np.int64]
 ) -> tuple[int, int]:
@@ -222,7 +222,7 @@ def _state(
     return (most * _SHARES + even) * _AHEAD + int(np.argmax(ahead)), most
 
 
-@compiled
+@compiled_inner
 def _lay_run(ground: Ground, board: Board, first: int, last: int, along: int, across: int) -> float:
     """Make all free squares of a run lanes; what the stalls and unused squares beside it gain."""
     cells, weights = board.cells, ground.weights
@@ -295,11 +295,11 @@ def learn_aisles(
         begin = 0 if direction == 0 else runs.turned[0]
         if entry >= 0:
             part_begin = begin + below(random, runs.turned[direction] - begin)
-            part_end = part_begin + 1 + below(random, _LONGEST_PART)
+            part_end = part_begin + 1 + below(random, np.int64(_LONGEST_PART))
         for run in range(begin, runs.turned[direction]):
             head, length = runs.first[run], runs.length[run]
             state, most = _state(board, head, length, along, across, profiles)
-            option = below(random, OPTIONS)
+            option = below(random, np.int64(OPTIONS))
             if run < part_begin or run >= part_end:
                 option = archive.tapes[entry, run]
             elif uniform(random) >= explored:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled, compiled_inner, copy_row
 from garage2usd.planning.ground import Ground
 
 __all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "uniform"]
@@ -59,7 +59,7 @@ def ranked_lanes(archive: Archive) -> tuple[tuple[float, NDArray[np.bool_]], ...
     return tuple((float(archive.values[entry]), archive.lanes[entry]) for entry in order)
 
 
-@compiled
+@compiled_inner
 def _mixed(z: np.uint64) -> np.uint64:
     """The last steps of splitmix64, in which every bit of a number comes to touch every other."""
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
@@ -74,25 +74,25 @@ def next_random(random: NDArray[np.uint64]) -> np.uint64:
     return _mixed(random[0])
 
 
-@compiled
+@compiled_inner
 def uniform(random: NDArray[np.uint64]) -> float:
     """A number from 0 to below 1."""
     return float(next_random(random) >> np.uint64(11)) * (1.0 / 9007199254740992.0)
 
 
-@compiled
-def below(random: NDArray[np.uint64], count: int) -> int:
+@compiled_inner
+def below(random: NDArray[np.uint64], count: Whole) -> int:
     """A whole number from 0 to below `count`."""
     return int(uniform(random) * count)
 
 
-@compiled
+@compiled_inner
 def _square_key(square: int) -> np.uint64:
     """Hash of one square; a set of squares has the exclusive or of its members'."""
     return _mixed(np.uint64(square + 1) * np.uint64(0x9E3779B97F4A7C15))
 
 
-@compiled
+@compiled_inner
 def keep(
     ground: Ground, archive: Archive, laid: NDArray[np.int64], value: float, tape: NDArray[np.int8], start: int
 ) -> None:
@@ -126,6 +126,6 @@ def keep(
     for q in laid:
         archive.lanes[place, np.searchsorted(ground.squares, q)] = True
     archive.starts[place], archive.lengths[place] = start, len(tape)
-    archive.tapes[place, : len(tape)] = tape
+    copy_row(archive.tapes[place], tape)
     if count[0] == size:
         count[1] = np.argmin(archive.values)

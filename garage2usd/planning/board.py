@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.survey import survey
 
@@ -71,7 +71,6 @@ class Board(NamedTuple):
     tally: NDArray[np.int64]
 
 
-@compiled
 def new_board(ground: Ground) -> Board:
     """Room for a board; `clear` it before use."""
     size = len(ground.cells)
@@ -86,7 +85,7 @@ def new_board(ground: Ground) -> Board:
     )
 
 
-@compiled
+@compiled_inner
 def clear(ground: Ground, board: Board) -> None:
     """Take all lanes off."""
     for q in range(len(ground.cells)):
@@ -101,7 +100,7 @@ def clear(ground: Ground, board: Board) -> None:
     board.tally[_LAID] = 0
 
 
-@compiled
+@compiled_inner
 def lay(ground: Ground, board: Board, square: int) -> None:
     """Make a free square a lane, beside an entrance or a lane; keeps the tally."""
     cells, edges, hops, near, _, queue, tally = board
@@ -152,7 +151,7 @@ def lay(ground: Ground, board: Board, square: int) -> None:
                 near[p] = hops[q]
 
 
-@compiled
+@compiled_inner
 def flip(cells: NDArray[np.int8], q: int, p: int) -> None:
     """Exchange lane and free square on one square, or on two if they differ; keeps no tally."""
     cells[q] = 1 - cells[q]
@@ -171,7 +170,7 @@ def value_now(ground: Ground, board: Board) -> float:
     return float(weights[0] * stalls + weights[1] * mean_time + weights[2] * board.tally[_UNUSED])
 
 
-@compiled
+@compiled_inner
 def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
     """Dead-end aisles over the ground's limit, from the tip to the next junction or portal."""
     stride, count = ground.stride, 0
@@ -205,7 +204,7 @@ def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
     return count
 
 
-@compiled
+@compiled_inner
 def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
     """Stalls on a free square by the lanes beside it, and the least `hops` of these."""
     edges, near = 0, FAR
@@ -226,7 +225,7 @@ def measure(ground: Ground, board: Board) -> float:
     return measure_above(ground, board, -np.inf)
 
 
-@compiled
+@compiled_inner
 def measure_above(ground: Ground, board: Board, least: float) -> float:
     """What `measure` does, but a score below `least` is returned as it is, without a look at the faults.
 
@@ -288,7 +287,7 @@ def measure_above(ground: Ground, board: Board, least: float) -> float:
     return value - faults_cost(ground, board)
 
 
-@compiled
+@compiled_inner
 def faults_cost(ground: Ground, board: Board) -> float:
     """What the faults of the circulation on the lanes in `board.cells` cost beside the score; uses `state`, `queue`."""
     cost, rules = 0.0, ground.rules
@@ -313,7 +312,7 @@ def faults_cost(ground: Ground, board: Board) -> float:
     return cost
 
 
-@compiled
+@compiled_inner
 def mark_network(ground: Ground, board: Board, first: int) -> int:
     """Set `near` to 1 on all lanes and portals that are connected to a lane, to 0 elsewhere; returns how many lanes."""
     cells, reached, queue = board.cells, board.near, board.queue

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
 
-__all__ = ["FORBIDDEN", "Sheet", "column_bits", "complete", "first_frontier", "step"]
+__all__ = ["FORBIDDEN", "SquareTable", "column_bits", "complete", "first_frontier", "step"]
 
 FORBIDDEN = -1.0e18
 
@@ -26,7 +26,7 @@ _ALL_BITS = 60
 _FINISHED, _LOOPED, _CORNER = 1 << 60, 1 << 61, 1 << 62
 
 
-class Sheet(NamedTuple):
+class SquareTable(NamedTuple):
     """What a square is and what it brings.
 
     Attributes
@@ -70,20 +70,20 @@ def _mask(edges: int) -> int:
 
 
 @compiled
-def _is_free(sheet: Sheet, index: int) -> bool:
-    return index < len(sheet.kinds) and sheet.kinds[index] == 0
+def _is_free(table: SquareTable, index: int) -> bool:
+    return index < len(table.kinds) and table.kinds[index] == 0
 
 
 @compiled
-def _settled(sheet: Sheet, index: int, edges: int) -> int:
+def _settled(table: SquareTable, index: int, edges: int) -> int:
     """Code of a free square of which only the lower edge is still to come; one for all that gain the same."""
-    if not _is_free(sheet, index + sheet.cols):
+    if not _is_free(table, index + table.cols):
         return 0
-    gain = sheet.worth[index, _mask(edges) | 2] - sheet.worth[index, _mask(edges)]
+    gain = table.worth[index, _mask(edges) | 2] - table.worth[index, _mask(edges)]
     if abs(gain) < 1e-12:
         return 0
     for other in range(edges):
-        if abs(sheet.worth[index, _mask(other) | 2] - sheet.worth[index, _mask(other)] - gain) < 1e-12:
+        if abs(table.worth[index, _mask(other) | 2] - table.worth[index, _mask(other)] - gain) < 1e-12:
             return _FREE + other
     return _FREE + edges
 
@@ -112,14 +112,14 @@ def _met(kind: int, depth: int) -> int:
     return kind + 1 if depth == own - 1 and kind & 1 else -1
 
 
-def first_frontier(sheet: Sheet) -> int:
+def first_frontier(table: SquareTable) -> int:
     """The frontier before the first square."""
-    return 0 if sheet.asks_loop else _LOOPED
+    return 0 if table.asks_loop else _LOOPED
 
 
 @compiled
 def step(
-    sheet: Sheet,
+    table: SquareTable,
     index: int,
     key: int,
     choice: int,
@@ -129,7 +129,7 @@ def step(
 
     Parameters
     ----------
-    sheet
+    table
         The site.
     index
         The square.
@@ -147,12 +147,12 @@ def step(
     stubs and nothing else, so that each layout that keeps R1 has exactly one labelling, and others have none. A lane
     that joins two of the same piece closes a loop (R2); one that fills a block of two by two is forbidden (R3).
     """
-    cols, bits = sheet.cols, sheet.bits
-    typed = sheet.depth >= 0
-    types = 3 + 2 * sheet.depth if typed else 1
+    cols, bits = table.cols, table.bits
+    typed = table.depth >= 0
+    types = 3 + 2 * table.depth if typed else 1
     col, lane, depth = index % cols, choice > 0, choice - 1
     flags = key & (_FINISHED | _LOOPED)
-    if lane and (sheet.kinds[index] != 0 or flags & _FINISHED != 0):
+    if lane and (table.kinds[index] != 0 or flags & _FINISHED != 0):
         return 0, FORBIDDEN
     codes, pieces, names = room[0], room[1], room[2]
     full = (1 << bits) - 1
@@ -170,8 +170,8 @@ def step(
         return 0, FORBIDDEN
     kind = 0
     if lane and typed:
-        kind = max(0, 2 - sheet.portals[index]) if depth == 0 else 1 + 2 * depth
-        if depth > 0 and sheet.portals[index] > 0:
+        kind = max(0, 2 - table.portals[index]) if depth == 0 else 1 + 2 * depth
+        if depth > 0 and table.portals[index] > 0:
             return 0, FORBIDDEN
     gain = 0.0
     # the square above is complete
@@ -179,7 +179,7 @@ def step(
         return 0, FORBIDDEN
     if lane and _FREE <= up < _LANE:
         mask = _mask(up - _FREE)
-        gain += sheet.worth[index - cols, mask | 2] - sheet.worth[index - cols, mask]
+        gain += table.worth[index - cols, mask | 2] - table.worth[index - cols, mask]
     if up_piece > 0:
         other = up - _LANE
         if lane:
@@ -207,20 +207,20 @@ def step(
             kind, other = _met(kind, _depth_of(other)), _met(other, depth)
             if kind < 0 or other < 0:
                 return 0, FORBIDDEN
-        if _needs(other) > int(_is_free(sheet, index - 1 + cols)):
+        if _needs(other) > int(_is_free(table, index - 1 + cols)):
             return 0, FORBIDDEN
         codes[col - 1] = _LANE + other
     elif left >= _FREE:
         edges = left - _FREE
         if lane:
-            gain += sheet.worth[index - 1, _mask(edges | 4)] - sheet.worth[index - 1, _mask(edges)]
+            gain += table.worth[index - 1, _mask(edges | 4)] - table.worth[index - 1, _mask(edges)]
             edges |= 4
-        codes[col - 1] = _settled(sheet, index - 1, edges)
+        codes[col - 1] = _settled(table, index - 1, edges)
     # this square
-    has_right = col < cols - 1 and sheet.kinds[index + 1] == 0
+    has_right = col < cols - 1 and table.kinds[index + 1] == 0
     corner = 0
     if lane:
-        if _needs(kind) > int(has_right) + int(_is_free(sheet, index + cols)):
+        if _needs(kind) > int(has_right) + int(_is_free(table, index + cols)):
             return 0, FORBIDDEN
         piece = cols + 1
         if up_piece > 0:
@@ -236,12 +236,12 @@ def step(
         elif left_piece > 0:
             piece = left_piece
         codes[col], pieces[col] = _LANE + kind, piece
-    elif sheet.kinds[index] >= 2:
+    elif table.kinds[index] >= 2:
         codes[col] = 0 if up_piece > 0 or left_piece > 0 else _PORTAL
-    elif sheet.kinds[index] == 0:
+    elif table.kinds[index] == 0:
         edges = int(up_piece > 0) + 2 * int(left_piece > 0)
-        gain += sheet.worth[index, _mask(edges)]
-        codes[col] = _FREE + edges if has_right else _settled(sheet, index, edges)
+        gain += table.worth[index, _mask(edges)]
+        codes[col] = _FREE + edges if has_right else _settled(table, index, edges)
     else:
         codes[col] = 0
     # number the pieces by their first column
@@ -259,12 +259,12 @@ def step(
 
 
 @compiled
-def complete(sheet: Sheet, key: int) -> bool:
+def complete(table: SquareTable, key: int) -> bool:
     """Whether a frontier below the last square is that of a feasible layout."""
-    types = 3 + 2 * sheet.depth if sheet.depth >= 0 else 1
+    types = 3 + 2 * table.depth if table.depth >= 0 else 1
     lanes = False
-    for c in range(sheet.cols):
-        code = (key >> (sheet.bits * c)) & ((1 << sheet.bits) - 1)
+    for c in range(table.cols):
+        code = (key >> (table.bits * c)) & ((1 << table.bits) - 1)
         if code == _PORTAL or code >= _LANE + types:
             return False
         lanes |= code >= _LANE

@@ -5,17 +5,29 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled, compiled_inner, copy_row
 from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, measure_above, stalls_at
 from garage2usd.planning.draft import Draft, apply, gather, revert
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.labels import fault, find_faults, is_long, label_lanes, through, trim
 from garage2usd.planning.moves import propose
-from garage2usd.planning.sizes import Sizes, driven_ways, floor_cost, foresee, resize, settle, side_now, sync, weigh
+from garage2usd.planning.sizes import (
+    Sizes,
+    copy_sides,
+    driven_ways,
+    floor_cost,
+    foresee,
+    resize,
+    settle,
+    side_now,
+    sync,
+    weigh,
+)
 
 __all__ = ["anneal_labels"]
 
+# shares of the moves that are of a side, and that start at what is broken
 _RESIZED, _FAULTY_SHARE = 0.02, 0.25
 
 # what a fault weighs, in stalls, in the choice of the best plan: while annealing, and where faults are mended
@@ -25,9 +37,10 @@ _FAULT_PRICE, _FAULT_PRICE_AT_LAST = 30.0, 1.0e5
 _MENDING_TRIALS, _MENDING_REFRESH, _MENDING_HEAT, _MENDING_FAULTY_SHARE = 60_000, 2000, 2.0, 1.0
 
 _N, _TIME, _UNUSED, _BAD, _BLOCKS, _EXCESS = 0, 1, 2, 3, 4, 5
+_TAKEN_OFF, _PUT_ON = np.int64(-1), np.int64(1)
 
 
-@compiled
+@compiled_inner
 def _blocks_at(cells: NDArray[np.int8], draft: Draft, stride: int) -> int:
     """Blocks of two by two lanes that touch the moved squares."""
     draft.marks[1] += 1
@@ -46,8 +59,8 @@ def _blocks_at(cells: NDArray[np.int8], draft: Draft, stride: int) -> int:
     return count
 
 
-@compiled
-def _count(ground: Ground, board: Board, draft: Draft, sign: int) -> None:
+@compiled_inner
+def _count(ground: Ground, board: Board, draft: Draft, sign: Whole) -> None:
     """Add what the squares around a move hold, or take it off."""
     cells, change, stride = board.cells, draft.change, ground.stride
     for index in range(draft.size[1]):
@@ -63,7 +76,7 @@ def _count(ground: Ground, board: Board, draft: Draft, sign: int) -> None:
     change[_BLOCKS] += sign * _blocks_at(cells, draft, stride)
 
 
-@compiled
+@compiled_inner
 def _excess_around(ground: Ground, board: Board, draft: Draft) -> int:
     """Squares by which the stretches around a move are too long."""
     cells, label, stride, queue = board.cells, draft.label, ground.stride, draft.queue
@@ -90,8 +103,8 @@ def _excess_around(ground: Ground, board: Board, draft: Draft) -> int:
     return excess
 
 
-@compiled
-def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> None:
+@compiled_inner
+def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: Whole) -> None:
     """Count where cars drive around a move into the lines, or take it off."""
     for index in range(draft.size[1]):
         q = draft.around[index]
@@ -101,7 +114,7 @@ def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: int) -> 
             sizes.driven[1, q % stride] += sign * (ways >> 1)
 
 
-@compiled
+@compiled_inner
 def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
     """Find the lines around a move that get another side by it."""
     draft.size[2] = 0
@@ -119,7 +132,7 @@ def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
                 draft.size[2] += 1
 
 
-@compiled
+@compiled_inner
 def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
     """Give the lines that a move touches the sides that they are to have now."""
     for place in range(draft.size[2]):
@@ -127,7 +140,7 @@ def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
         resize(ground, sizes, axis, line, side_now(sizes, axis, line))
 
 
-@compiled
+@compiled_inner
 def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
     """Whether there is such a square around a move."""
     for index in range(draft.size[1]):
@@ -136,7 +149,7 @@ def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
     return False
 
 
-@compiled
+@compiled_inner
 def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     """Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible."""
     sync(ground, board, sizes)
@@ -150,7 +163,7 @@ def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     return exact - floor_cost(sizes)
 
 
-@compiled
+@compiled_inner
 def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> float:
     """What a move adds to the value, less the price of the faults that it adds; very little if no stall is left."""
     change, tally, weights = draft.change, draft.tally, ground.weights
@@ -162,7 +175,7 @@ def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> f
     return float(gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS])
 
 
-@compiled
+@compiled_inner
 def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     """Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most."""
     cells, hops, most = board.cells, board.hops, 0
@@ -175,7 +188,7 @@ def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     return most
 
 
-@compiled
+@compiled_inner
 def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
     """More than the lines around a move are likely to gain by other sides, to leave most of them unweighed."""
     hope = 0.0
@@ -248,26 +261,26 @@ def anneal_labels(
             heat, faulty_share, refresh = _MENDING_HEAT, _MENDING_FAULTY_SHARE, _MENDING_REFRESH
         if trial == trials or (trial % refresh == refresh - 1 and changed > 0):
             changed = 0
-            copy[:] = cells
+            copy_row(copy, cells)
             if rules.is_asked:
                 trim(ground, board)
             measured = _tally(ground, board, draft, sizes)
             faults = board.tally[FAULTS]
             if measured - fault_price * faults > best - fault_price * best_faults:
                 best, best_faults = measured, faults
-                best_cells[:] = cells
-                best_kept[:] = sizes.kept_mm
-            cells[:] = copy
+                copy_row(best_cells, cells)
+                copy_sides(best_kept, sizes.kept_mm)
+            copy_row(cells, copy)
             if trial >= trials:
                 # what is broken still is mended on the best, from its trimmed lanes
                 fault_price = _FAULT_PRICE_AT_LAST
-                cells[:] = best_cells
-                sizes.kept_mm[:] = best_kept
+                copy_row(cells, best_cells)
+                copy_sides(sizes.kept_mm, best_kept)
             # moves leave labels that are sound but not what pruning says: loops of dead ends
             label_lanes(ground, board, draft)
             _tally(ground, board, draft, sizes)
             find_faults(ground, board, draft)
-            hops[:] = board.hops
+            copy_row(hops, board.hops)
             # beyond the last trial only to mend what is broken still
             if trial >= trials and best_faults == 0:
                 break
@@ -282,12 +295,12 @@ def anneal_labels(
             continue
         threshold = heat * np.log(max(uniform(random), 1e-300))
         changed += _try_move(ground, board, draft, sizes, hops, threshold, price, stretch_price)
-    cells[:] = best_cells
-    sizes.kept_mm[:] = best_kept
+    copy_row(cells, best_cells)
+    copy_sides(sizes.kept_mm, best_kept)
     return _tally(ground, board, draft, sizes)
 
 
-@compiled
+@compiled_inner
 def _try_move(
     ground: Ground,
     board: Board,
@@ -304,15 +317,15 @@ def _try_move(
     gather(draft, stride)
     change[:] = 0
     draft.size[2] = 0
-    _count(ground, board, draft, -1)
+    _count(ground, board, draft, _TAKEN_OFF)
     if _touches_long(board, draft, ground.rules.stretch_squares):
         change[_EXCESS] -= _excess_around(ground, board, draft)
     if is_sized:
-        _drive(board, draft, sizes, stride, -1)
+        _drive(board, draft, sizes, stride, _TAKEN_OFF)
     apply(ground, board, draft)
-    _count(ground, board, draft, 1)
+    _count(ground, board, draft, _PUT_ON)
     if is_sized:
-        _drive(board, draft, sizes, stride, 1)
+        _drive(board, draft, sizes, stride, _PUT_ON)
     # most moves end here: the whole is measured only where what is around promises enough
     hope = _hope(ground, draft, sizes) if is_sized else 0.0
     hope -= ground.weights[1] * _shortcut(board, draft, stride)
@@ -324,28 +337,30 @@ def _try_move(
             _find_lines(ground, draft, sizes)
             _resize_lines(ground, draft, sizes)
         if measure_above(ground, board, np.inf) > NO_VALUE:
-            change[:3] = board.tally[:3] - tally[:3]
+            for figure in range(3):
+                change[figure] = board.tally[figure] - tally[figure]
             gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * (sizes.area_m2[0] - floor)
             if gain >= threshold:
-                hops[:] = board.hops
-                tally[:3] += change[:3]
+                copy_row(hops, board.hops)
+                for figure in range(3):
+                    tally[figure] += change[figure]
                 return True
-        board.hops[:] = hops
+        copy_row(board.hops, hops)
     if is_sized:
-        _drive(board, draft, sizes, stride, -1)
+        _drive(board, draft, sizes, stride, _TAKEN_OFF)
     revert(board, draft)
     if is_sized:
-        _drive(board, draft, sizes, stride, 1)
+        _drive(board, draft, sizes, stride, _PUT_ON)
         _resize_lines(ground, draft, sizes)
     return False
 
 
-@compiled
+@compiled_inner
 def _try_side(
     ground: Ground, board: Board, draft: Draft, sizes: Sizes, random: NDArray[np.uint64], heat: float
 ) -> None:
     """Give a line along which no car drives another side, if that pays."""
-    axis = below(random, 2)
+    axis = below(random, np.int64(2))
     line = below(random, len(board.cells) // ground.stride if axis == 0 else ground.stride)
     side = sizes.free_mm[below(random, len(sizes.free_mm))]
     if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0 or side == sizes.kept_mm[axis, line]:
@@ -357,4 +372,5 @@ def _try_side(
     if _gain(ground, draft, 0.0, 0.0) - sizes.price[0] * area >= heat * np.log(max(uniform(random), 1e-300)):
         sizes.kept_mm[axis, line] = side
         resize(ground, sizes, axis, line, fitted)
-        tally[:3] += change[:3]
+        for figure in range(3):
+            tally[figure] += change[figure]

@@ -16,7 +16,9 @@ from garage2usd.structure.lane_graph import Square
 __all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
 
 _STRETCH_SITE_SQUARES = 400
+"""Free squares from which on R4 is asked for: there one long ring would satisfy R2."""
 _STRETCH_SQUARES = 12
+"""65 to 97 m; Palm Shores allows rows of 61 m without a cross drive."""
 
 
 class CirculationRules(NamedTuple):

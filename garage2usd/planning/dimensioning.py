@@ -13,6 +13,7 @@ __all__ = ["aisle_side_mm", "area_per_stall_m2", "dimension", "dimensioned", "fr
 _MM_PER_M = 1000
 _MM2_PER_M2 = _MM_PER_M**2
 _PASSES = 8
+"""At most; a pass that improves nothing ends them."""
 _STALLS_BETWEEN_COLUMNS = (2, 3)
 _ROUNDING_M2 = 1e-9
 

@@ -6,13 +6,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled_inner
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.ground import Ground
 
 __all__ = ["Draft", "add_square", "apply", "gather", "new_draft", "revert"]
 
 _MOVED = 400
+"""Room for the squares of one move; what needs more is not a move."""
 
 
 class Draft(NamedTuple):
@@ -82,8 +83,8 @@ def new_draft(ground: Ground) -> Draft:
     )
 
 
-@compiled
-def add_square(draft: Draft, q: int, label: int) -> bool:
+@compiled_inner
+def add_square(draft: Draft, q: int, label: Whole) -> bool:
     """Have a square in the move; False if there is no room for it."""
     if draft.size[0] >= _MOVED:
         return False
@@ -93,7 +94,7 @@ def add_square(draft: Draft, q: int, label: int) -> bool:
     return True
 
 
-@compiled
+@compiled_inner
 def gather(draft: Draft, stride: int) -> None:
     """Find the squares that a move may touch."""
     draft.marks[0] += 1
@@ -108,7 +109,7 @@ def gather(draft: Draft, stride: int) -> None:
     draft.size[1] = size
 
 
-@compiled
+@compiled_inner
 def apply(ground: Ground, board: Board, draft: Draft) -> None:
     """Make the move; new lanes get their hops from what is around."""
     cells, hops, label, stride = board.cells, board.hops, draft.label, ground.stride
@@ -133,7 +134,7 @@ def apply(ground: Ground, board: Board, draft: Draft) -> None:
                         hops[q] = 1
 
 
-@compiled
+@compiled_inner
 def revert(board: Board, draft: Draft) -> None:
     """Take the move back."""
     for index in range(draft.size[0] - 1, -1, -1):

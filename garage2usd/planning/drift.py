@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAR, NO_VALUE, Board, flip, measure, stalls_at
 from garage2usd.planning.ground import Ground
@@ -12,11 +12,14 @@ from garage2usd.planning.ground import Ground
 __all__ = ["drift"]
 
 _RING = 8
+"""Neighbours of a square by edge and corner."""
 _ENTRANCE = 2
+"""`Cell.ENTRANCE`, as numba reads it."""
 _WHOLE_SHARE = 30
+"""Squares measured for flips that may part the lanes, for each trial: it bounds their part of the time."""
 
 
-@compiled
+@compiled_inner
 def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
     """Whether the lanes beside a square are joined among its eight neighbours: without it they still are."""
     ring = (
@@ -41,7 +44,7 @@ def _joined_around(cells: NDArray[np.int8], stride: int, square: int) -> bool:
     return pieces == 1
 
 
-@compiled
+@compiled_inner
 def _portals_hold(ground: Ground, cells: NDArray[np.int8], square: int) -> bool:
     """Whether the portals beside a square touch a lane."""
     stride = ground.stride
@@ -56,7 +59,7 @@ def _portals_hold(ground: Ground, cells: NDArray[np.int8], square: int) -> bool:
     return True
 
 
-@compiled
+@compiled_inner
 def _reach(board: Board, stride: int, q: int, p: int) -> bool:
     """Set `hops` of two squares beside each other, or of one, from the lanes around; whether new lanes join others."""
     cells, hops = board.cells, board.hops
@@ -101,7 +104,7 @@ def drift(
             stalls, time, unused, changed = board.tally[0], board.tally[1], board.tally[2], 0
             if measured > best:
                 best = measured
-                best_cells[:] = cells
+                copy_row(best_cells, cells)
         draw = next_random(random)
         q = ground.squares[int((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
         step = (0, 0, 1, stride)[int(draw & np.uint64(3))]
@@ -160,7 +163,7 @@ def drift(
                         stalls, time, unused, changed = board.tally[0], board.tally[1], board.tally[2], 0
                         if exact > best:
                             best = exact
-                            best_cells[:] = cells
+                            copy_row(best_cells, cells)
                     else:
                         whole = True
         if not accepted:
@@ -170,6 +173,6 @@ def drift(
             else:
                 _reach(board, stride, q, p)
     if measure(ground, board) > best:
-        best_cells[:] = cells
-    cells[:] = best_cells
+        copy_row(best_cells, cells)
+    copy_row(cells, best_cells)
     return measure(ground, board)

@@ -5,30 +5,32 @@ frontier and what can follow it; an enumeration by these suffixes then meets onl
 """
 # ruff: noqa: C901, PLR0912, PLR0915 - loops that numba flattens
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled
-from garage2usd.planning.board import FAR, NO_VALUE, Board, measure
-from garage2usd.planning.broken_profile import FORBIDDEN, Sheet, step
+from garage2usd.planning.board import FAR, Board, measure
+from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, first_frontier, step
 from garage2usd.planning.ground import PADDING, Ground
 
-__all__ = ["advance", "enumerate_layouts", "suffix_values"]
+__all__ = ["Enumeration", "advance", "enumerate_layouts", "new_enumeration", "suffix_values"]
 
 
 @compiled
 def advance(
-    sheet: Sheet, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
+    table: SquareTable, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """All frontiers after a square, each with its best value so far; keys ascend."""
-    room = np.zeros((3, sheet.cols + 2), np.int64)
-    choices = sheet.depth + 2 if sheet.depth >= 0 else 2
+    room = np.zeros((3, table.cols + 2), np.int64)
+    choices = table.depth + 2 if table.depth >= 0 else 2
     next_keys = np.empty(choices * len(keys), np.int64)
     next_values = np.empty(choices * len(keys))
     count = 0
     for row in range(len(keys)):
         for choice in range(choices):
-            key, gain = step(sheet, index, keys[row], choice, room)
+            key, gain = step(table, index, keys[row], choice, room)
             if gain == FORBIDDEN:
                 continue
             next_keys[count], next_values[count] = key, values[row] + gain
@@ -47,15 +49,19 @@ def advance(
 
 @compiled
 def suffix_values(
-    sheet: Sheet, index: int, keys: NDArray[np.int64], next_keys: NDArray[np.int64], next_suffix: NDArray[np.float64]
+    table: SquareTable,
+    index: int,
+    keys: NDArray[np.int64],
+    next_keys: NDArray[np.int64],
+    next_suffix: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """The most that square `index` and all after it add to each frontier before it."""
-    room = np.zeros((3, sheet.cols + 2), np.int64)
+    room = np.zeros((3, table.cols + 2), np.int64)
     suffix = np.full(len(keys), FORBIDDEN)
-    choices = sheet.depth + 2 if sheet.depth >= 0 else 2
+    choices = table.depth + 2 if table.depth >= 0 else 2
     for row in range(len(keys)):
         for choice in range(choices):
-            key, gain = step(sheet, index, keys[row], choice, room)
+            key, gain = step(table, index, keys[row], choice, room)
             if gain == FORBIDDEN:
                 continue
             place = np.searchsorted(next_keys, key)
@@ -113,9 +119,65 @@ def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArra
     return more
 
 
+class Enumeration(NamedTuple):
+    """An enumeration on its way, which `enumerate_layouts` carries on.
+
+    Attributes
+    ----------
+    ways, next_keys, next_values, bounds
+        Children of the layouts begun so far, square by square, those with the greatest bounds first: their choices
+        and frontiers, int64; their values and what they may come to, float64; shape (squares, choices).
+    children, tried
+        How many children each square has, and how many were tried, -1 for a square that is not begun; int64, shape
+        (squares,).
+    keys, values
+        Frontier and value before each square; int64 and float64, shape (squares + 1,).
+    best_cells
+        The cells of the best layout, as in `Board.cells`.
+    best
+        float64, shape (1,): its value, or the value to beat.
+    counts
+        int64, shape (2,): how many squares of the layout begun are decided, -1 at the end; layouts scored.
+    """
+
+    ways: NDArray[np.int64]
+    next_keys: NDArray[np.int64]
+    next_values: NDArray[np.float64]
+    bounds: NDArray[np.float64]
+    children: NDArray[np.int64]
+    tried: NDArray[np.int64]
+    keys: NDArray[np.int64]
+    values: NDArray[np.float64]
+    best_cells: NDArray[np.int8]
+    best: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+
+def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumeration:
+    """An enumeration of the layouts that beat a value."""
+    total, choices = len(table.kinds), table.depth + 2 if table.depth >= 0 else 2
+    keys = np.zeros(total + 1, np.int64)
+    keys[0] = first_frontier(table)
+    return Enumeration(
+        ways=np.zeros((total, choices), np.int64),
+        next_keys=np.zeros((total, choices), np.int64),
+        next_values=np.zeros((total, choices)),
+        bounds=np.zeros((total, choices)),
+        children=np.zeros(total, np.int64),
+        tried=np.full(total, -1),
+        keys=keys,
+        values=np.zeros(total + 1),
+        best_cells=ground.cells.copy(),
+        best=np.array([floor]),
+        counts=np.zeros(2, np.int64),
+    )
+
+
 @compiled
 def enumerate_layouts(
-    sheet: Sheet,
+    state: Enumeration,
+    steps: int,
+    table: SquareTable,
     ground: Ground,
     board: Board,
     offsets: NDArray[np.int64],
@@ -123,65 +185,51 @@ def enumerate_layouts(
     suffixes: NDArray[np.float64],
     relaxed: NDArray[np.int64],
     price: float,
-    floor: float,
-    limit: int,
-) -> tuple[float, int]:
-    """Score every layout whose relaxed value is above the best met so far; leaves the best in `board.cells`.
+) -> bool:
+    """Score the layouts whose relaxed value is above the best met so far; whether all of them are scored.
 
     Parameters
     ----------
-    sheet, ground, board
-        The site; `ground` and `sheet` hold the same squares.
+    state
+        What is enumerated; `board` holds its layout from call to call, at first that of `ground`.
+    steps
+        After how many steps, a square decided or taken back, to return.
+    table, ground, board
+        The site; `ground` and `table` hold the same squares.
     offsets
         int64, shape (squares + 2,): where the frontiers before each square start in `keys`.
     keys, suffixes
         The frontiers of all squares, and what can follow each.
     relaxed, price
         Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
-    floor
-        Value to beat.
-    limit
-        Most layouts to score.
-
-    Returns
-    -------
-    tuple[float, int]
-        The best value, or `floor` if nothing beats it, and how many layouts were scored.
     """
-    total = len(sheet.kinds)
-    choices = sheet.depth + 2 if sheet.depth >= 0 else 2
-    room = np.zeros((3, sheet.cols + 2), np.int64)
-    # children of the layouts begun so far, square by square, those with the greatest bounds first
-    ways = np.zeros((total, choices), np.int64)
-    next_keys, next_values = np.zeros((total, choices), np.int64), np.zeros((total, choices))
-    bounds = np.zeros((total, choices))
-    children, tried = np.zeros(total, np.int64), np.full(total, -1)
-    stack_keys, stack_values = np.zeros(total + 1, np.int64), np.zeros(total + 1)
-    stack_keys[0] = keys[0]
+    total, choices = state.ways.shape
+    room = np.zeros((3, table.cols + 2), np.int64)
+    ways, bounds, children, tried = state.ways, state.bounds, state.children, state.tried
+    next_keys, next_values = state.next_keys, state.next_values
     stride = ground.stride
     border = PADDING * (stride + 1)
-    best, best_cells, scored, depth = floor, ground.cells.copy(), 0, 0
-    board.cells[:] = ground.cells
-    while depth >= 0:
+    best, depth = state.best[0], state.counts[0]
+    for _ in range(steps):
+        if depth < 0:
+            break
         if depth == total:
             value = measure(ground, board)
-            scored += 1
+            state.counts[1] += 1
             if value > best + 1e-9:
                 best = value
-                best_cells[:] = board.cells
-            if scored >= limit:
-                break
+                state.best_cells[:] = board.cells
             depth -= 1
             continue
         if tried[depth] < 0:
             children[depth] = tried[depth] = 0
             first, last = offsets[depth + 1], offsets[depth + 2]
             for choice in range(choices):
-                key, gain = step(sheet, depth, stack_keys[depth], choice, room)
+                key, gain = step(table, depth, state.keys[depth], choice, room)
                 if gain == FORBIDDEN:
                     continue
                 place = first + np.searchsorted(keys[first:last], key)
-                value = stack_values[depth] + gain
+                value = state.values[depth] + gain
                 bound = value + suffixes[place]
                 if bound <= best + 1e-9:
                     continue
@@ -194,7 +242,7 @@ def enumerate_layouts(
                 ways[depth, slot], bounds[depth, slot] = choice, bound
                 next_keys[depth, slot], next_values[depth, slot] = key, value
                 children[depth] += 1
-        square = border + (depth // sheet.cols) * stride + depth % sheet.cols
+        square = border + (depth // table.cols) * stride + depth % table.cols
         slot = tried[depth]
         if slot == children[depth] or bounds[depth, slot] <= best + 1e-9:
             board.cells[square] = ground.cells[square]
@@ -203,11 +251,11 @@ def enumerate_layouts(
             continue
         tried[depth] += 1
         board.cells[square] = 1 if ways[depth, slot] > 0 else ground.cells[square]
-        if (depth + 1) % sheet.cols == 0:
-            detour = price * _detour(ground, board, sheet.cols, depth + 1, relaxed)
+        if (depth + 1) % table.cols == 0:
+            detour = price * _detour(ground, board, table.cols, depth + 1, relaxed)
             if bounds[depth, slot] - detour <= best + 1e-9:
                 continue
-        stack_keys[depth + 1], stack_values[depth + 1] = next_keys[depth, slot], next_values[depth, slot]
+        state.keys[depth + 1], state.values[depth + 1] = next_keys[depth, slot], next_values[depth, slot]
         depth += 1
-    board.cells[:] = best_cells
-    return (best if best > floor else NO_VALUE), scored
+    state.best[0], state.counts[0] = best, depth
+    return bool(depth < 0)

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled_inner
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft
 from garage2usd.planning.ground import Ground
@@ -13,12 +13,12 @@ from garage2usd.planning.survey import STRETCH, survey
 __all__ = ["fault", "find_faults", "is_long", "label_lanes", "through", "trim"]
 
 
-@compiled
+@compiled_inner
 def label_lanes(ground: Ground, board: Board, draft: Draft) -> None:
     """Label the lanes on the board: short dead ends by their depth, all else as driven through."""
     cells, label, state, queue = board.cells, draft.label, board.state, draft.queue
     deepest = ground.rules.dead_end_squares
-    survey(ground.squares, ground.stride, cells, state, board.queue, deepest, 0)
+    survey(ground.squares, ground.stride, cells, state, board.queue, deepest, np.int64(0))
     label[:] = 0
     for q in ground.squares:
         if cells[q] == 1:
@@ -45,7 +45,7 @@ def label_lanes(ground: Ground, board: Board, draft: Draft) -> None:
                 tail += 1
 
 
-@compiled
+@compiled_inner
 def through(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int) -> int:
     """How many neighbours of a square are portals or lanes that cars drive on through."""
     count = 0
@@ -54,7 +54,7 @@ def through(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: in
     return count
 
 
-@compiled
+@compiled_inner
 def fault(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int) -> int:
     """How far a lane is from what its label says."""
     passing = through(cells, label, stride, q)
@@ -69,7 +69,7 @@ def fault(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int)
     return 1
 
 
-@compiled
+@compiled_inner
 def find_faults(ground: Ground, board: Board, draft: Draft) -> None:
     """List the lanes around which rules are broken, by the last survey and the labels."""
     cells, state, stride, rules = board.cells, board.state, ground.stride, ground.rules
@@ -86,13 +86,13 @@ def find_faults(ground: Ground, board: Board, draft: Draft) -> None:
     draft.size[3] = count
 
 
-@compiled
+@compiled_inner
 def is_long(board: Board, stretch_squares: int, q: int) -> bool:
     """Whether a square lay on a stretch that is too long at the last survey."""
     return bool(stretch_squares > 0 and board.state[q] > STRETCH + stretch_squares)
 
 
-@compiled
+@compiled_inner
 def trim(ground: Ground, board: Board) -> None:
     """Take off the tips of all dead ends that are too deep, until none is."""
     cells, rules = board.cells, ground.rules

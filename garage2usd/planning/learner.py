@@ -18,14 +18,19 @@ if TYPE_CHECKING:
 __all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]
 
 _AISLE_SQUARES = 120
+"""Free squares above which the agent decides over aisles: tabular Sarsa over squares does not serve large sites."""
 _BATCH_SQUARES = 20_000
+"""Episodes times free squares between two calls of `progress`, so that a large site is interrupted as soon."""
 _TABLE_BITS = 14
+"""Of the table of values at first; it grows with the states that are met."""
 _AISLE_EPISODE_SQUARES = 5_000_000
+"""Episodes times free squares over aisles: about a second."""
 _ELITE = 25
 """How many of its best episodes one start over squares keeps to go on from: with 200 the agent alone came to 96.5 % of
 the proven optima of ten held-out gates under the rules, with 50 to 97.8 %, with 25 to 98.5 %, in the same time, at
 alpha 0.5 and gamma 0.7; with 25, alpha 0.1 and gamma 0.9 it comes to 99.5 %."""
 _NURSERY_SIDE, _NURSERY_OBSTACLES, _NURSERY_EPISODES = 26, 6, 3000
+"""A small site on which episodes are cheap; what is learnt there holds anywhere, as states of aisles are local."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,8 +185,6 @@ def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
     )
     # the usual stalls of this site, whatever its bays are
     return small._replace(
-        capacity=np.broadcast_to(np.median(ground.capacity[ground.squares], axis=0), small.capacity.shape).astype(
-            np.int32
-        ),
+        capacity=np.tile(np.median(ground.capacity[ground.squares], axis=0).astype(np.int32), (len(small.cells), 1)),
         weights=ground.weights,
     )

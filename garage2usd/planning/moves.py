@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled_inner
 from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft, add_square
@@ -13,23 +13,27 @@ from garage2usd.planning.labels import through
 
 __all__ = ["propose"]
 
-_CONNECTOR, _BENT_SHARE, _PATH, _RUN = 6, 0.3, 20, 40
+_OFF, _THROUGH, _TIP = np.int64(0), np.int64(1), np.int64(2)
+"""Labels of squares: free, a lane that is driven through, the first lane of a dead end."""
+# longest leg of a connector, share of bent ones, longest path taken out and longest run shifted: moves stay small, so
+# that each is judged in a short time
+_CONNECTOR, _BENT_SHARE, _PATH, _RUN = np.int64(6), 0.3, 20, 40
 _FLIP, _RELABEL, _EXCHANGE, _PAIR, _CONNECT, _TAKE, _LINE = 0.38, 0.50, 0.68, 0.78, 0.88, 0.94, 0.97
 """Shares of the moves, each added to those before it; the rest are runs that shift."""
 _THROUGH_SHARE, _ENDS_STAY_SHARE = 0.3, 0.3
 
 
-@compiled
+@compiled_inner
 def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], faulty_share: float) -> bool:
     """Draw a move into the draft, some of them where rules are broken; False where what is drawn is not a move."""
     cells, stride = board.cells, ground.stride
     draft.size[0] = 0
     q = ground.squares[below(random, len(ground.squares))]
-    step = (-stride, stride, -1, 1)[below(random, 4)]
+    step = (-stride, stride, -1, 1)[below(random, np.int64(4))]
     if draft.size[3] > 0 and uniform(random) < faulty_share:
         q = draft.faulty[below(random, draft.size[3])]
-        for _ in range(below(random, 3)):
-            q += (-stride, stride, -1, 1)[below(random, 4)]
+        for _ in range(below(random, np.int64(3))):
+            q += (-stride, stride, -1, 1)[below(random, np.int64(4))]
             if cells[q] != 0 and cells[q] != 1:
                 return False
     draw = uniform(random)
@@ -50,7 +54,7 @@ def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint6
     return _shift_run(ground, board, draft, q, step)
 
 
-@compiled
+@compiled_inner
 def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> int:
     """A label that suits a new lane on a square, mostly."""
     label, deepest = draft.label, ground.rules.dead_end_squares
@@ -66,18 +70,18 @@ def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return least + 1 if least <= deepest else 1
 
 
-@compiled
+@compiled_inner
 def _flip(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane goes, or a free square beside a lane becomes one."""
     if board.cells[q] == 1:
-        return add_square(draft, q, 0)
+        return add_square(draft, q, _OFF)
     touched = False
     for step in (-ground.stride, ground.stride, -1, 1):
         touched |= board.cells[q + step] >= 1
     return touched and add_square(draft, q, _new_label(ground, board, draft, random, q))
 
 
-@compiled
+@compiled_inner
 def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane gets another label."""
     if board.cells[q] != 1:
@@ -86,33 +90,33 @@ def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     return fresh != draft.label[q] and add_square(draft, q, fresh)
 
 
-@compiled
+@compiled_inner
 def _exchange(board: Board, draft: Draft, q: int, p: int) -> bool:
     """A lane moves to the free square beside it."""
     if board.cells[q] != 1 or board.cells[p] != 0:
         return False
-    return add_square(draft, q, 0) and add_square(draft, p, draft.label[q])
+    return add_square(draft, q, _OFF) and add_square(draft, p, np.int64(draft.label[q]))
 
 
-@compiled
+@compiled_inner
 def _flip_pair(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int, p: int) -> bool:
     """Two lanes side by side go, or two free squares become lanes that lead on or end."""
     cells, deepest = board.cells, ground.rules.dead_end_squares
     if cells[q] == 1 and cells[p] == 1:
-        return add_square(draft, q, 0) and add_square(draft, p, 0)
+        return add_square(draft, q, _OFF) and add_square(draft, p, _OFF)
     if cells[q] != 0 or cells[p] != 0 or through(cells, draft.label, ground.stride, q) == 0:
         return False
     ends = deepest >= 2 and uniform(random) < 0.5
-    return add_square(draft, q, 2 if ends else 1) and add_square(draft, p, 3 if ends else 1)
+    return add_square(draft, q, np.int64(2 if ends else 1)) and add_square(draft, p, np.int64(3 if ends else 1))
 
 
-@compiled
+@compiled_inner
 def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """The path between two junctions goes, but for dead ends beside these."""
     cells, label, stride, deepest = board.cells, draft.label, ground.stride, ground.rules.dead_end_squares
     if label[q] != 1 or through(cells, label, stride, q) != 2:
         return False
-    add_square(draft, q, 0)
+    add_square(draft, q, _OFF)
     lengths = np.zeros(2, np.int64)
     for side in range(2):
         previous, here, found = q, q, 0
@@ -123,7 +127,7 @@ def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
                     here = p
                 found += 1
         while label[here] == 1 and through(cells, label, stride, here) == 2 and here != q and lengths[side] < _PATH:
-            add_square(draft, here, 0)
+            add_square(draft, here, _OFF)
             onward = here
             for step in (-stride, stride, -1, 1):
                 p = here + step
@@ -147,7 +151,7 @@ def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return True
 
 
-@compiled
+@compiled_inner
 def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) -> bool:
     """A straight run between two junctions shifts to the side."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -167,19 +171,19 @@ def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) ->
         p = first + place * along
         if cells[p + step] != 0:
             return False
-        add_square(draft, p, 0)
-        add_square(draft, p + step, 1)
+        add_square(draft, p, _OFF)
+        add_square(draft, p + step, _THROUGH)
     return True
 
 
-@compiled
+@compiled_inner
 def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Lead a new lane from one on over free squares to the next lane, straight or with one bend."""
     cells, label, stride = board.cells, draft.label, ground.stride
     p, length = start + step, 0
     turn = 1 + below(random, _CONNECTOR) if uniform(random) < _BENT_SHARE else 0
     while cells[p] == 0 and length <= 2 * _CONNECTOR:
-        if not add_square(draft, p, 1):
+        if not add_square(draft, p, _THROUGH):
             return False
         length += 1
         if length == turn:
@@ -189,12 +193,12 @@ def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     if length == 0 or length > 2 * _CONNECTOR or cells[p] != 1:
         return False
     for end in (start, p):
-        if label[end] > 1 and not add_square(draft, end, 1):
+        if label[end] > 1 and not add_square(draft, end, _THROUGH):
             return False
     return True
 
 
-@compiled
+@compiled_inner
 def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Shift all lanes of a line along which cars drive to the side, with the ends of what they join."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -211,7 +215,7 @@ def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.u
     while p != last + along:
         if label[p] == 1 and (label[p - along] == 1 or label[p + along] == 1):
             fresh = p + step
-            if cells[fresh] == 0 and not add_square(draft, fresh, 1):
+            if cells[fresh] == 0 and not add_square(draft, fresh, _THROUGH):
                 return False
             if cells[fresh] < 0 or cells[fresh] > 1:
                 p += along
@@ -219,28 +223,28 @@ def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.u
             behind = p - step
             if label[behind] == 0 and cells[behind] <= 0:
                 if cells[fresh] == 1 and keeps_ends:
-                    if not add_square(draft, p, 2):
+                    if not add_square(draft, p, _TIP):
                         return False
-                elif not add_square(draft, p, 0):
+                elif not add_square(draft, p, _OFF):
                     return False
         p += along
     return bool(draft.size[0] > 0)
 
 
-@compiled
+@compiled_inner
 def _is_run(cells: NDArray[np.int8], label: NDArray[np.int8], stride: int, q: int, side: int) -> bool:
     """Whether a lane has no lane or portal beside it across the direction `side`."""
     across = stride if side == 1 else 1
     return bool(label[q] == 1 and cells[q - across] <= 0 and cells[q + across] <= 0)
 
 
-@compiled
+@compiled_inner
 def _drop(ground: Ground, draft: Draft, q: int) -> bool:
     """Have a dead end and all that hangs on it go with the move."""
     for index in range(draft.size[0]):
         if draft.moved[index] == q:
             return True
-    if not add_square(draft, q, 0):
+    if not add_square(draft, q, _OFF):
         return False
     for step in (-ground.stride, ground.stride, -1, 1):
         if draft.label[q + step] > draft.label[q] and not _drop_leaf(draft, q + step):
@@ -248,9 +252,9 @@ def _drop(ground: Ground, draft: Draft, q: int) -> bool:
     return True
 
 
-@compiled
+@compiled_inner
 def _drop_leaf(draft: Draft, q: int) -> bool:
     for index in range(draft.size[0]):
         if draft.moved[index] == q:
             return True
-    return add_square(draft, q, 0)
+    return add_square(draft, q, _OFF)

@@ -1,4 +1,4 @@
-"""The proven optimum of a small site: a tool to measure planners with."""
+"""The proven optimum of a small site, which says how good a plan of it is."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -13,14 +13,19 @@ from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.planning.circulation import CirculationRules, circulation
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
+from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, CellArray, Structure
 
 if TYPE_CHECKING:
-    from garage2usd.planning.broken_profile import Sheet
+    from garage2usd.planning.broken_profile import SquareTable
 
 __all__ = ["Optimum", "find_optimum", "free_hops"]
 
-_MAX_LAYOUTS = 20_000_000
+_MAX_FRONTIERS = 30_000_000
+"""Frontiers kept at most: the 25 million of 9 x 9 squares with dead ends of two take 1.1 GB and 40 s."""
+_STEPS, _MAX_BATCHES = 500_000, 600
+"""Steps of the enumeration between two calls of `progress`, where signals are handled, and such batches at most: five
+minutes in all."""
 _FAR = 1 << 20
 _FREE_OF_RULES = PlanConfig(circulation=CirculationMode.ALLOW, dead_ends=DeadEnds.ALLOW)
 
@@ -48,16 +53,21 @@ class Optimum:
 
 
 def find_optimum(
-    site: Structure, *, bay: BayConfig, plan: PlanConfig = _FREE_OF_RULES, known: Structure | None = None
+    site: Structure,
+    *,
+    bay: BayConfig,
+    plan: PlanConfig = _FREE_OF_RULES,
+    known: Structure | None = None,
+    progress: Progress = silent,
 ) -> Optimum:
     """Find the best of all feasible structures on a small site that keep the rules of circulation.
 
     Parameters
     ----------
     site
-        Static objects; the smaller side has at most 12 squares, under rules 10, less where dead ends may be deeper
-        than two squares. Without rules, or without dead ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two
-        squares take a minute.
+        Static objects; lanes on it are free squares. R and C stay as they are. The smaller side has at most 12
+        squares, under rules 10, less where dead ends may be deeper than two squares. Without rules, or without dead
+        ends, 9 x 12 squares take seconds; 9 x 9 with dead ends of two squares take a minute.
     bay
         Size of the stalls.
     plan
@@ -65,13 +75,16 @@ def find_optimum(
         asked for. The turning stall that ``dead_ends = "standard"`` keeps free never counts.
     known
         A structure to beat, which saves time; it is left aside if it is not feasible or breaks a rule.
+    progress
+        Told how many squares the dynamic programme has passed, on and back, and how far the enumeration may still go.
 
     Raises
     ------
     ConfigError
-        If the site is too large, or R4 is asked for.
+        If the site is too large: for a frontier in 64 bits, for 30 million frontiers or for 300 million steps of the
+        enumeration, which is five minutes; or if R4 is asked for.
     GenerationError
-        If the site has no such structure with a stall, or more candidates than can be scored.
+        If the site has no such structure with a stall.
 
     Notes
     -----
@@ -90,12 +103,15 @@ def find_optimum(
     if plan.dead_ends is DeadEnds.STANDARD:
         plan = plan.model_copy(update={"dead_ends": DeadEnds.ALLOW})
     ground = ground_of(upright, bay=bay, plan=plan)
-    sheet = _sheet(ground, upright.shape)
     best, value = known, -np.inf
     if known is not None and is_feasible(known) and not circulation(known).faults(ground.rules):
         score = evaluate(known, bay=bay, plan=plan)
         value = score.value if score.stalls else -np.inf
-    found = _beat(ground, sheet, value)
+    try:
+        found = _beat(ground, _table_of(ground, upright.shape[1]), value, progress)
+    except _TooLargeError as error:
+        rows, cols = site.shape
+        raise ConfigError("site", f"{rows} x {cols} squares", f"{error}, for a proven optimum") from None
     if found.lanes is not None:
         best = site.with_cells(_as_on(site, cells_of(ground, found.lanes)))
     elif best is None or value == -np.inf:
@@ -103,22 +119,26 @@ def find_optimum(
     return Optimum(best, evaluate(best, bay=bay, plan=plan), found.scored, found.frontiers)
 
 
-def _sheet(ground: Ground, shape: tuple[int, int]) -> "Sheet":
-    """The site as the search reads it; nothing is worth anything yet."""
-    from garage2usd.planning.broken_profile import Sheet, column_bits  # noqa: PLC0415 - only planning pays for it
+class _TooLargeError(Exception):
+    """Says what is allowed."""
 
-    rules, cols = ground.rules, shape[1]
-    if rules.stretch_squares:
-        raise ConfigError("plan.longest_stretch_cells", rules.stretch_squares, "0: the optimum knows R1 to R3 only")
+
+def _table_of(ground: Ground, cols: int) -> "SquareTable":
+    """The site as the search reads it; nothing is worth anything yet."""
+    from garage2usd.planning.broken_profile import SquareTable, column_bits  # noqa: PLC0415 - only planning pays for it
+
+    rules = ground.rules
     depth = min(rules.dead_end_squares, len(ground.squares)) if rules.is_asked else -1
     bits = column_bits(cols, depth)
     if bits == 0:
         most = max(side for side in range(cols) if column_bits(side, depth) or side == 0)
-        raise ConfigError("site", f"{shape[0]} x {shape[1]} squares", f"a side of at most {most}{_under(rules)}")
+        raise _TooLargeError(f"a side of at most {most}{_under(rules)}")
+    if rules.stretch_squares:
+        raise ConfigError("plan.longest_stretch_cells", rules.stretch_squares, "0: the optimum knows R1 to R3 only")
     squares = _squares_of(ground)
     beside = (squares + step for step in (-ground.stride, ground.stride, -1, 1))
     portals = np.sum([ground.cells[others] >= Cell.ENTRANCE for others in beside], axis=0)
-    return Sheet(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
+    return SquareTable(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
 
 
 def _under(rules: CirculationRules) -> str:
@@ -132,48 +152,56 @@ class _Beaten:
     frontiers: int
 
 
-def _beat(ground: Ground, sheet: "Sheet", value: float) -> _Beaten:
+def _beat(ground: Ground, table: "SquareTable", value: float, progress: Progress) -> _Beaten:
     """Look for a layout of more than `value`."""
     from garage2usd.planning.board import NO_VALUE, new_board  # noqa: PLC0415
     from garage2usd.planning.broken_profile import FORBIDDEN, complete  # noqa: PLC0415
-    from garage2usd.planning.frontier import enumerate_layouts, suffix_values  # noqa: PLC0415
+    from garage2usd.planning.frontier import enumerate_layouts, new_enumeration, suffix_values  # noqa: PLC0415
 
     squares, floor = _squares_of(ground), max(value, NO_VALUE)
-    stalls = sheet._replace(worth=ground.capacity[squares].astype(np.float64))
-    keys, counts = _frontiers(stalls)[-1]
+    stalls = table._replace(worth=ground.capacity[squares].astype(np.float64))
+    keys, counts = _frontiers(stalls, progress)[-1]
     most = max((count for key, count in zip(keys, counts, strict=True) if complete(stalls, key)), default=0.0)
     if most == 0:
         return _Beaten(None, 0, 0)
     hops, price = free_hops(ground), -float(ground.weights[1]) / most
-    sheet = sheet._replace(worth=_worth(ground, hops, price))
-    layers = _frontiers(sheet)
-    suffixes = [np.array([0.0 if complete(sheet, key) else FORBIDDEN for key in layers[-1][0]])]
+    table = table._replace(worth=_worth(ground, hops, price))
+    layers = _frontiers(table, progress)
+    suffixes = [np.array([0.0 if complete(table, key) else FORBIDDEN for key in layers[-1][0]])]
     for index in reversed(range(len(squares))):
-        suffixes.append(suffix_values(sheet, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
+        suffixes.append(suffix_values(table, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
+        progress("suffixes", len(squares) - index, len(squares))
     suffixes.reverse()
     offsets = np.concatenate(([0], np.cumsum([len(keys) for keys, _ in layers])))
     frontiers = int(offsets[-1])
     if suffixes[0][0] <= floor:
         return _Beaten(None, 0, frontiers)
-    board = new_board(ground)
-    keys = np.concatenate([keys for keys, _ in layers])
-    found, scored = enumerate_layouts(
-        sheet, ground, board, offsets, keys, np.concatenate(suffixes), hops, price, floor, _MAX_LAYOUTS
-    )
-    if scored >= _MAX_LAYOUTS:
-        raise GenerationError("optimum", "more candidates than can be scored", seed=0, attempts=scored)
-    lanes = board.cells[ground.squares] == Cell.LANE if found > NO_VALUE else None
-    return _Beaten(lanes, scored, frontiers)
+    board, state = new_board(ground), new_enumeration(table, ground, floor)
+    board.cells[:] = ground.cells
+    keys, follow = np.concatenate([keys for keys, _ in layers]), np.concatenate(suffixes)
+    batch = 0
+    while not enumerate_layouts(state, _STEPS, table, ground, board, offsets, keys, follow, hops, price):
+        batch += 1
+        progress("layouts", batch, _MAX_BATCHES)
+        if batch == _MAX_BATCHES:
+            raise _TooLargeError(f"squares of which {_MAX_BATCHES * _STEPS} steps enumerate the layouts that may win")
+    lanes = state.best_cells[ground.squares] == Cell.LANE if state.best[0] > floor else None
+    return _Beaten(lanes, int(state.counts[1]), frontiers)
 
 
-def _frontiers(sheet: "Sheet") -> _Frontiers:
+def _frontiers(table: "SquareTable", progress: Progress) -> _Frontiers:
     """The frontiers before each square and after the last, each with the most that leads to it."""
     from garage2usd.planning.broken_profile import first_frontier  # noqa: PLC0415
     from garage2usd.planning.frontier import advance  # noqa: PLC0415
 
-    layers = [(np.array([first_frontier(sheet)], dtype=np.int64), np.zeros(1))]
-    for index in range(len(sheet.kinds)):
-        layers.append(advance(sheet, index, *layers[-1]))
+    layers = [(np.array([first_frontier(table)], dtype=np.int64), np.zeros(1))]
+    kept = 1
+    for index in range(len(table.kinds)):
+        layers.append(advance(table, index, *layers[-1]))
+        kept += len(layers[-1][0])
+        if kept > _MAX_FRONTIERS:
+            raise _TooLargeError(f"squares of at most {_MAX_FRONTIERS} frontiers, fewer squares that is")
+        progress("frontiers", index + 1, len(table.kinds))
     return layers
 
 

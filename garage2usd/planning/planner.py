@@ -9,7 +9,7 @@ from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import dimensioned
-from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
+from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.plan import ArchivedPlan, Plan
 from garage2usd.planning.polishing import polish
@@ -20,7 +20,6 @@ from garage2usd.planning.ranking import (
     lanes_on,
     least_floor_first,
     put_lanes,
-    ranked_plans,
 )
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.progress import Progress, silent
@@ -28,11 +27,9 @@ from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Structure
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from garage2usd.planning.board import Board
 
-__all__ = ["anneal_alone", "plan_lanes"]
+__all__ = ["plan_lanes"]
 
 
 def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, progress: Progress = silent) -> Plan:
@@ -114,39 +111,6 @@ def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed
         reason = f"no plan met keeps the rules of circulation: {'; '.join(gave_way.values())}"
         raise GenerationError("plan", reason, seed=seed, attempts=plan.episodes)
     return gave_way
-
-
-def anneal_alone(
-    site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, starts: "Iterable[Structure]" = ()
-) -> Plan:
-    """Plan without learning, as a control: repair, climb and anneal given lanes, or shortest paths between the portals.
-
-    Parameters
-    ----------
-    site, plan, bay, seed
-        As for `plan_lanes`; without ``climb`` the given lanes are repaired only.
-    starts
-        Structures on the site, feasible or not.
-
-    Raises
-    ------
-    GenerationError
-        If no lanes can join the portals.
-    """
-    from garage2usd.planning.board import new_board  # noqa: PLC0415
-
-    ground = ground_of(site, bay=bay, plan=plan)
-    board = new_board(ground)
-    random = generator(seed, Step.PLAN).integers(1, 2**63, size=1, dtype=np.uint64)
-    empty = np.zeros(len(ground.squares), dtype=np.bool_)
-    given = [lanes_of(structure, ground) for structure in starts] or [empty]
-    ranked = ranked_plans(entry for lanes in given for entry in _repaired(ground, board, lanes))
-    if not ranked:
-        raise GenerationError("plan", "no way joins all portals", seed=seed, attempts=len(given))
-    if plan.polishes:
-        ranked = polish(site, ground, board, ranked, plan, bay, random)
-    archive = tuple(_archived(site, ground, board, lanes) for _, lanes in ranked[: plan.archive_size])
-    return Plan(archive[0].structure, archive[0].score, archive)
 
 
 def _archived(

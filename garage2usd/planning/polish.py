@@ -3,16 +3,18 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
 from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure_above
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.sizes import Sizes, floor_cost, settle, side_now, sync
+from garage2usd.planning.sizes import Sizes, copy_sides, floor_cost, settle, side_now, sync
 
 __all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
 
 _RESIZED_EVERY = 40
+"""One move in so many is of a side, of which there are far fewer than squares."""
 _SETTLING_PASSES = 2
+"""Over all lines, and more than one, as the side that pays best depends on the others."""
 
 
 @compiled
@@ -39,7 +41,7 @@ def connect(ground: Ground, board: Board) -> bool:
     return joined
 
 
-@compiled
+@compiled_inner
 def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     """A square beside a portal: the first lane, else a free one from which all portals are reached, or -1."""
     cells, free = board.cells, -1
@@ -52,7 +54,7 @@ def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     return free
 
 
-@compiled
+@compiled_inner
 def _lay_way(ground: Ground, board: Board) -> bool:
     """Lay the shortest way over free squares from the marked network to any other lane or portal."""
     cells, reached, came, queue = board.cells, board.near, board.hops, board.queue
@@ -81,7 +83,7 @@ def _lay_way(ground: Ground, board: Board) -> bool:
     return False
 
 
-@compiled
+@compiled_inner
 def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
     """Whether every portal is reached from a square over squares that are free or lanes."""
     cells, queue = board.cells, board.queue
@@ -104,7 +106,7 @@ def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
     return all_seen
 
 
-@compiled
+@compiled_inner
 def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
     """Whether a square has a lane beside it: without, no flip of it keeps the lanes joined."""
     beside = False
@@ -113,7 +115,7 @@ def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
     return beside
 
 
-@compiled
+@compiled_inner
 def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
     """Value of the lanes on the board less the price of the floor, in the sides that they ask for, or NO_VALUE.
 
@@ -193,9 +195,9 @@ def anneal(
         draw = next_random(random)
         threshold = value + heat * np.log(max(uniform(random), 1e-300))
         if is_sized and (draw >> np.uint64(40)) % np.uint64(_RESIZED_EVERY) == 0:
-            axis = int((draw >> np.uint64(4)) & np.uint64(1))
+            axis = np.int64((draw >> np.uint64(4)) & np.uint64(1))
             count = len(cells) // ground.stride if axis == 0 else ground.stride
-            line = int((draw >> np.uint64(8)) % np.uint64(count))
+            line = np.int64((draw >> np.uint64(8)) % np.uint64(count))
             if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0:
                 continue
             kept = sizes.kept_mm[axis, line]
@@ -222,10 +224,10 @@ def anneal(
             faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and value > best + 1e-9):
                 best, best_faults = value, faults
-                best_cells[:] = cells
-                best_kept[:] = sizes.kept_mm
+                copy_row(best_cells, cells)
+                copy_sides(best_kept, sizes.kept_mm)
         else:
             flip(cells, q, p)
-    cells[:] = best_cells
-    sizes.kept_mm[:] = best_kept
+    copy_row(cells, best_cells)
+    copy_sides(sizes.kept_mm, best_kept)
     return worth(ground, board, sizes, -np.inf)

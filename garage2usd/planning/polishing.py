@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["polish"]
 
 _FULL_EPISODES = 5000
-"""With fewer episodes there is less polish in proportion."""
+"""The default, and the paper's; with fewer episodes there is less polish in proportion."""
 
 _STALL_M2 = 25.0
 """About the floor that a stall takes in a good plan: the price of floor in metres."""
@@ -40,19 +40,24 @@ _SMALL_SQUARES, _WHOLE_SQUARES, _LARGE_SQUARES = 120, 250, 1000
 """Free squares up to which a site is small, up to which annealing that judges each flip by the whole plan still gains
 on what labels reach, and from which on it is large."""
 
-# hill climbing: passes over all squares, and the measured squares that one plan may take
+# hill climbing ends by itself, at the latest after so many passes over all squares; the squares measured, some 20 times
+# squares squared for a plan, bound its time on larger sites
 _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 
-# annealing of whole plans: how many plans, their flips times squares, and heats in stalls
+# annealing of whole plans: how many plans, their flips times squares, which bounds the time on any site, and heats in
+# stalls; six plans as in the prototype, where six runs met every proven optimum of the gates under the rules
 _ANNEALED, _ANNEALED_MIDDLE = (6, 6_000_000, (3.0, 0.5)), (6, 48_000_000, (2.0, 0.4))
 
-# annealing under rules: how many runs, more while none keeps the rules, and how many moves in each
+# annealing under rules: how many runs, more while none keeps the rules, and how many moves in each; on large sites few,
+# and at most 400,000 moves, so that planning takes at most twice as long as without rules
 _LABELLED, _LABELLED_LARGE, _MOST_LABELLED = 6, 3, 10
 _LABEL_TRIALS_A_SQUARE, _LABEL_TRIALS, _LABEL_REFRESH_ROUNDS = 350, (160_000, 400_000), 4
 _LABEL_HEATS, _LABEL_PRICES = (0.6, 0.1), ((8.0, 40.0, 8.0, 30.0), (4.0, 40.0, 5.0, 20.0))
-"""Heats, and prices of faults, of which the runs take turns: which end better differs from site to site."""
+"""Heats, as in the prototype, and prices of faults, of which the runs take turns: which end better differs from site to
+site."""
 
-# annealing without rules
+# annealing without rules: distances are those of the last measurement, which is why there is one every so many rounds
+# over the squares; large sites, whose plans are nearer to the bound, start cooler
 _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
 _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 

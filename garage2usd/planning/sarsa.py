@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled, compiled_inner
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
@@ -70,7 +70,7 @@ def grown(memory: Memory) -> Memory:
     return larger
 
 
-@compiled
+@compiled_inner
 def _row(memory: Memory, key: np.uint64) -> int:
     """Row of a state, a new one if it was never met."""
     mask = np.uint64(len(memory.keys) - 1)
@@ -85,7 +85,7 @@ def _row(memory: Memory, key: np.uint64) -> int:
 
 
 @compiled
-def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
+def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: Whole) -> np.uint64:
     """Hash of the state S_t = (D, M, A_{t-1})."""
     cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
     prime = np.uint64(0x9E3779B97F4A7C15)
@@ -110,7 +110,7 @@ def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: i
     return key | np.uint64(1)
 
 
-@compiled
+@compiled_inner
 def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> int:
     """An epsilon-greedy action: greedy with probability 1 - epsilon + epsilon / |A|."""
     count = 0
@@ -170,7 +170,8 @@ def learn(
             return episode, steps_taken
         clear(ground, board)
         start = ground.entrances[int(next_random(random) % np.uint64(len(ground.entrances)))]
-        position, previous, run, step, lanes = start, STAY, 0, 0, 0
+        position, run, step, lanes = start, 0, 0, 0
+        previous: Whole = np.int64(STAY)
         # go on from part of an archived episode
         if archive.in_use[0] > 0 and uniform(random) < p.revisit_rate:
             entry = int(next_random(random) % np.uint64(archive.in_use[0]))

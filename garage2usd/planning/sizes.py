@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled_inner, copy_row
 from garage2usd.config import BayConfig
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
@@ -17,6 +17,7 @@ __all__ = [
     "ALONG_X",
     "ALONG_Z",
     "Sizes",
+    "copy_sides",
     "driven_ways",
     "floor_cost",
     "foresee",
@@ -118,7 +119,7 @@ def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> NDArray[np.int64]
     return least
 
 
-@compiled
+@compiled_inner
 def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
     """Whether cars drive along X on a square, and along Z, as a sum of `ALONG_X` and `ALONG_Z`."""
     least = 1 if cells[q] == 1 else 2
@@ -132,8 +133,8 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
     return ways
 
 
-@compiled
-def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
+@compiled_inner
+def _fits(sizes: Sizes, depth: int, width: int, edges: Whole) -> int:
     """Stalls on a square by its sides and its edges open to lanes, as `garage2usd.structure.stalls` counts them."""
     stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
     x, z = edges & 3, edges >> 2
@@ -147,7 +148,7 @@ def _fits(sizes: Sizes, depth: int, width: int, edges: int) -> int:
     return max(along_x, along_z)
 
 
-@compiled
+@compiled_inner
 def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
     """Write what a square holds by its open edges into `ground.capacity`."""
     depth, width = sizes.actual_mm[0, q // ground.stride], sizes.actual_mm[1, q % ground.stride]
@@ -155,7 +156,7 @@ def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
         ground.capacity[q, edges] = _fits(sizes, depth, width, edges)
 
 
-@compiled
+@compiled_inner
 def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
     """First square of a line, the step along it, and the square after its last."""
     if axis == 0:
@@ -163,7 +164,7 @@ def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
     return line, ground.stride, len(ground.cells)
 
 
-@compiled
+@compiled_inner
 def weigh(
     ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int, change: NDArray[np.int64]
 ) -> float:
@@ -180,7 +181,7 @@ def weigh(
         across += other
         if cells[q] != 0:
             continue
-        edges, near = 0, FAR
+        edges, near = np.int64(0), FAR
         for way in range(4):
             p = q + (-stride, stride, -1, 1)[way]
             if cells[p] == 1:
@@ -196,7 +197,7 @@ def weigh(
     return float((side_mm - sizes.actual_mm[axis, line]) * across / _MM2_PER_M2)
 
 
-@compiled
+@compiled_inner
 def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> None:
     """Give a line another side."""
     first, step, last = _line(ground, axis, line)
@@ -211,7 +212,7 @@ def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> 
     sizes.area_m2[0] += longer * across / _MM2_PER_M2
 
 
-@compiled
+@compiled_inner
 def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
     """Count anew where cars drive, and give every line the side that follows."""
     if not (sizes.is_chosen[0] or sizes.is_chosen[1]):
@@ -244,14 +245,21 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
                 sizes.area_m2[0] += sizes.actual_mm[0, q // stride] * sizes.actual_mm[1, q % stride] / _MM2_PER_M2
 
 
-@compiled
-def side_now(sizes: Sizes, axis: int, line: int) -> int:
+@compiled_inner
+def copy_sides(target: NDArray[np.int64], source: NDArray[np.int64]) -> None:
+    """Copy the sides of all lines, shape (2, lines)."""
+    copy_row(target[0], source[0])
+    copy_row(target[1], source[1])
+
+
+@compiled_inner
+def side_now(sizes: Sizes, axis: Whole, line: Whole) -> int:
     """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
     side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
     return int(max(side, sizes.least_mm[axis, line]))
 
 
-@compiled
+@compiled_inner
 def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
     """Set `hint`, from the hops of the board's lanes."""
     change = np.zeros(3, np.int64)
@@ -265,13 +273,13 @@ def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
             sizes.hint[axis, line] = ground.weights[0] * change[_STALLS] - sizes.price[0] * area
 
 
-@compiled
+@compiled_inner
 def floor_cost(sizes: Sizes) -> float:
     """What the floor costs, in stalls."""
     return float(sizes.price[0] * sizes.area_m2[0])
 
 
-@compiled
+@compiled_inner
 def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
     """Choose the side of every line without traffic, one after the other, for most stalls less the price of the floor.
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import Whole, compiled
 
 __all__ = ["STRETCH", "Survey", "survey"]
 
@@ -43,7 +43,7 @@ def survey(
     state: NDArray[np.int32],
     queue: NDArray[np.int64],
     dead_end_squares: int,
-    stretch_squares: int,
+    stretch_squares: Whole,
 ) -> Survey:
     """Count where lanes break the rules of circulation.
 
@@ -120,5 +120,5 @@ def survey(
                         tail += 1
             for index in range(tail):
                 state[queue[index]] = STRETCH + tail
-            excess += max(0, tail - stretch_squares)
+            excess += int(max(0, tail - stretch_squares))
     return Survey(deep, edges - lanes + 1 - blocks, blocks, excess)

@@ -1,1 +1,1 @@
-"""Stages read: their files opened, their objects, lane graph and labels found. Whoever reads a stage does it here."""
+"""Stages and the files beside them read: their objects, lane graph and labels; whoever reads one does it here."""

@@ -10,7 +10,7 @@ import shapely
 from garage2usd.layout import StallUse
 from garage2usd.structure.lane_graph import LaneKind
 
-__all__ = ["Fault", "LaneEdge", "LaneNode", "Point", "StallOutline"]
+__all__ = ["Fault", "LaneNode", "Point", "StallOutline"]
 
 Point = tuple[float, float]
 """(x, z) in metres."""
@@ -128,24 +128,6 @@ class LaneNode:
     def is_portal(self) -> bool:
         """Whether cars enter or leave the garage here."""
         return self.kind in {LaneKind.ENTRANCE, LaneKind.EXIT}
-
-
-@dataclass(frozen=True)
-class LaneEdge:
-    """A route from node to node, by their numbers.
-
-    Attributes
-    ----------
-    width_m
-        Of the carriageway between the columns.
-    one_way
-        Whether it is driven from `start` to `end` only.
-    """
-
-    start: int
-    end: int
-    width_m: float
-    one_way: bool
 
 
 def _middle(*points: Point) -> Point:

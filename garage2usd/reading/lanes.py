@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.layout import StallUse
-from garage2usd.reading.ground import Fault, LaneEdge, LaneNode, Point, StallOutline
+from garage2usd.reading.ground import Fault, LaneNode, Point, StallOutline
 from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
-from garage2usd.structure.lane_graph import LaneKind
+from garage2usd.structure.lane_graph import LaneEdge, LaneKind
 
 __all__ = ["Lanes", "moved_stalls", "read_lanes"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-__all__ = ["Matrix", "Part", "PlacedObject", "once_for_each_look"]
+__all__ = ["DrawnPart", "Matrix", "PlacedObject", "once_for_each_look"]
 
 _Read = TypeVar("_Read")
 
@@ -16,7 +16,7 @@ Matrix = NDArray[np.float64]
 """A transform for points as rows; float64, shape (4, 4)."""
 
 
-class Part(NamedTuple):
+class DrawnPart(NamedTuple):
     """A prim that draws a piece of an object, or lights from it.
 
     Attributes
@@ -59,12 +59,12 @@ class PlacedObject:
     label: str
     square: str
     matrix: Matrix
-    parts: Sequence[Part] = field(default_factory=list)
+    parts: Sequence[DrawnPart] = field(default_factory=list)
 
 
 def once_for_each_look(read: Callable[[PlacedObject], _Read]) -> Callable[[PlacedObject], _Read]:
     """The same function, called for the first of all objects that share their parts; the others get its result."""
-    known: dict[int, tuple[Sequence[Part], _Read]] = {}  # the parts are held, so that none takes another's id
+    known: dict[int, tuple[Sequence[DrawnPart], _Read]] = {}  # the parts are held, so that none takes another's id
 
     def remembered(placed: PlacedObject) -> _Read:
         if id(placed.parts) not in known:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Kind, Usd, UsdGeom, UsdLux
 
-from garage2usd.reading.objects import Matrix, Part, PlacedObject
+from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
 from garage2usd.reading.taxonomy import SQUARE_TAXONOMY, label_of
 from garage2usd.reading.values import READ_AT, numbers_of
 
@@ -89,7 +89,7 @@ class _Prototype(NamedTuple):
     """What a prototype holds, in its own space: objects with paths from its root on, and what belongs to none."""
 
     objects: list[PlacedObject]
-    parts: tuple[Part, ...]
+    parts: tuple[DrawnPart, ...]
 
 
 class _Walk:
@@ -136,7 +136,7 @@ class _Walk:
         """Find what a prim draws itself, and what is below it."""
         if self._draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
             source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
-            _append(at.holder, [Part(source, at.path.removeprefix(at.holder.path), at.within)])
+            _append(at.holder, [DrawnPart(source, at.path.removeprefix(at.holder.path), at.within)])
         if prim.IsInstance() and not self._resets(prim.GetPrototype()):
             self._take(self._prototype(prim.GetPrototype(), at), at)
             return
@@ -211,7 +211,9 @@ class _Walk:
             at.holder.parts = prototype.parts
             return
         after = at.path.removeprefix(at.holder.path)
-        _append(at.holder, [Part(prim, after + path, matrix @ at.within) for prim, path, matrix in prototype.parts])
+        _append(
+            at.holder, [DrawnPart(prim, after + path, matrix @ at.within) for prim, path, matrix in prototype.parts]
+        )
 
     def _place(self, prim: Usd.Prim) -> tuple[Matrix, bool]:
         """From a prim's space to its parent's, or to the stage's where its transform stack is reset."""
@@ -252,7 +254,7 @@ def _twin(root: Usd.Prim) -> str:
     return str(path).removeprefix(str(path.GetPrefixes()[0])) if root.IsInPrototype() else str(path)
 
 
-def _append(holder: PlacedObject, parts: list[Part]) -> None:
+def _append(holder: PlacedObject, parts: list[DrawnPart]) -> None:
     if not isinstance(holder.parts, list):
         holder.parts = list(holder.parts)
     holder.parts += parts

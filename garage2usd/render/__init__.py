@@ -16,6 +16,7 @@ from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import open_stage
 from garage2usd.render.blender_process import check_blender, run_blender
 from garage2usd.render.cameras import View, find_views
+from garage2usd.render.drawn_prims import SHAPE_PROPERTY, read_drawn_prims, write_shapes
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.labels import Labels, read_labels
 from garage2usd.render.pictures import (
@@ -27,7 +28,6 @@ from garage2usd.render.pictures import (
     write_colour,
     write_picture,
 )
-from garage2usd.render.scene import SHAPE_PROPERTY, read_scene, write_shapes
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.variants import SWITCHES
 
@@ -123,7 +123,7 @@ def render_stage(
     views = find_views(opened, cameras=cameras, frames=frames)
     labels = read_labels(opened, path)
     progress("scene", 0, 1)
-    scene = read_scene(opened, labels.ids)
+    scene = read_drawn_prims(opened, labels.ids)
     hidden = _hidden(opened, labels, views)
     with staging_folder() as staging:
         finished = staging / "finished"

@@ -34,7 +34,7 @@ def main() -> None:
     if sys.platform == "linux":  # whoever waits for the pictures may be killed
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     job = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    report = _Report(job["report_fd"])
+    report = _Reporter(job["report_fd"])
     to_blender = Matrix(job["to_blender"])
     scene, objects, ids = _build(job, to_blender)
     colour = [frame for frame in job["frames"] if frame["colour"]]
@@ -61,7 +61,7 @@ def main() -> None:
             report.finish(1)
 
 
-class _Report:
+class _Reporter:
     """Tells how many samples are done."""
 
     def __init__(self, descriptor: int) -> None:

@@ -3,7 +3,6 @@
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
-from garage2usd.config.site import SidesM
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.site.contour import draw_contour
 from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
@@ -12,7 +11,7 @@ from garage2usd.site.portals import draw_portals
 from garage2usd.site.ramps import check_ramps, ramp_squares
 from garage2usd.structure.grid import Cell, CellArray, Structure, cells_from_text, sides_mm
 
-__all__ = ["make_site"]
+__all__ = ["make_site", "with_sides"]
 
 _CONTOUR_ATTEMPTS = 64
 
@@ -56,15 +55,25 @@ def make_site(site: SiteConfig, *, bay: BayConfig, seed: int, fittings: Fittings
         cells = _static_cells(site, seed=seed, ramps=ramps)
     _check_size(site, cells)
     check_ramps(cells, site, ramps)
-    return Structure(
-        cells,
-        sides_mm(_given(bay.column_widths_m, bay), field="bay.column_widths_m", shape=cells.shape, axis=1),
-        sides_mm(_given(bay.row_depths_m, bay), field="bay.row_depths_m", shape=cells.shape, axis=0),
+    return with_sides(cells, bay)
+
+
+def with_sides(cells: CellArray, bay: BayConfig) -> Structure:
+    """A structure matrix with R and C as the settings give them, equal squares where they give none.
+
+    Raises
+    ------
+    ConfigError
+        If there are not as many as columns and rows.
+    """
+    widths, depths = (
+        sides_mm(bay.square_side_m if sides_m is None else sides_m, field=field, shape=cells.shape, axis=axis)
+        for sides_m, field, axis in (
+            (bay.column_widths_m, "bay.column_widths_m", 1),
+            (bay.row_depths_m, "bay.row_depths_m", 0),
+        )
     )
-
-
-def _given(sides_m: SidesM | None, bay: BayConfig) -> SidesM:
-    return bay.square_side_m if sides_m is None else sides_m
+    return Structure(cells, widths, depths)
 
 
 def _static_cells(site: SiteConfig, *, seed: int, ramps: int) -> CellArray:

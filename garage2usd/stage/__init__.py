@@ -84,8 +84,8 @@ def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
 
 
 def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> None:
-    """Write the table of all labelled objects of the stage as JSON (see `garage2usd.stage.labels.label_table`)."""
-    table = label_table(layout, arrangement.paths())
+    """Write the table of all labelled objects of the stage as JSON (see `garage2usd.reading.label_table`)."""
+    table = label_table(layout, arrangement.paths()).model_dump(by_alias=True)
     lists = (f' "{name}": [\n  ' + ",\n  ".join(map(json.dumps, entries)) + "\n ]" for name, entries in table.items())
     path.write_text("{\n" + ",\n".join(lists) + "\n}\n", encoding="utf-8")
 

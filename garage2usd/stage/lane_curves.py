@@ -58,14 +58,14 @@ def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
 
 
 def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
-    ends, is_one_way, width_m = graph.edges
+    ends = np.array([(edge.start, edge.end) for edge in graph.edges], dtype=np.int32).reshape(-1, 2)
     lines = graph.middles_m[ends]
     prim = _author_curves(layer, path, lines, closed=False)
     numbers(prim, "garage:lane:from", ends[:, 0])
     numbers(prim, "garage:lane:to", ends[:, 1])
-    words(prim, "garage:lane:direction", np.where(is_one_way, "forward", "both").tolist())
+    words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in graph.edges))
     numbers(prim, "garage:lane:length", np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1))
-    numbers(prim, "garage:lane:width", width_m)
+    numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in graph.edges]))
 
 
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: LaneGraph) -> None:

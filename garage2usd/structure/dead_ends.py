@@ -1,17 +1,21 @@
 """Aisles that end in nothing, and which of them are too long to back out of."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
-__all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends"]
+__all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends", "walk_back"]
 
 DEAD_END_LIMIT_MM = 26_000
 """A dead-end aisle longer than this keeps a turning stall free."""
 _MM_PER_M = 1000
 Square = tuple[int, int]
+_Node = TypeVar("_Node")
 
 
 @dataclass(frozen=True)
@@ -48,21 +52,24 @@ def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
     for tip, neighbours in beside.items():
         if len(neighbours) > 1:
             continue
-        length_mm, previous, square = 0, tip, tip
-        squares = []
-        while square in beside and (square == tip or len(beside[square]) == 2):  # noqa: PLR2004 - neither tip nor junction
-            squares.append(square)
-            onward = [other for other in beside[square] if other != previous]
-            ahead = onward[0] if onward else previous
-            side = (
-                structure.row_depths_mm[square[0]] if ahead[0] != square[0] else structure.column_widths_mm[square[1]]
-            )
-            length_mm += int(side)
-            if not onward:
-                break
-            previous, square = square, ahead
+        squares, end = walk_back(tip, beside.__getitem__, beside.__contains__)
+        length_mm = sum(
+            int(structure.row_depths_mm[row] if ahead[0] != row else structure.column_widths_mm[col])
+            for (row, col), ahead in pairwise((*squares, end or tip))
+        )
         found.append(DeadEnd(tuple(squares), length_mm / _MM_PER_M, length_mm > DEAD_END_LIMIT_MM))
     return tuple(found)
+
+
+def walk_back(
+    tip: _Node, beside: Callable[[_Node], Sequence[_Node]], is_lane: Callable[[_Node], bool]
+) -> tuple[list[_Node], _Node | None]:
+    """The lanes of a dead end from its tip on, and the junction or portal that they lead to, if there is one."""
+    lanes, ahead = [tip], [*beside(tip)]
+    while ahead and is_lane(ahead[0]) and len(beside(ahead[0])) == 2:  # noqa: PLR2004 - not a junction
+        lanes.append(ahead[0])
+        ahead = [other for other in beside(lanes[-1]) if other != lanes[-2]]
+    return lanes, ahead[0] if ahead else None
 
 
 def _around(square: Square) -> list[Square]:

@@ -16,7 +16,7 @@ from garage2usd.errors import UnreachableStallError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
-__all__ = ["LaneEdges", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
+__all__ = ["LaneEdge", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
 
@@ -40,22 +40,27 @@ class StallType(StrEnum):
     TYPE_4 = "type_4"
 
 
-class LaneEdges(NamedTuple):
-    """Pairs of squares that join, one a row.
+class LaneEdge(NamedTuple):
+    """A route from node to node, by their numbers.
 
     Attributes
     ----------
-    ends
-        int32, shape (edges, 2): numbers of the nodes; from the first to the second where it is one-way.
-    is_one_way
-        bool, shape (edges,).
     width_m
-        float64, shape (edges,): between the columns on both sides.
+        Of the carriageway between the columns.
+    one_way
+        Whether it is driven from `start` to `end` only.
     """
 
-    ends: NDArray[np.int32]
-    is_one_way: NDArray[np.bool_]
-    width_m: NDArray[np.float64]
+    start: int
+    end: int
+    width_m: float
+    one_way: bool
+
+    @property
+    def ways(self) -> tuple[tuple[int, int], ...]:
+        """From node to node, in each direction that it is driven in."""
+        there, back = (self.start, self.end), (self.end, self.start)
+        return (there,) if self.one_way else (there, back)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,24 +120,19 @@ class LaneGraph:
         return clear
 
     @cached_property
-    def edges(self) -> LaneEdges:
-        """All edges, in reading order.
-
-        Notes
-        -----
-        One-way are those at portals: one comes from an entrance and goes into an exit.
-        """
-        ends, one_way = [], []
+    def edges(self) -> tuple[LaneEdge, ...]:
+        """The pairs of squares that join, in reading order; one-way from an entrance and into an exit."""
+        edges = []
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
             kinds = self.kind(first), self.kind(second)
+            one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
             if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
                 first, second = second, first  # noqa: PLW2901
-            ends.append((self.number_of[first], self.number_of[second]))
-            one_way.append(LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds)
-        pairs = np.array(ends, dtype=np.int32).reshape(-1, 2)
-        across = np.where(self.squares[pairs[:, 0], 1] == self.squares[pairs[:, 1], 1], 0, 1)
-        # squares that join in a line have the same side across it: R and C are constant along lines
-        return LaneEdges(pairs, np.array(one_way, dtype=np.bool_), self.clear_m[pairs[:, 0], across])
+            start, end = self.number_of[first], self.number_of[second]
+            # squares that join in a line have the same side across it: R and C are constant along lines
+            width_m = float(self.clear_m[start, int(first[1] != second[1])])
+            edges.append(LaneEdge(start, end, width_m, one_way))
+        return tuple(edges)
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from PIL import ImageFont
 
-__all__ = ["Area", "Colour", "Disc", "Drawing", "Line", "Point", "Text", "text_width"]
+__all__ = ["Colour", "Disc", "Drawing", "Line", "Point", "Region", "Text", "text_width"]
 
 Colour = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""
@@ -16,7 +16,7 @@ _MEASURED_PX = 100
 
 
 @dataclass(frozen=True, slots=True)
-class Area:
+class Region:
     """A filled polygon; `kind` and `name` say what it is, where a format has a place for that."""
 
     points: Sequence[Point]
@@ -97,7 +97,7 @@ class Drawing:
     px_per_m: float
     paper: Colour
     title: str
-    elements: Iterable[Area | Line | Disc | Text] = field(default_factory=list)
+    elements: Iterable[Region | Line | Disc | Text] = field(default_factory=list)
 
 
 def text_width(text: str, height: float) -> float:

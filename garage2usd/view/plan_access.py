@@ -9,7 +9,7 @@ from garage2usd.objects.outline import rectangle
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.structure.lane_graph import LaneKind
-from garage2usd.view.drawing import Area, Colour, Line, Point, Text, text_width
+from garage2usd.view.drawing import Colour, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_lanes import LANE_COLOUR, LINE_M
 from garage2usd.view.plan_sheet import ARROW_END_M, GREY, INK, PAPER, Sheet
 
@@ -20,7 +20,7 @@ _TREAD_M = 0.8
 _BREAK_M = 0.35
 
 
-def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
+def ramps(layout: Layout, sheet: Sheet) -> Iterator[Region | Line]:
     """Each ramp from its door to a broken edge, where the sheet cuts it off, or to its end."""
     for place, spec in of_spec(layout.of_kind("ramp"), RampSpec):
         half, near = spec.width_m / 2, spec.profile[0][0]
@@ -38,7 +38,7 @@ def ramps(layout: Layout, sheet: Sheet) -> Iterator[Area | Line]:
             yield _line(place, [*zigzag, (_BREAK_M, -far), (out, -far)], GREY, LINE_M)
 
 
-def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
+def portals(layout: Layout, sheet: Sheet) -> Iterator[Region | Line | Text]:
     """The wall beside a door, and outside of it an arrow with a word."""
     for place, spec in of_spec(layout.of_kind("portal"), PortalSpec):
         half, door, back = spec.length_m / 2, spec.door_width_m / 2, -spec.thickness_m
@@ -57,9 +57,9 @@ def portals(layout: Layout, sheet: Sheet) -> Iterator[Area | Line | Text]:
         yield Text(place.to_world((0.0, -ARROW_END_M - half)), word, sheet.letters_m, LANE_COLOUR[kind], kind="portal")
 
 
-def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Area:
+def turned(place: Placement, shape: Sequence[Point], colour: Colour, kind: str) -> Region:
     """A shape where a placement has it."""
-    return Area([place.to_world(point) for point in shape], colour, kind)
+    return Region([place.to_world(point) for point in shape], colour, kind)
 
 
 def _line(place: Placement, shape: Sequence[Point], colour: Colour, width_m: float) -> Line:

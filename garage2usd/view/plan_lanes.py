@@ -8,7 +8,7 @@ from garage2usd.objects.outline import rectangle
 from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind
-from garage2usd.view.drawing import Area, Colour, Line, Point
+from garage2usd.view.drawing import Colour, Line, Point, Region
 
 __all__ = ["FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
 
@@ -44,7 +44,7 @@ def lane_legend(graph: LaneGraph, found: MeasuredCirculation) -> list[tuple[Colo
     return entries + ([(_DEAD_END, "dead end")] if found.dead_ends else [])
 
 
-def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Iterator[Area | Line]:
+def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Iterator[Region | Line]:
     """Every square by its kind; a lane in a dead end has a tint of its own."""
     structure, rounds = layout.structure, found.circulation.rounds
     x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
@@ -55,26 +55,20 @@ def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Ite
             kind = graph.kind((row, col)) if cell != Cell.FREE else None
             box = rectangle(x[col], z[row], x[col + 1], z[row + 1])
             if kind is None:
-                yield Area(box, FREE, "free")
+                yield Region(box, FREE, "free")
             elif rounds[row, col]:
-                yield Area(box, _DEAD_END, f"{kind} dead_end")
+                yield Region(box, _DEAD_END, f"{kind} dead_end")
             else:
-                yield Area(box, LANE_COLOUR[kind], f"{kind} through")
+                yield Region(box, LANE_COLOUR[kind], f"{kind} through")
             yield Line([*box, box[0]], _SEAM, LINE_M / 4)
 
 
 def arrows(graph: LaneGraph) -> Iterator[Line]:
     """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
-    nodes = graph.graph.nodes
-    for one, other in sorted(tuple(sorted(edge)) for edge in graph.graph.edges):
-        ends = [(nodes[square]["x_m"], nodes[square]["z_m"]) for square in (one, other)]
-        kinds = graph.kind(one), graph.kind(other)
-        backwards = kinds[1] is LaneKind.ENTRANCE or kinds[0] is LaneKind.EXIT
-        is_one_way = bool({LaneKind.ENTRANCE, LaneKind.EXIT} & set(kinds))
-        if not backwards:
-            yield _chevron(ends[0], ends[1], 0.0 if is_one_way else _KEEP_RIGHT_M)
-        if backwards or not is_one_way:
-            yield _chevron(ends[1], ends[0], 0.0 if is_one_way else _KEEP_RIGHT_M)
+    middles_m = graph.middles_m.tolist()
+    for edge in graph.edges:
+        for start, end in edge.ways:
+            yield _chevron(middles_m[start], middles_m[end], 0.0 if edge.one_way else _KEEP_RIGHT_M)
 
 
 def _chevron(start: Point, end: Point, aside_m: float) -> Line:

@@ -11,7 +11,7 @@ from garage2usd.layout import Layout, Placement, Stall, StallUse
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
-from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text, text_width
+from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
@@ -19,7 +19,7 @@ from garage2usd.view.route import route_of
 
 __all__ = ["Mark", "draw_plan"]
 
-_Element = Area | Line | Disc | Text
+_Element = Region | Line | Disc | Text
 
 _STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.STANDARD: (206, 222, 238),
@@ -116,15 +116,15 @@ def _stall_words(use: StallUse) -> str:
     return _STALL_WORDS.get(use, f"{use} stall")
 
 
-def _stalls(layout: Layout) -> Iterator[Area | Line | Text]:
-    cars = {(place.square, place.name): place for place in layout.of_kind("car")}
+def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
+    cars = {car.stall: car for car in layout.of_kind("car")}
     for stall in layout.stalls:
         corners = stall.corners_m()
-        yield Area(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
+        yield Region(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
-        car = cars.get((stall.square, stall.named("Car")))
+        car = cars.get(stall.name)
         if car:
-            yield Area(_car_outline(car), _CAR, "car")
+            yield Region(_car_outline(car), _CAR, "car")
         if stall.number:
             yield _number(stall)
 
@@ -150,19 +150,19 @@ def _number(stall: Stall) -> Text:
     return Text(stall.to_world((0.0, stall.length_m / 2 - inwards)), stall.number, height, INK, kind="number")
 
 
-def _building(layout: Layout) -> Iterator[Area | Line]:
+def _building(layout: Layout) -> Iterator[Region | Line]:
     for place in layout.of_kind("obstacle"):
-        yield Area(place.outlines()[0], _SOLID, "obstacle")
+        yield Region(place.outlines()[0], _SOLID, "obstacle")
     for core in layout.cores:
         (x, z), half = core.door_m, _DOOR_M / 2
         ends = [(x - half, z), (x + half, z)] if core.along_x else [(x, z - half), (x, z + half)]
         yield Line(ends, _ON_FOOT, 3 * LINE_M, "exit on_foot")
     for kind in ("wall", "column"):
         for place in layout.of_kind(kind):
-            yield Area(place.outlines()[0], INK, kind)
+            yield Region(place.outlines()[0], INK, kind)
 
 
-def _route(graph: LaneGraph, stall: Stall) -> Iterator[Area | Line]:
+def _route(graph: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
     """Both routes on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()

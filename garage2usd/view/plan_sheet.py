@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from garage2usd.layout import Layout
 from garage2usd.structure.grid import Structure
-from garage2usd.view.drawing import Area, Colour, Disc, Line, Point, Text, text_width
+from garage2usd.view.drawing import Colour, Disc, Line, Point, Region, Text, text_width
 
 __all__ = ["ARROW_END_M", "GREY", "INK", "MARK_COLOUR", "PAPER", "Mark", "Sheet"]
 
@@ -113,13 +113,13 @@ class Sheet:
             at = _swapped(((start + end) / 2, -away_m - 0.75 * self.letters_m), is_row)
             yield Text(at, text, letters, INK, is_turned=is_row, kind="dimension")
 
-    def legend(self, layout: Layout) -> Iterator[Area | Line | Text]:
+    def legend(self, layout: Layout) -> Iterator[Region | Line | Text]:
         """What the colours mean, a bar of ten metres, and the garage in figures."""
         letters = self.letters_m
         for (colour, text), (x, z) in zip(self._legend, self._places, strict=True):
             half = letters / 2
             box = [(x, z - half), (x + letters, z - half), (x + letters, z + half), (x, z + half)]
-            yield Area(box, colour, "legend")
+            yield Region(box, colour, "legend")
             yield Line([*box, box[0]], INK, 1 / self.px_per_m, "legend")
             yield Text((x + 1.5 * letters, z), text, letters, INK, is_left=True, kind="legend")
         z = self._places[-1][1] + 2 * letters

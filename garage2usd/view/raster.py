@@ -4,7 +4,7 @@ from functools import lru_cache
 
 from PIL import Image, ImageDraw, ImageFont
 
-from garage2usd.view.drawing import Area, Disc, Drawing, Line, Text
+from garage2usd.view.drawing import Disc, Drawing, Line, Region, Text
 
 __all__ = ["to_image"]
 
@@ -27,7 +27,7 @@ def to_image(drawing: Drawing) -> Image.Image:
 
     for element in drawing.elements:
         match element:
-            case Area():
+            case Region():
                 draw.polygon([pixel(point) for point in element.points], fill=element.fill)
             case Line():
                 width = max(1, round(element.width_m * scale))

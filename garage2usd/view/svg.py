@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from garage2usd.view.drawing import Area, Colour, Disc, Drawing, Line, Point, Text
+from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text
 
 __all__ = ["CM_PER_M", "to_svg"]
 
@@ -34,17 +34,17 @@ def to_svg(drawing: Drawing) -> str:
         },
     )
     ET.SubElement(root, "title").text = drawing.title
-    _add(root, Area([(left, top), (right, top), (right, bottom), (left, bottom)], drawing.paper, "paper"))
+    _add(root, Region([(left, top), (right, top), (right, bottom), (left, bottom)], drawing.paper, "paper"))
     for element in drawing.elements:
         _add(root, element)
     ET.indent(root, space="")
     return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _add(root: ET.Element, element: Area | Line | Disc | Text) -> None:
+def _add(root: ET.Element, element: Region | Line | Disc | Text) -> None:
     about = {"class": element.kind} if element.kind else {}
     match element:
-        case Area():
+        case Region():
             if element.name:
                 about["id"] = element.name
             ET.SubElement(root, "polygon", {**about, "points": _points(element.points), "fill": _colour(element.fill)})

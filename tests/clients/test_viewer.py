@@ -58,11 +58,11 @@ def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):
     build, page = opened
     layout = build.garage.layout
     paths = arrange(layout, nested=False).paths()
-    occupied = {(place.square, place.name.partition("_")[2]) for place in layout.of_kind("car")}
-    names = [placement.name for placement in layout.placements]
+    occupied = {car.stall for car in layout.of_kind("car")}
+    rows = {(place.stall, place.kind): row for row, place in enumerate(layout.placements)}
     clicked = 0
     for stall in layout.stalls[:: max(1, len(layout.stalls) // 30)]:
-        taken = (stall.square, stall.named("Car").partition("_")[2]) in occupied
+        taken = stall.name in occupied
         x, z = stall.centre_m
         page.eval(
             f"viewer.setMode('orbit'), viewer.orbit.target.set({x}, 0, {z}),"
@@ -71,11 +71,7 @@ def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):
         page.rest()
         page.page.mouse.click(*page.screen((x, 0.0 if not taken else 0.8, z)))
         facts = page.facts()
-        number = next(
-            k
-            for k, name in enumerate(names)
-            if name == stall.named("Car" if taken else "Stall") and layout.placements[k].square == stall.square
-        )
+        number = rows[stall.name, "car" if taken else "stall"]
         assert facts["Class"] == ("car" if taken else "parking_stall")
         assert facts["Prim"] == paths[number]
         assert facts["Instance id"] == str(number + 1)
@@ -136,8 +132,7 @@ def test_labels_are_seen_in_the_colours_of_the_legend(opened):
     stall = next(
         stall
         for stall in build.garage.layout.stalls
-        if (stall.square, stall.named("Car"))
-        not in {(place.square, place.name) for place in build.garage.layout.of_kind("car")}
+        if stall.name not in {car.stall for car in build.garage.layout.of_kind("car")}
     )
     x, z = stall.centre_m
     page.eval(

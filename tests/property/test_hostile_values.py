@@ -111,6 +111,7 @@ def test_reports_are_read_or_refused(report, key, value):
 def report(tmp_path_factory):
     """A report as far as a check reads it."""
     document = {
+        "seed": 0,
         "config": GarageConfig(site={"structure": DRAWING}).model_dump(mode="json"),
         "S": DRAWING.splitlines(),
         "R": [8.1] * 5,

@@ -4,14 +4,13 @@ import os
 import subprocess
 import sys
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
-from following import check_states, property_of
 from hypothesis import Phase
-from sarsa_mutants import MUTANTS
 from support.sample_files import REPOSITORY
+from support.sarsa.following import check_states, property_of
+from support.sarsa.mutants import MUTANTS
 
 from garage2usd.planning import sarsa
 
@@ -33,8 +32,10 @@ def test_each_fault_fits_one_place(mutant):
 
 
 def test_every_fault_is_found():
-    command = [sys.executable, str(Path(__file__).with_name("sarsa_mutations.py"))]
+    command = [sys.executable, "-m", "support.sarsa.mutations"]
     environment = os.environ | {"PYTHONPATH": str(REPOSITORY)}
-    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    run = subprocess.run(
+        command, env=environment, cwd=REPOSITORY / "tests", capture_output=True, text=True, check=False
+    )
     assert run.returncode == 0, run.stdout + run.stderr
     assert run.stdout.endswith(f"{len(MUTANTS)} of {len(MUTANTS)} caught\n")

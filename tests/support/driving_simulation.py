@@ -36,6 +36,7 @@ _HARMLESS = {
     "zone_plate",
     "floor_stain",
 }
+_OWN = {"car", "wheel_stop", "cone"}
 _OVERHEAD_M = 2.0
 
 
@@ -108,9 +109,9 @@ class World:
     def __init__(self, garage):
         self.garage = garage
         self.items = [(place, ground(place)) for place in garage.layout.placements if place.kind not in _HARMLESS]
-        held = {(place.square, place.name) for place, _ in self.items}
+        held = {car.stall for car in garage.layout.of_kind("car")}
         for stall in garage.layout.stalls:
-            if stall.use.takes_cars and (stall.square, stall.named("Car")) not in held:
+            if stall.use.takes_cars and stall.name not in held:
                 middle = np.mean(stall.corners_m(), axis=0)
                 box = affinity.rotate(
                     shapely.box(-WIDTH_M / 2, -LENGTH_M / 2, WIDTH_M / 2, LENGTH_M / 2),
@@ -137,15 +138,12 @@ class World:
     def touched(self, track, stall):
         """What the car touches on its way, but for the stall's own things."""
         found = self.tree.query(outlines(track), predicate="intersects")[1]
-        names = stall.named("Car"), stall.named("WheelStop"), stall.named("Cone") + "_"
-        return {
-            self.items[item][0].name
-            for item in set(found.tolist())
-            if not (
-                self.items[item][0].name == stall.name
-                or (self.items[item][0].square == stall.square and self.items[item][0].name.startswith(names))
-            )
-        }
+
+        def is_own(thing):
+            """An absent car is its stall."""
+            return thing == stall or (getattr(thing, "stall", None) == stall.name and thing.kind in _OWN)
+
+        return {thing.name for thing in (self.items[item][0] for item in set(found.tolist())) if not is_own(thing)}
 
     def stands_in(self, pose, stall):
         """Whether the whole car stands within a stall, in line with it."""

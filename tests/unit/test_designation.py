@@ -84,29 +84,29 @@ def test_shares_of_zero_leave_every_stall_standard():
 
 def test_chargers_stand_in_their_stall_behind_the_cars():
     layout = laid_out(parking={"ev_share": 1, "occupancy": 1})
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
+    panels = {place.stall: footprint(place) for place in layout.of_kind("stall")}
     cars = shapely.union_all([footprint(place) for place in layout.of_kind("car")])
     posts = layout.of_kind("charger")
     assert len(posts) == len(of_use(layout, StallUse.EV)) > 0
     for post in posts:
-        assert footprint(post).within(panels[post.square, post.name.replace("Charger", "Stall")])
+        assert footprint(post).within(panels[post.stall])
         assert footprint(post).intersection(cars).area < 1e-6
 
 
 def test_numbers_are_painted_at_the_mouth_of_their_stall():
     layout = laid_out()
-    panels = {(place.square, place.name): place for place in layout.of_kind("stall")}
+    panels = {place.stall: place for place in layout.of_kind("stall")}
     digits = layout.of_kind("stall_number")
-    numbered = {(*stall.square, stall.named("StallNumber")): stall.number for stall in layout.stalls if stall.number}
+    numbered = {stall.name: stall.number for stall in layout.stalls if stall.number}
     assert len(numbered) == sum(stall.use.takes_cars for stall in layout.stalls)
-    painted = {(*place.square, place.name.rsplit("_", 1)[0]): place.spec.digits for place in digits}
-    assert painted == {key: number.split("-")[1] for key, number in numbered.items()}
+    painted = {place.stall: place.spec.digits for place in digits}
+    assert painted == {name: number.split("-")[1] for name, number in numbered.items()}
     marked = {
         spec: shapely.union_all([shapely.Polygon(marking.polygon) for marking in spec.markings])
         for spec in {panel.spec for panel in panels.values()}
     }
     for place in digits:
-        panel = panels[place.square, place.name.replace("StallNumber", "Stall").rsplit("_", 1)[0]]
+        panel = panels[place.stall]
         x, _, z = panel.position_m
         paint = shapely.transform(marked[panel.spec], _turned(panel.yaw_rad, x, z))
         assert footprint(place).within(footprint(panel))

@@ -120,17 +120,14 @@ def test_stalls_match_the_score_and_cars_stand_inside_their_lines(layout):
     assert len(layout.stalls) == square_capacity(layout.structure, GarageConfig().bay).sum()
     names = [stall.name for stall in layout.stalls]
     assert len(set(names)) == len(names)
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
-    assert set(panels) == {(stall.square, stall.named("Stall")) for stall in layout.stalls}
+    panels = {place.stall: footprint(place) for place in layout.of_kind("stall")}
+    assert set(panels) == set(names)
     for stall in layout.stalls:
-        assert (
-            shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.square, stall.named("Stall")]).area
-            < 1e-6
-        )
+        assert shapely.Polygon(stall.corners_m()).symmetric_difference(panels[stall.name]).area < 1e-6
     cars = layout.of_kind("car")
     assert len(cars) == len(names)
     for car in cars:
-        lines = panels[car.square, car.name.replace("Car", "Stall")]
+        lines = panels[car.stall]
         assert lines.buffer(-0.06).contains(footprint(car)), car
 
 
@@ -208,9 +205,9 @@ def test_settings_decide_what_is_there():
 def test_cones_close_stalls_without_cars_and_never_stand_on_lanes():
     layout = laid_out(IRREGULAR, GarageConfig(fittings={"cone_rate": 1.0}))
     cones = layout.of_kind("cone")
-    occupied = {(car.square, car.name.replace("Car", "Stall")) for car in layout.of_kind("car")}
-    standard = {(s.square, s.named("Stall")) for s in layout.stalls if s.use is StallUse.STANDARD}
-    panels = {(place.square, place.name): footprint(place) for place in layout.of_kind("stall")}
+    occupied = {car.stall for car in layout.of_kind("car")}
+    standard = {stall.name for stall in layout.stalls if stall.use is StallUse.STANDARD}
+    panels = {place.stall: footprint(place) for place in layout.of_kind("stall")}
     closed = [panels[key] for key in standard - occupied]
     for panel in closed:
         assert sum(panel.contains(footprint(cone)) for cone in cones) == 3
@@ -264,7 +261,7 @@ def test_a_long_dead_end_keeps_a_turning_stall():
     assert len(allowed.stalls) == len(free.stalls) == len(allowed.of_kind("car"))
 
     def is_turning(place):
-        return (place.square, place.name) == (turning[0].square, turning[0].named("Stall"))
+        return place.stall == turning[0].name
 
     hatched = {place.spec for place in free.of_kind("stall") if is_turning(place)}
     plain = {place.spec for place in free.of_kind("stall") if not is_turning(place)}
@@ -326,18 +323,14 @@ def test_tyres_stand_before_the_wheel_stops():
         assert not list(Solids(layout, ("car", "wheel_stop")).clashes())
 
 
-def stall_under(layout, car):
-    return next(s for s in layout.stalls if (s.square, s.named("Car")) == (car.square, car.name)).name
-
-
 def test_occupancy_is_told_stall_by_stall():
     text = "....\n====\nE..X"
     names = [stall.name for stall in laid_out(text, GarageConfig()).stalls]
     wanted = names[1:6:2]
     only = laid_out(text, GarageConfig(parking={"occupied_stalls": wanted}))
-    assert [stall_under(only, car) for car in only.of_kind("car")] == wanted
+    assert [car.stall for car in only.of_kind("car")] == wanted
     most = laid_out(text, GarageConfig(parking={"occupancy": 1.0, "empty_stalls": wanted}))
-    assert [stall_under(most, car) for car in most.of_kind("car")] == [n for n in names if n not in wanted]
+    assert [car.stall for car in most.of_kind("car")] == [n for n in names if n not in wanted]
 
 
 @pytest.mark.parametrize(

@@ -262,7 +262,7 @@ def test_the_png_shows_the_same(drawn):
         StallUse.STANDARD: (206, 222, 238), StallUse.EV: (190, 228, 196), StallUse.ACCESSIBLE: (168, 196, 246),
         StallUse.ACCESS_AISLE: (232, 226, 196), StallUse.TURNING: (240, 212, 140),
     }  # fmt: skip
-    cars = {(place.square, place.name) for place in garage.layout.of_kind("car")}
+    cars = {car.stall for car in garage.layout.of_kind("car")}
     marked = shapely.union_all([shapely.Point(mark.x_m, mark.z_m).buffer(2) for mark in MARKS])
 
     def pixel(x, z):
@@ -270,7 +270,7 @@ def test_the_png_shows_the_same(drawn):
 
     for stall in garage.layout.stalls:
         if not marked.contains(shapely.Point(stall.centre_m)):
-            has_car = (stall.square, stall.named("Car")) in cars
+            has_car = stall.name in cars
             assert pixel(*stall.centre_m) == ((112, 146, 192) if has_car else colours[stall.use])
     lane_colours = {
         LaneKind.CROSSROADS: (98, 146, 148), LaneKind.T_JUNCTION: (114, 158, 158), LaneKind.STRAIGHT: (132, 172, 170),
@@ -403,8 +403,8 @@ def test_a_stall_is_chosen_by_its_number(tmp_path):
         (["none.json"], 1, "none.json'; allowed: a readable file (No such file"),
         (["none.obj"], 1, "PATH: got 'none.obj'"),
         (["pipe.json"], 1, "allowed: a regular file"),
-        (["broken.json"], 1, "broken.json: no report of a build"),
-        (["other.json"], 1, "other.json: no report of a build: seed"),
+        (["broken.json"], 1, "broken.json: not a report of a build"),
+        (["other.json"], 1, "other.json: not a report of a build: seed"),
         (["other.json", "--seed", "3"], 1, "a seed beside a configuration only"),
     ],
 )

@@ -14,9 +14,9 @@ from garage2usd.cli import main
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.render import blender_process
 from garage2usd.render.cameras import find_views
+from garage2usd.render.drawn_prims import read_drawn_prims
 from garage2usd.render.labels import read_labels
 from garage2usd.render.pictures import visible_instances
-from garage2usd.render.scene import read_scene
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 
@@ -46,7 +46,7 @@ def test_every_object_is_drawn_once_with_all_of_its_parts(builds, form):
     made = builds(HAND_DRAWN, "usdc", form)
     stage = Usd.Stage.Open(str(made.stage))
     labels = read_labels(stage, made.stage)
-    scene = read_scene(stage, labels.ids)
+    scene = read_drawn_prims(stage, labels.ids)
     assert set(scene.instance.tolist()) == set(labels.ids.values())
     table = json.loads(made.labels.read_text())["objects"]
     low, high = (np.array([entry[end] for entry in table]) for end in ("min_m", "max_m"))
@@ -68,7 +68,7 @@ def local_points(prim):
 
 def test_shapes_are_shared(build):
     stage = Usd.Stage.Open(str(build.stage))
-    scene = read_scene(stage, read_labels(stage, build.stage).ids)
+    scene = read_drawn_prims(stage, read_labels(stage, build.stage).ids)
     assert len(scene.shapes) < len(scene.shape) / 2
 
 
@@ -80,7 +80,7 @@ def test_centimetres_and_another_axis_become_metres():
     UsdGeom.XformCommonAPI(cube).SetTranslate((100, 200, 300))
     camera = UsdGeom.Camera.Define(stage, "/Camera")
     camera.AddTranslateOp().Set(Gf.Vec3d(0, 0, 1000))
-    scene = read_scene(stage, {"/Cube": 7})
+    scene = read_drawn_prims(stage, {"/Cube": 7})
     assert scene.instance.tolist() == [7]
     assert scene.to_world[0] @ [1, 1, 1, 1] == pytest.approx([1.01, 2.01, 3.01, 1])
     (view,) = find_views(stage)
@@ -106,7 +106,7 @@ def test_points_of_an_instancer_take_their_prototypes_with_them():
     instancer.CreateOrientationsAttr([Gf.Quath(1), Gf.Quath(0.5**0.5, 0, 0.5**0.5, 0), Gf.Quath(1)])
     instancer.InvisId(2, Usd.TimeCode.Default())
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
-    scene = read_scene(stage, {"/World/Trees[0]": 4, "/World/Trees": 9})
+    scene = read_drawn_prims(stage, {"/World/Trees[0]": 4, "/World/Trees": 9})
     assert scene.instance.tolist() == [4, 9]
     middles = (scene.to_world @ [0, 0, 0, 1])[:, :3]
     # a quarter turn about +Y takes +Z to +X
@@ -212,13 +212,13 @@ def test_what_is_no_stage_ends_in_one_line(tmp_path, content):
 
 
 def test_the_stage_is_left_as_it_is(build, tmp_path):
-    from garage2usd.render.scene import write_shapes
+    from garage2usd.render.drawn_prims import write_shapes
 
     copy = tmp_path / build.stage.name
     shutil.copyfile(build.stage, copy)
     shutil.copytree(build.asset_folder, tmp_path / build.asset_folder.name)
     stage = Usd.Stage.Open(str(copy))
-    scene = read_scene(stage, read_labels(stage, build.stage).ids)
+    scene = read_drawn_prims(stage, read_labels(stage, build.stage).ids)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*.usd*")}
     write_shapes(stage, scene, tmp_path / "shapes.usda")
     assert {path: path.read_bytes() for path in before} == before

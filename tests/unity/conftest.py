@@ -1,8 +1,7 @@
 """The C# readers, compiled once in each worker."""
 
-import layer
 import pytest
-import reader
+from support.unity import layer, reader
 
 
 @pytest.fixture(scope="session")

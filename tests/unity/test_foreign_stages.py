@@ -5,13 +5,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import foreign_stages
 import pytest
-import reader
-import stages_of_pxr
 from pxr import Gf, Sdf, Usd
-from small_foreign import FOREIGN, NAMED, OF_MANY_FOLDERS
-from test_stages import same, written
+from support.sample_files import REPOSITORY
+from support.unity import foreign_stages, reader, stages_of_pxr
+from support.unity.agreement import same, written
+from support.unity.small_foreign import FOREIGN, NAMED, OF_MANY_FOLDERS
 
 OUTSIDE = """
 def "Outside" { string secret = "s" }
@@ -173,8 +172,8 @@ def test_the_command_counts(tmp_path):
         laid_out(tmp_path / name.replace(" ", "_"), files, "usda")
     (tmp_path / "broken.usda").write_text("#usda 1.0\ndef")
     (tmp_path / "pointer.usdc").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
-    command = [sys.executable, foreign_stages.__file__, tmp_path]
-    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    command = [sys.executable, "-m", "support.unity.foreign_stages", tmp_path]
+    done = subprocess.run(command, cwd=REPOSITORY / "tests", check=False, capture_output=True, text=True)
     *lines, counts = done.stdout.splitlines()
     opened = sum(name.endswith(".usd") for files, _ in (NAMED | FOREIGN).values() for name in files)
     named = len(NAMED)

@@ -5,10 +5,11 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-import fuzz
 import pytest
-from crate_tables import unpacked
 from pxr import Sdf
+from support.unity import fuzz
+from support.unity.agreement import STAGES
+from support.unity.crate_tables import unpacked
 
 
 @pytest.mark.parametrize("form", fuzz.FORMATS)
@@ -22,7 +23,7 @@ def test_damaged_and_hostile_files(usd_dump, tmp_path, form):
 
 def test_tables_of_crates_survive_packing():
     """What the fuzzer writes differs from a sound crate by nothing but the damage."""
-    crate = fuzz.converted((fuzz.STAGES / "values.usda").read_text(), "usdc")
+    crate = fuzz.converted((STAGES / "values.usda").read_text(), "usdc")
     assert exported(unpacked(crate).packed()) == exported(crate)
 
 

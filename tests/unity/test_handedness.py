@@ -4,8 +4,8 @@ import itertools
 
 import numpy as np
 import pytest
-from layer import axes_of, place_of, world_vertices
 from pxr import Gf, Usd, UsdGeom, UsdLux, Vt
+from support.unity.layer import axes_of, place_of, world_vertices
 
 # a tetrahedron with four different edges from its first corner: not its own mirror image
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], dtype=float)

@@ -7,8 +7,11 @@ import subprocess
 
 import numpy as np
 import pytest
-import reader
-from layer import (
+from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
+from support.documentation import blocks
+from support.sample_files import REPOSITORY, SAMPLES
+from support.unity import reader
+from support.unity.layer import (
     EDITOR,
     LAYER,
     UNITY_6,
@@ -18,9 +21,6 @@ from layer import (
     compile_prefab_dump,
     sources_of,
 )
-from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt
-from support.documentation import blocks
-from support.sample_files import REPOSITORY, SAMPLES
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
 

@@ -5,9 +5,9 @@ import itertools
 import networkx as nx
 import numpy as np
 import pytest
-from layer import from_usd
-from reader import PACKAGE
 from support.sample_files import SAMPLES
+from support.unity.layer import from_usd
+from support.unity.reader import PACKAGE
 
 from garage2usd.structure.stalls import Edge
 

@@ -5,15 +5,13 @@ import os
 import random
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-import values_of_pxr
-from crate_tables import unpacked
 from pxr import Sdf, Tf, Usd
-
-STAGES = Path(__file__).parent / "stages"
+from support.unity import values_of_pxr
+from support.unity.agreement import STAGES, installed
+from support.unity.crate_tables import unpacked
 
 
 def same(reader, path) -> None:
@@ -32,12 +30,6 @@ def opens(path: Path) -> bool:
         return Sdf.Layer.FindOrOpen(str(path)) is not None
     except Tf.ErrorException:
         return False
-
-
-def installed(package: str, endings: tuple[str, ...]) -> list[Path]:
-    spec = find_spec(package)
-    folders = [] if spec is None else spec.submodule_search_locations
-    return sorted(path for folder in folders for path in Path(folder).rglob("*") if path.suffix in endings)
 
 
 @pytest.mark.parametrize("ending", ["usda", "usdc"])

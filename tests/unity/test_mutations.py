@@ -3,8 +3,8 @@
 from collections import Counter
 
 import pytest
-import reader
-from mutants import MUTANTS
+from support.unity import reader
+from support.unity.mutants import MUTANTS
 
 
 def test_names_are_unique():

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from make_meta import guid_of, meta_text, seen_by_unity
-from reader import PACKAGE
 from support.sample_files import REPOSITORY
+from support.unity.reader import PACKAGE
 
 import garage2usd
 from garage2usd.version import VERSION

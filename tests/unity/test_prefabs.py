@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from layer import axes_of, from_usd, place_of, world_vertices
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 from support.places import assert_same_places
 from support.sample_files import SAMPLES
+from support.unity.layer import axes_of, from_usd, place_of, world_vertices
 
 from garage2usd.assets.mesh import Collider
 from garage2usd.objects import KINDS

@@ -6,8 +6,7 @@ import math
 import numpy as np
 import pytest
 from pxr import Gf, Sdf
-from test_layers import STAGES
-from test_scenes import scene_of
+from support.unity.agreement import STAGES, scene_of
 
 HEAD = "#usda 1.0\n"
 

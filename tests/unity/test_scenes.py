@@ -6,14 +6,9 @@ import numpy as np
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 from support.sample_files import SAMPLES
+from support.unity.agreement import scene_of
 
 PAPER = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
-
-
-def scene_of(reader, path) -> dict:
-    scene = reader.ask("scene", path)
-    assert "refused" not in scene, scene
-    return scene
 
 
 def shown(stage: Usd.Stage):

@@ -1,10 +1,10 @@
 """The check of signatures tells what is declared from what is not; here on sources of our own."""
 
 import pytest
-import reader
 from check_signatures import used_members
 from declarations import Member, declarations, matches, stripped
-from layer import UNITY_6
+from support.unity import reader
+from support.unity.layer import UNITY_6
 
 SOURCE = """
 using System;

@@ -1,39 +1,13 @@
 """Composed stages: the C# readers against ``pxr``, every prim, value, target and prototype."""
 
 import pytest
-import stages_of_pxr
-import values_of_pxr
-from pxr import Sdf, Tf, Usd, UsdUtils
-from small_stages import SMALL_STAGES
+from pxr import Tf, Usd, UsdUtils
 from support.sample_files import SAMPLES, each_sample
 from support.small_garage import SETTINGS
-from test_layers import STAGES, installed
+from support.unity.agreement import STAGES, installed, same, written
+from support.unity.small_stages import SMALL_STAGES
 
 from garage2usd import GarageConfig, build
-
-
-def same(reader, path, *root) -> list[str]:
-    """Both say the same of a stage, of a root folder where one is given; gives the warnings."""
-    found = reader.ask("stage", path, *root)
-    assert "refused" not in found, found
-    warnings = found.pop("warnings")
-    wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))
-    stages_of_pxr.numbered_alike(wanted, found)
-    assert not stages_of_pxr.misplaced(wanted, found)
-    assert not values_of_pxr.differences(wanted, found)
-    return warnings
-
-
-def written(folder, files: dict[str, str], form: str):
-    """Write layers as text or crates; the path of the first."""
-    for name, text in files.items():
-        layer = Sdf.Layer.CreateAnonymous(".usda")
-        # pxr wants each statement on a line of its own
-        layer.ImportFromString("#usda 1.0\n" + text.replace(" }", "\n}"))
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        assert layer.Export(str(path), args={"format": form})
-    return folder / next(iter(files))
 
 
 @pytest.mark.parametrize("form", ["usda", "usdc"])

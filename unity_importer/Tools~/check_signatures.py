@@ -17,9 +17,9 @@ from pathlib import Path
 from declarations import Declared, Member, declarations, matches, stripped
 
 PACKAGE = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(PACKAGE.parent / "tests" / "unity"))
+sys.path.insert(0, str(PACKAGE.parent / "tests"))
 
-from layer import EDITOR, UNITY_6, compile_assembly, compile_package, sources_of  # noqa: E402
+from support.unity.layer import EDITOR, UNITY_6, compile_assembly, compile_package, sources_of  # noqa: E402
 
 SPACES = ("UnityEngine", "UnityEditor", "UnityEditor.AssetImporters")
 FIRST_UNITY_6 = 6000

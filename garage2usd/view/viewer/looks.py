@@ -12,7 +12,7 @@ from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
 from garage2usd.view.viewer.meshes import DRAWN_TYPES, Triangles, display_colour, face_sets, triangles_of
 from garage2usd.view.viewer.scene import UNLABELLED, Light, Piece, Placed, Shape
-from garage2usd.view.viewer.surfaces import Surface, surface_of
+from garage2usd.view.viewer.surfaces import SurfaceLook, surface_of
 
 __all__ = ["Looks", "Numbered"]
 
@@ -49,7 +49,7 @@ class Looks:
         self.meshes: Numbered[Triangles] = Numbered()
         self.shapes: Numbered[Shape] = Numbered()
         self.palettes: Numbered[tuple[int, ...]] = Numbered()
-        self.surfaces: Numbered[Surface] = Numbered()
+        self.surfaces: Numbered[SurfaceLook] = Numbered()
         self.undrawn: Counter[str] = Counter()
         self._triangles_of: dict[tuple[object, ...], Triangles | None] = {}
         self._surface_of_material: dict[str, int] = {}
@@ -113,7 +113,7 @@ class Looks:
         path = str(material.GetPath()) if material else ""
         if path and path in self._surface_of_material:
             return self._surface_of_material[path]
-        surface = surface_of(material) if material else Surface(colour_rgb=display_colour(prim))
+        surface = surface_of(material) if material else SurfaceLook(colour_rgb=display_colour(prim))
         number = self.surfaces.number(surface, surface)
         if path:
             self._surface_of_material[path] = number

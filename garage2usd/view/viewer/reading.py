@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.documents import is_file, read_json
 from garage2usd.errors import StageError
+from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up
 from garage2usd.view.viewer.looks import Looks
@@ -17,7 +17,6 @@ from garage2usd.view.viewer.scene import Placed, Scene, Shape, box_corners, move
 __all__ = ["read_scene"]
 
 _FACTS = ("generator", "version", "seed", "configDigest", "structureDigest")
-_MOST_LABEL_BYTES = 1 << 30
 
 
 def read_scene(stage: Usd.Stage, path: Path) -> Scene:
@@ -62,14 +61,8 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
 
 def _ids(path: Path) -> dict[str, int]:
     """Instance id of each object by its path; empty without a table."""
-    table = path.with_name(f"{path.stem}_labels.json")
-    if not is_file(table):
-        return {}
-    document = read_json(table, field="labels", max_bytes=_MOST_LABEL_BYTES)
-    try:
-        return {str(entry["path"]): int(entry["id"]) for entry in document["objects"]}
-    except (ValueError, KeyError, TypeError, OverflowError) as error:
-        raise StageError(table, f"not a table of labels ({error!r})") from None
+    table = read_label_table(path)
+    return {entry.path: entry.id for entry in table.objects} if table else {}
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:

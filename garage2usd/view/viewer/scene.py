@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
 from garage2usd.view.viewer.meshes import Triangles
-from garage2usd.view.viewer.surfaces import Surface
+from garage2usd.view.viewer.surfaces import SurfaceLook
 
 __all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 
@@ -163,7 +163,7 @@ class Scene:
     objects: Sequence[Placed]
     shapes: Sequence[Shape]
     palettes: Sequence[Sequence[int]]
-    surfaces: Sequence[Surface]
+    surfaces: Sequence[SurfaceLook]
     lanes: Lanes
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]

@@ -7,7 +7,7 @@ from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.reading.values import READ_AT, number_of, numbers_of
 
-__all__ = ["PLAIN", "Surface", "surface_of"]
+__all__ = ["PLAIN", "SurfaceLook", "surface_of"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"
@@ -15,7 +15,7 @@ _DEFAULT_ROUGHNESS = 0.5
 
 
 @dataclass(frozen=True)
-class Surface:
+class SurfaceLook:
     """A surface.
 
     Attributes
@@ -54,11 +54,11 @@ class Surface:
         return self.has_alpha or self.opacity < 1
 
 
-PLAIN = Surface()
+PLAIN = SurfaceLook()
 """What has no material."""
 
 
-def surface_of(material: UsdShade.Material) -> Surface:
+def surface_of(material: UsdShade.Material) -> SurfaceLook:
     """What a material's UsdPreviewSurface says; `PLAIN` where it has none."""
     shader, _, _ = material.ComputeSurfaceSource()
     if not shader or shader.GetIdAttr().Get() != _PREVIEW:
@@ -69,7 +69,7 @@ def surface_of(material: UsdShade.Material) -> Surface:
     metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0)
     opacity, opacity_reader, _ = _number(shader, "opacity", 1.0)
     clearcoat, _, _ = _number(shader, "clearcoat", 0.0)
-    return Surface(
+    return SurfaceLook(
         colour_rgb=colour,
         emissive_rgb=emissive,
         roughness=roughness,

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from support.broken_plans import CLIENTS, DRAWN, SETTINGS_BROKEN, M
 from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -17,23 +18,6 @@ from garage2usd.structure.lane_graph import build_lane_graph
 FOUND_IN_GOOD_ONE = {"personnel-exits"}
 CN = load_profile("cn-jgj100")
 CIRCULATION = {"dead-end-depth", "loop", "stretch-length", "lane-field"}
-DRAWN = {
-    "no exit": ("exit-missing", "...\nE==\n..."),
-    "no entrance": ("entrance-missing", "...\n==X\n..."),
-    "a portal inside": ("portal-inside", ".......\n.=====X\n.=.E.=.\n.=====.\n.=...=.\nE=====."),
-    "an exit beside no lane": ("portal-cut-off", "....\nE==X\n....\n....\nX..."),
-    "stalls that no lane leads to": ("stall-route", "......\nE====X\n......\n..==..\n......"),
-    "an entrance that leads nowhere": ("portal-route", "E=######\n########\n........\nE======X\n........"),
-    "an exit that looks at another part of the garage": ("portal-shut", "....#...\nE==X#.=.\n..=.#.=.\n..=====."),
-    "a dead end with branches that are short": (
-        "dead-end-depth",
-        ".......\nE=====X\n...=...\n..===..\n..=.=..",
-    ),
-    "many stalls without a loop": ("loop", "......X......\nE===========X\n............."),
-    "a long aisle without a junction": ("stretch-length", "..........\nE========X\n.........."),
-    "lanes side by side": ("lane-field", "......\nE====X\n..==..\n......"),
-    "portals side by side": ("portal-distance", "......\n.=====\n.=...=\nE=...=\nX=====\n......"),
-}
 
 
 def profile_with(**clauses):
@@ -73,48 +57,9 @@ def test_a_broken_drawing_is_reported_by_the_rule_meant_for_it(rule, drawing, tm
     assert told - expected == {rule}
 
 
-SETTINGS_BROKEN = {
-    "stalls as narrow as the user wants": ("stall-width", {"bay": {"stall_width_m": 2.3}}),
-    "stalls as short as the user wants": ("stall-length", {"bay": {"stall_length_m": 5.2}}),
-    "a low clear height": ("headroom", {"fittings": {"clear_height_m": 2.1}}),
-    "a steep ramp": ("ramp-slope", {"fittings": {"ramp_slope_percent": 18.0}}),
-    "a ramp with short transitions": ("ramp-transition", {"fittings": {"ramp_transition_m": 2.4}}),
-    "dark lanes and stalls told so": (
-        "lane-illuminance",
-        {"fittings": {"tubes_per_cell": 2, "lane_lux": 45.0, "stall_lux": 1.0}},
-    ),
-}
-
-
 @pytest.mark.parametrize(("rule", "sections"), SETTINGS_BROKEN.values(), ids=SETTINGS_BROKEN)
 def test_what_the_user_sets_stays_and_is_reported(rule, sections):
     assert found_in(settings_with(**sections)) - FOUND_IN_GOOD_ONE == {rule}
-
-
-M = {"unit": "m"}
-CLIENTS = {
-    "wider doors": ("portal-width", {"portal_width": {"value": 6.0, **M}}),
-    "portals farther apart": ("portal-distance", {"portal_distance": {"value": 40, **M}}),
-    "more portals": ("portal-count", {"portals": {"steps": [[10, 2]], "above": 3, "unit": "count"}}),
-    "brighter lanes": ("lane-illuminance", {"lane_illuminance": {"value": 75, "unit": "lx"}}),
-    "brighter stalls": ("stall-illuminance", {"stall_illuminance": {"value": 75, "unit": "lx"}}),
-    "more accessible stalls": (
-        "accessible-count",
-        {"accessible_stalls": {"steps": [[50, 2]], "above_percent": 2, "unit": "count"}},
-    ),
-    "wider accessible stalls": ("accessible-width", {"accessible_stall_width": {"value": 3.5, **M}}),
-    "a wider access aisle": ("access-aisle", {"access_aisle_width": {"value": 2.5, **M}}),
-    "stalls for vans": (
-        "van-count",
-        {"stalls_per_van_stall": {"value": 6, "unit": "count"}, "van_stall_width": {"value": 132, "unit": "in"}},
-    ),
-    "headroom for vans": ("van-headroom", {"van_clear_height": {"value": 98, "unit": "in"}}),
-    "a smaller fire compartment": (
-        "fire-compartment-sprinklered",
-        {"fire_compartment_area_sprinklered": {"value": 500}},
-    ),
-    "other columns": ("column-spacing", {"column_spacing": {"least": 7.5, "most": 8.0}}),
-}
 
 
 @pytest.mark.parametrize(("rule", "clauses"), CLIENTS.values(), ids=CLIENTS)

@@ -1,14 +1,12 @@
 """Every rule is proven by a garage that breaks it, and documented."""
 
-import importlib.util
 import re
 
-from support.sample_files import REPOSITORY
+from support import broken_plans, broken_stages, broken_usd
 
 from garage2usd.checks import RULES
 from garage2usd.profiles import Profile
 
-HERE = REPOSITORY / "tests" / "unit" / "checks"
 BROKEN_ELSEWHERE = {
     # in tests of their own, where two rules speak or figures are compared
     "stall-illuminance",
@@ -23,17 +21,14 @@ BROKEN_ELSEWHERE = {
 }
 
 
-def loaded(path):
-    spec = importlib.util.spec_from_file_location(f"tables_of_{path.stem}", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def broken_by_tables():
-    stages, plans = loaded(HERE / "test_broken_stages.py"), loaded(HERE / "test_broken_plans.py")
-    usd = loaded(REPOSITORY / "tests" / "clients" / "test_stage_rules.py")
-    tables = (stages.BROKEN, plans.DRAWN, plans.SETTINGS_BROKEN, plans.CLIENTS, usd.BROKEN)
+    tables = (
+        broken_stages.BROKEN,
+        broken_plans.DRAWN,
+        broken_plans.SETTINGS_BROKEN,
+        broken_plans.CLIENTS,
+        broken_usd.BROKEN,
+    )
     return [rule for table in tables for rule, _ in table.values()]
 
 

@@ -15,8 +15,7 @@ from support.sample_files import REPOSITORY
 import garage2usd
 from garage2usd.checks import check_file
 from garage2usd.driving import DesignCar, DrivenGarage, Manoeuvre, Obstacles, prove_garage, prove_stalls
-from garage2usd.driving.layout_garage import layout_garage, square_directions
-from garage2usd.driving.surroundings import fixed_objects, object_name, parked_cars
+from garage2usd.driving.layout_garage import layout_garage, object_name
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
 from garage2usd.layout import StallUse, lay_out
@@ -45,7 +44,7 @@ def proofs_of(garage, **settings):
 
 def directions_of(garage):
     """The lanes by direction, and (row, col) of each."""
-    return square_directions(garage.graph), list(garage.graph.number_of)
+    return layout_garage(garage.layout, garage.graph).directions, list(garage.graph.number_of)
 
 
 def named(edges, squares):
@@ -86,7 +85,7 @@ def test_every_stall_that_takes_a_car_has_its_proof(garage, proofs):
 
 def test_what_a_car_could_touch_is_held_by_its_outline():
     garage = garage2usd.generate(garage2usd.load_config(REPOSITORY / "samples" / "irregular.toml"))
-    obstacles = fixed_objects(garage.layout).joined(parked_cars(garage.layout))
+    obstacles = layout_garage(garage.layout, garage.graph).standing
     outline = {
         name: shapely.union_all(
             [shapely.MultiPoint(piece).convex_hull for piece in obstacles.pieces[obstacles.owner == number]]
@@ -107,7 +106,9 @@ def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
     for seed in range(3):
         made = garage2usd.generate(seed=seed)
         cells, graph = made.plan.structure.cells, made.graph.graph
-        lines = nx.line_graph(nx.DiGraph(graph))
+        roads = nx.DiGraph(graph)
+        roads.remove_edges_from([(a, b) for a, b in roads.edges if cells[a] == Cell.EXIT or cells[b] == Cell.ENTRANCE])
+        lines = nx.line_graph(roads)
         lines.remove_edges_from([(a, b) for a, b in lines.edges if a[0] == b[1] or cells[a[1]] != Cell.LANE])
         directions, squares = directions_of(made)
         starts = [edge for edge in lines if cells[edge[0]] == Cell.ENTRANCE]
@@ -201,9 +202,9 @@ def test_stalls_without_ways_are_marked_and_hold_nothing():
     assert failed <= {stall.name for stall in unreachable}
     assert len(marked.layout.stalls) == len(kept.layout.stalls)
     assert all(proof.is_proven for proof in proofs_of(marked))
-    held = {(place.square, place.name) for place in marked.layout.placements}
+    held = {(place.stall, place.kind) for place in marked.layout.placements}
     for stall in unreachable:
-        assert not {(stall.square, stall.named(kind)) for kind in ("Car", "WheelStop", "StallNumber")} & held
+        assert {kind for name, kind in held if name == stall.name} == {"stall"}
         assert not stall.number
 
 

@@ -7,9 +7,8 @@ from support.planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.site import DEFAULT_SIDE_M
 from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.planning import evaluate
+from garage2usd.planning import evaluate, find_optimum, optimum
 from garage2usd.planning.circulation import circulation, rules_of
-from garage2usd.planning.optimum import find_optimum
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.stalls import capacity_table
 
@@ -225,3 +224,31 @@ def test_too_large(side, rule, most):
 def test_stretches_are_not_known():
     with pytest.raises(ConfigError, match=r"plan\.longest_stretch_cells.*R1 to R3"):
         find_optimum(G1, bay=BAY, plan=PlanConfig(longest_stretch_cells=12))
+
+
+@pytest.mark.parametrize(
+    ("limit", "most", "allowed"),
+    [("_MAX_FRONTIERS", 1000, "at most 1000 frontiers"), ("_MAX_BATCHES", 1, "which 50 steps enumerate the layouts")],
+)
+def test_a_proof_that_would_take_too_long_is_refused(monkeypatch, limit, most, allowed):
+    monkeypatch.setattr(optimum, "_STEPS", 50)
+    monkeypatch.setattr(optimum, limit, most)
+    with pytest.raises(ConfigError, match=rf"^site: got '7 x 9 squares'; allowed: .*{allowed}.*, for a proven optimum"):
+        find_optimum(G1, bay=BAY)
+
+
+def test_the_proof_is_the_same_in_steps_of_any_size(monkeypatch):
+    whole = find_optimum(G2, bay=BAY, plan=planned(2))
+    steps = []
+    monkeypatch.setattr(optimum, "_STEPS", 7)
+    monkeypatch.setattr(optimum, "_MAX_BATCHES", 10**9)
+    in_steps = find_optimum(G2, bay=BAY, plan=planned(2), progress=lambda *told: steps.append(told))
+    assert in_steps.structure == whole.structure
+    assert in_steps.layouts_scored == whole.layouts_scored > 0
+    assert {step for step, _, _ in steps} == {"frontiers", "suffixes", "layouts"}
+    assert all(done <= total for _, done, total in steps)
+
+
+def test_lanes_on_the_site_are_free_squares():
+    lanes = find_optimum(drawn(COMB), bay=BAY)
+    assert lanes.structure == find_optimum(G1, bay=BAY).structure

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support.compiled import from_python
 from support.planning_reference import BAY, drawn, random_site
 
 from garage2usd.config import PlanConfig
@@ -69,4 +70,4 @@ def test_compiled_count_is_the_same():
         for entry in plan.archive[:10]:
             flat = np.pad(entry.structure.cells, 4, constant_values=-1).ravel()
             expected = sum(end.needs_turning_stall for end in dead_ends(entry.structure))
-            assert compiled.dead_ends(ground, flat) == expected
+            assert from_python(compiled.dead_ends)(ground, flat) == expected

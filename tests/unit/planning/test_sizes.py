@@ -2,18 +2,21 @@
 
 import numpy as np
 import pytest
+from support.compiled import from_python
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
+from garage2usd.planning import sizes as compiled
 from garage2usd.planning.board import FAULTS, measure, new_board
 from garage2usd.planning.circuit import anneal_labels
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.draft import new_draft
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
 from garage2usd.planning.polish import settled_worth
-from garage2usd.planning.sizes import resize, settle, sizes_of, sync, weigh
+from garage2usd.planning.sizes import sizes_of
 from garage2usd.structure.grid import Cell, Structure
 
+resize, settle, sync, weigh = map(from_python, (compiled.resize, compiled.settle, compiled.sync, compiled.weigh))
 BAY = BayConfig()
 PLAN = PlanConfig(longest_stretch_cells=0)
 

@@ -8,10 +8,10 @@ import pytest
 from pxr import Usd, UsdGeom
 from support.foreign_stages import TRAPS, installed_stages
 
-from garage2usd.checks.scene import read_scene as scene_of_checks
+from garage2usd.checks.contents import read_contents as scene_of_checks
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
-from garage2usd.render.scene import read_scene as scene_of_render
+from garage2usd.render.drawn_prims import read_drawn_prims as scene_of_render
 from garage2usd.view.viewer.looks import Looks
 
 STAGES = {**installed_stages(), **TRAPS}

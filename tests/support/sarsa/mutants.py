@@ -1,4 +1,4 @@
-"""Faults that ``sarsa_mutations.py`` plants in the compiled loop: each text stands once in its module."""
+"""Faults that ``mutations.py`` plants in the compiled loop: each text stands once in its module."""
 
 from typing import NamedTuple
 

@@ -3,17 +3,14 @@
 import json
 import os
 import re
-import sys
 from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "unity"))
-
-import damage
-import hostile
+from support.unity import damage, hostile
+from support.unity.agreement import STAGES
 
 __all__ = ["Case", "Corpus", "draw_case", "make_corpus"]
 
@@ -84,7 +81,7 @@ def make_corpus(folder: Path) -> Corpus:
             f"{suffix}/{path.relative_to(place)}": path.read_bytes() for path in place.rglob("*") if path.is_file()
         }
     crates = {}
-    for path in sorted((Path(__file__).parents[1] / "unity" / "stages").glob("*.usda")):
+    for path in sorted(STAGES.glob("*.usda")):
         Sdf.Layer.FindOrOpen(str(path)).Export(str(folder / "x.usdc"))
         crates[path.stem] = (folder / "x.usdc").read_bytes()
     profile = json.dumps(load_profile("us-ada").model_dump(mode="json", exclude_none=True))

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from reader import PACKAGE
+
+from support.unity.reader import PACKAGE
 
 EDITOR = "UNITY_EDITOR"
 UNITY_6 = "UNITY_6000_0_OR_NEWER"

@@ -1,4 +1,5 @@
-"""Hostile inputs into all commands: ``python tests/fuzzing/command_fuzz.py [--count N] [--seed N] [--first N]``.
+"""Hostile inputs into all commands: ``python -m support.fuzzing.command_fuzz [--count N] [--seed N]
+[--first N]`` in ``tests``.
 
 Each call succeeds or ends in one line of error, without a traceback, within ten seconds of processor time, and writes
 nothing outside its output folder. What does not is kept in a folder and named by its number.
@@ -23,9 +24,7 @@ from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-from command_inputs import Case, Corpus, draw_case, lay_out, make_corpus
+from support.fuzzing.command_inputs import Case, Corpus, draw_case, lay_out, make_corpus
 
 SLOWEST_S = 10.0
 """A default build, which some damaged configurations are, plans in metres and checks itself: some five seconds."""

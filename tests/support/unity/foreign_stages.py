@@ -1,8 +1,8 @@
 """Compare what the C# readers make of every stage of a folder with what ``pxr`` makes of it.
 
-``python tests/unity/foreign_stages.py FOLDER [--list]``: how many stages ``pxr`` opens, how many of these are equal to
-the last value, how many differ and name what was skipped, and how many differ in silence. The exit status is 1 where a
-stage is refused or differs in silence, or where fewer than 97 % are equal.
+``python -m support.unity.foreign_stages FOLDER [--list]`` in ``tests``: how many stages ``pxr`` opens, how many of
+these are equal to the last value, how many differ and name what was skipped, and how many differ in silence. The exit
+status is 1 where a stage is refused or differs in silence, or where fewer than 97 % are equal.
 """
 
 import argparse
@@ -14,10 +14,9 @@ from multiprocessing import Pipe, get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
 
-import reader
-import stages_of_pxr
-import values_of_pxr
 from pxr import Tf, Usd
+
+from support.unity import reader, stages_of_pxr, values_of_pxr
 
 ENDINGS = {".usd", ".usda", ".usdc", ".usdz"}
 LEAST_EQUAL = 0.97

@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
-from garage2usd.reading.objects import Part, PlacedObject, once_for_each_look
+from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["SHAPE_PROPERTY", "Scene", "read_scene", "write_shapes"]
+__all__ = ["SHAPE_PROPERTY", "DrawnPrims", "read_drawn_prims", "write_shapes"]
 
 SHAPE_PROPERTY = "garage2usd_shape"
 """Custom property by which Blender's objects are known again: the number of their shape."""
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class DrawnPrims:
     """The drawn prims of a stage.
 
     Attributes
@@ -48,7 +48,7 @@ class Scene:
 _DOMES = (UsdLux.DomeLight, UsdLux.DomeLight_1)
 
 
-def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
+def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
     """Find everything that a stage draws.
 
     Parameters
@@ -70,7 +70,7 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
     domes: list[Sdf.Path] = []
     drawn: list[tuple[int, int, NDArray[np.float64]]] = []
 
-    def look_of(placed: PlacedObject) -> list[tuple[int, Part]]:
+    def look_of(placed: PlacedObject) -> list[tuple[int, DrawnPart]]:
         """The parts that stand somewhere, each with the number of its shape."""
         look = []
         for part in placed.parts:
@@ -90,7 +90,7 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
         for number, part in remembered(placed):
             drawn.append((number, _owner(placed.path + part.path, ids), (part.matrix @ placed.matrix).T))
     shape, instance, to_world = zip(*drawn, strict=True) if drawn else ((), (), ())
-    return Scene(
+    return DrawnPrims(
         tuple(shapes),
         tuple(sorted(materials)),
         tuple(domes),
@@ -100,7 +100,7 @@ def read_scene(stage: Usd.Stage, ids: Mapping[str, int]) -> Scene:
     )
 
 
-def write_shapes(stage: Usd.Stage, scene: Scene, path: Path) -> None:
+def write_shapes(stage: Usd.Stage, scene: DrawnPrims, path: Path) -> None:
     """Write a layer over a stage in which no shape is an instance and each carries its number as a custom property."""
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from random import Random
 
-from crate_tables import CrateTables, unpacked
+from support.unity.crate_tables import CrateTables, unpacked
 
 HUGE = (2**31 - 1, 2**31, 2**32 - 1, 2**40, 2**63 - 1, 2**63, 2**64 - 1, 65535, 1, 0)
 WORDS = b"{ } [ ] ( ) \" ''' @ < /* - \0 \xff\xfe def over None 1e999 rel variantSet timeSamples".split(b" ")

@@ -1,4 +1,5 @@
-"""Damaged and hostile files into the C# readers: ``python tests/unity/fuzz.py [--count COUNT] [--seed SEED]``.
+"""Damaged and hostile files into the C# readers: ``python -m support.unity.fuzz [--count COUNT] [--seed SEED]``
+in ``tests``.
 
 COUNT files into each of the three readers: texts, crates and packages. Each is read or refused with the one exception,
 within two seconds and a bounded memory; whatever is not so is kept and named.
@@ -15,16 +16,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-import damage
-import hostile
-import reader
 from pxr import Sdf
-from small_stages import SMALL_STAGES
+
+from support.unity import damage, hostile, reader
+from support.unity.agreement import STAGES
+from support.unity.small_stages import SMALL_STAGES
 
 SLOWEST_S = 2.0
 LARGEST_MB = 600.0
 HANGS_S = 20.0
-STAGES = Path(__file__).parent / "stages"
 FORMATS = ("usda", "usdc", "usdz")
 
 Files = dict[str, bytes]

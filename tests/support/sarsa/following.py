@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from slow_sarsa import SlowSarsa, SplitMix64
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.archive import new_archive
@@ -13,6 +12,7 @@ from garage2usd.planning.board import new_board
 from garage2usd.planning.decision import Action, DecisionProcess, State, observe
 from garage2usd.planning.ground import PADDING, ground_of
 from garage2usd.structure.grid import Cell, Structure
+from support.sarsa.slow_sarsa import SlowSarsa, SplitMix64
 
 BAY = BayConfig(dimensioned=False)
 

@@ -1,4 +1,5 @@
-"""Plant faults in the C# sources and see the tests find them: ``python tests/unity/mutations.py [--only NAME]``.
+"""Plant faults in the C# sources and see the tests find them: ``python -m support.unity.mutations [--only NAME]`` in
+``tests``.
 
 Each fault is planted alone in a copy of the sources; the quick tests run first and stop at their first failure, the
 rest only where they pass. Ends with 1 if a fault survives all of them. ``mutants.py`` has the list.
@@ -14,10 +15,10 @@ import tempfile
 import time
 from pathlib import Path
 
-import reader
-from mutants import MUTANTS, Mutant
+from support.unity import reader
+from support.unity.mutants import MUTANTS, Mutant
 
-HERE = Path(__file__).parent
+REPOSITORY = Path(__file__).parents[3]
 CORE_TESTS = ("test_layers", "test_stages", "test_scenes", "test_scene_parts", "test_fuzz", "test_foreign_stages")
 LAYER_TESTS = ("test_handedness", "test_lights", "test_materials", "test_lanes", "test_imports", "test_prefabs")
 NOTHING_SELECTED = 5
@@ -36,12 +37,12 @@ def planted(mutant: Mutant, package: Path) -> None:
 
 def found_by(package: Path, tests: tuple[str, ...]) -> str | None:
     """The first test that fails of the package, the quick ones first; None if none does."""
-    files = [HERE / f"{name}.py" for name in tests]
+    files = [REPOSITORY / "tests" / "unity" / f"{name}.py" for name in tests]
     for selection in (f"not ({SLOW})", SLOW):
         command = [sys.executable, "-m", "pytest", "-q", "-x", "--tb=no", "-p", "no:cacheprovider", "-k", selection]
         environment = os.environ | {reader.PACKAGE_VARIABLE: str(package)}
         done = subprocess.run(
-            [*command, *files], check=False, capture_output=True, text=True, env=environment, cwd=HERE.parents[1]
+            [*command, *files], check=False, capture_output=True, text=True, env=environment, cwd=REPOSITORY
         )
         failed = re.search(r"^(?:FAILED|ERROR) \S*?::(.+?)(?: - .*)?$", done.stdout, re.MULTILINE)
         if failed:

@@ -2,7 +2,8 @@
 
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
-from values_of_pxr import anything, dumped
+
+from support.unity.values_of_pxr import anything, dumped
 
 SPECIFIERS = {Sdf.SpecifierDef: "Def", Sdf.SpecifierOver: "Over", Sdf.SpecifierClass: "Class"}
 PREDICATE = Usd.PrimIsActive & Usd.PrimIsLoaded

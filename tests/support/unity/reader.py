@@ -10,7 +10,7 @@ from pathlib import Path
 PACKAGE_VARIABLE = "GARAGE2USD_TEST_PACKAGE"
 """Names a copy of the package to test in place of the package: one with a planted fault."""
 
-PACKAGE = Path(os.environ.get(PACKAGE_VARIABLE) or Path(__file__).parents[2] / "unity_importer")
+PACKAGE = Path(os.environ.get(PACKAGE_VARIABLE) or Path(__file__).parents[3] / "unity_importer")
 STRICT = [] if PACKAGE_VARIABLE in os.environ else ["-warnaserror"]
 """A fault may well leave something unused."""
 

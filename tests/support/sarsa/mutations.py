@@ -1,7 +1,7 @@
 """Plant faults in the compiled Sarsa and see its property find them.
 
-``python tests/sarsa/sarsa_mutations.py [--only NAME]``. Each fault of ``sarsa_mutants.py`` is planted alone in a copy
-of the module, which then runs uncompiled on the random sites of the property. Ends with 1 if a fault survives.
+``python -m support.sarsa.mutations [--only NAME]`` in ``tests``. Each fault of ``mutants.py`` is planted alone in a
+copy of the module, which then runs uncompiled on the random sites of the property. Ends with 1 if a fault survives.
 """
 
 import argparse
@@ -14,11 +14,11 @@ from types import ModuleType
 os.environ["NUMBA_DISABLE_JIT"] = "1"  # nothing is compiled, so that a fault costs milliseconds
 
 import numpy as np
-from following import check_states, property_of
-from sarsa_mutants import MUTANTS, Mutant
 
 import garage2usd.planning
 from garage2usd.planning import sarsa
+from support.sarsa.following import check_states, property_of
+from support.sarsa.mutants import MUTANTS, Mutant
 
 PLANNING = Path(garage2usd.planning.__file__).parent
 EXAMPLES, CONTROL_EXAMPLES = 200, 50

@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
-from garage2usd.checks.shapes import Array, Body, Shape, Thing, box_shape
+from garage2usd.checks.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.errors import StageError
 from garage2usd.reading.objects import PlacedObject, once_for_each_look
 from garage2usd.reading.values import READ_AT, metres_y_up, number_of
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["RectLight", "Scene", "read_scene"]
+__all__ = ["Contents", "PlacedLight", "read_contents"]
 
 _FARTHEST_M = 1e6
 _LUMINANCE = "garage:light:luminance"
 
 
-class RectLight(NamedTuple):
+class PlacedLight(NamedTuple):
     """A rectangle that shines down.
 
     Attributes
@@ -41,14 +41,14 @@ class RectLight(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class Contents:
     """What stands, hangs and shines on a stage."""
 
     things: tuple[Thing, ...]
-    lights: tuple[RectLight, ...]
+    lights: tuple[PlacedLight, ...]
 
 
-def read_scene(stage: Usd.Stage) -> Scene:
+def read_contents(stage: Usd.Stage) -> Contents:
     """Read all objects of a stage, each with its meshes, and its rectangular lights.
 
     Notes
@@ -61,7 +61,7 @@ def read_scene(stage: Usd.Stage) -> Scene:
         If something lies more than 1000 km from the origin, where geometry loses its millimetres.
     """
     things: list[Thing] = []
-    lights: list[RectLight] = []
+    lights: list[PlacedLight] = []
     shape_of = cache(_shape)
     look_of = once_for_each_look(lambda placed: _look(placed, shape_of))
     for placed in placed_objects(stage, metres_y_up(stage)):
@@ -71,7 +71,7 @@ def read_scene(stage: Usd.Stage) -> Scene:
             bodies = (Body(shape, matrix @ placed.matrix, touches) for shape, matrix, touches in look.bodies)
             things.append(Thing(placed.path, placed.label, tuple(bodies)))
     _check_reach(stage, things, lights)
-    return Scene(tuple(things), tuple(lights))
+    return Contents(tuple(things), tuple(lights))
 
 
 class _Look(NamedTuple):
@@ -81,7 +81,7 @@ class _Look(NamedTuple):
     lights: list[tuple[UsdLux.RectLight, Array]]
 
 
-def _look(placed: PlacedObject, shape_of: Callable[[Usd.Prim], Shape | None]) -> _Look:
+def _look(placed: PlacedObject, shape_of: Callable[[Usd.Prim], MeshShape | None]) -> _Look:
     look = _Look([], [])
     for prim, _, matrix in placed.parts:
         if prim.IsA(UsdLux.RectLight):
@@ -93,7 +93,7 @@ def _look(placed: PlacedObject, shape_of: Callable[[Usd.Prim], Shape | None]) ->
     return look
 
 
-def _check_reach(stage: Usd.Stage, things: list[Thing], lights: list[RectLight]) -> None:
+def _check_reach(stage: Usd.Stage, things: list[Thing], lights: list[PlacedLight]) -> None:
     placed = [(thing.name, body.matrix, body.shape.reach) for thing in things for body in thing.bodies]
     placed += [("a light", light.matrix, 0.0) for light in lights]
     if not placed:
@@ -107,7 +107,7 @@ def _check_reach(stage: Usd.Stage, things: list[Thing], lights: list[RectLight])
         raise StageError(stage.GetRootLayer().realPath, f"{name} lies {reach_m[far[0]]:.3g} m from the origin")
 
 
-def _shape(prim: Usd.Prim) -> Shape | None:
+def _shape(prim: Usd.Prim) -> MeshShape | None:
     """The mesh of a prim, or the box around any other shape; None where it has neither points nor extent."""
     if prim.IsA(UsdGeom.Mesh):
         mesh = UsdGeom.Mesh(prim)
@@ -123,7 +123,7 @@ def _shape(prim: Usd.Prim) -> Shape | None:
             return None
         if counts.sum() != len(indices) or counts.min() < 1 or indices.min() < 0 or indices.max() >= len(points):
             return None
-        return Shape(points.astype(np.float64), counts.astype(np.int64), indices.astype(np.int64))
+        return MeshShape(points.astype(np.float64), counts.astype(np.int64), indices.astype(np.int64))
     if prim.IsA(UsdGeom.Curves) or prim.IsA(UsdGeom.Points):
         return None
     extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(prim), READ_AT)
@@ -135,10 +135,10 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
     return low, high
 
 
-def _light(light: UsdLux.RectLight, matrix: Array) -> RectLight:
+def _light(light: UsdLux.RectLight, matrix: Array) -> PlacedLight:
     width_m, height_m = (
         number_of(attribute) * float(np.linalg.norm(matrix[row, :3]))
         for row, attribute in enumerate((light.GetWidthAttr(), light.GetHeightAttr()))
     )
     luminance = light.GetPrim().GetAttribute(_LUMINANCE)
-    return RectLight(matrix, width_m, height_m, number_of(luminance) if luminance else 0.0)
+    return PlacedLight(matrix, width_m, height_m, number_of(luminance) if luminance else 0.0)

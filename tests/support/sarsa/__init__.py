@@ -1,0 +1,1 @@
+"""A slow Sarsa, the property that the compiled one follows it, and faults planted in that."""

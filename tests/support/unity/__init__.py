@@ -1,0 +1,1 @@
+"""The C# readers: compiled, asked, compared with ``pxr``, damaged and mutated."""

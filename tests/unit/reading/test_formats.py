@@ -1,0 +1,98 @@
+"""The report and the table of labels: one model each, from which the very file is written and by which all read it."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+from pxr import Usd
+from support.sample_files import SAMPLES
+
+from garage2usd.checks import check_file
+from garage2usd.cli import main
+from garage2usd.errors import ConfigError, ReportError, StageError
+from garage2usd.reading.label_table import read_label_table
+from garage2usd.reading.report import read_report
+from garage2usd.render.labels import read_labels
+from garage2usd.view.viewer.reading import read_scene
+
+
+@pytest.fixture(scope="module")
+def build(builds):
+    return builds(next(path for path in SAMPLES if path.stem == "paper_7x9"), "usdc")
+
+
+def test_a_report_that_was_read_is_written_as_it_was(build):
+    report = read_report(build.report)
+    assert json.dumps(report.model_dump(mode="json"), indent=1) + "\n" == build.report.read_text()
+    assert report.config == build.garage.config
+    assert report.garage_config().site.structure == str(build.garage.plan.structure)
+    assert [stall.centre_m for stall in report.stalls] == [stall.centre_m for stall in build.garage.layout.stalls]
+
+
+def test_a_table_that_was_read_holds_what_was_written(build):
+    table = read_label_table(build.stage)
+    assert table.model_dump(by_alias=True, mode="json") == json.loads(build.labels.read_text())
+
+
+REPORTS = {
+    "seed: Field required": lambda report: report.pop("seed"),
+    "R.2: got 'wide'; allowed: a valid number": lambda report: report["R"].insert(2, "wide"),
+    "S.0: got 7; allowed: a valid string": lambda report: report["S"].insert(0, 7),
+    "score.stalls: got 0.5; allowed: a valid integer": lambda report: report["score"].update(stalls=0.5),
+    "unreachable_stalls.0: got 3; allowed: a valid string": lambda report: report.update(unreachable_stalls=[3]),
+}
+
+
+@pytest.mark.parametrize("said", REPORTS)
+def test_all_who_read_a_report_name_what_is_wrong_alike(build, tmp_path, said):
+    document = json.loads(build.report.read_text())
+    REPORTS[said](document)
+    path = tmp_path / "g_report.json"
+    path.write_text(json.dumps(document))
+    with pytest.raises(ReportError) as caught:
+        read_report(path)
+    assert str(caught.value).startswith(f"{path}: not a report of a build: {said}")
+    with pytest.raises(ConfigError) as caught:
+        check_file(path)
+    assert said in str(caught.value)
+
+
+def test_a_wrong_setting_in_a_report_is_named_as_one(build, tmp_path):
+    document = json.loads(build.report.read_text())
+    document["config"]["fittings"]["lane_lux"] = -1
+    (tmp_path / "g_report.json").write_text(json.dumps(document))
+    for command in ("plan", "check"):
+        result = CliRunner().invoke(main, [command, str(tmp_path / "g_report.json")])
+        assert result.exit_code == 1
+        assert "fittings.lane_lux: got -1; allowed: " in result.output
+
+
+def test_a_report_of_another_version_may_lack_what_nobody_reads(build, tmp_path):
+    document = json.loads(build.report.read_text())
+    kept = {key: document[key] for key in ("seed", "config", "S", "R", "C")}
+    (tmp_path / "g_report.json").write_text(json.dumps({**kept, "of_tomorrow": 1}))
+    again = read_report(tmp_path / "g_report.json").garage_config()
+    assert again == read_report(build.report).garage_config()
+    findings, _ = check_file(tmp_path / "g_report.json")
+    assert not [finding for finding in findings if finding.rule == "report-stalls"]
+
+
+TABLES = {
+    "objects.3.id: got 0; allowed: greater than or equal to 1": lambda table: table["objects"][3].update(id=0),
+    "objects.2.path: Field required": lambda table: table["objects"][2].pop("path"),
+    "objects.1.min_m.0: got 'x'; allowed: a valid number": lambda table: table["objects"][1].update(min_m=["x", 0, 0]),
+    "a path or an id occurs twice": lambda table: table["objects"].append(table["objects"][0]),
+    "classes.0.id: got 256; allowed: less than or equal to 255": lambda table: table["classes"][0].update(id=256),
+}
+
+
+@pytest.mark.parametrize("said", TABLES)
+def test_viewer_and_renderer_refuse_a_table_of_labels_alike(build, tmp_path, said):
+    table = json.loads(build.labels.read_text())
+    TABLES[said](table)
+    (tmp_path / "g_labels.json").write_text(json.dumps(table))
+    stage = Usd.Stage.Open(str(build.stage))
+    for read in (read_labels, read_scene):
+        with pytest.raises(StageError) as caught:
+            read(stage, tmp_path / "g.usdc")
+        assert str(caught.value).startswith(f"{tmp_path / 'g_labels.json'}: not a table of labels: {said}")
