@@ -18,13 +18,14 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdSemantics
 from garage2usd.config import GarageConfig
 from garage2usd.config.stage import StageForm
 from garage2usd.layout import Layout, lay_out
-from garage2usd.objects import KINDS
+from garage2usd.objects import KINDS, Spec
 from garage2usd.stage import arrangement_of, write_stage
 from garage2usd.stage.arrangement import arrange
+from garage2usd.stage.asset_files import asset_file
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
-from garage2usd.stage.prototypes import asset_of, name_prototypes
+from garage2usd.stage.prototypes import Prototype, name_prototypes
 from garage2usd.stage.tile_prototypes import TILES_FILE
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
@@ -112,10 +113,10 @@ def _garage(rows: int, cols: int, form: str) -> tuple[Layout, LaneGraph, GarageC
 
 
 def _naive(path: Path) -> dict[str, float]:
-    layout, _, _ = _read(path.parent)
-    prototypes = name_prototypes(layout)
+    layout, _, config = _read(path.parent)
+    names = {spec: prototype.file for spec, prototype in _prototypes(layout, config).items()}
     start = time.perf_counter()
-    _author_naively(layout, {spec: prototype.name for spec, prototype in prototypes.items()}, path.with_stem("naive"))
+    _author_naively(layout, names, path.with_stem("naive"))
     return {"seconds": time.perf_counter() - start, "peak_mb": peak_mb()}
 
 
@@ -166,6 +167,13 @@ def _read(folder: Path) -> tuple[Layout, LaneGraph, GarageConfig]:
     return read
 
 
+def _prototypes(layout: Layout, config: GarageConfig) -> dict[Spec, Prototype]:
+    shapes = {spec.shape for spec in layout.placements.specs}
+    return name_prototypes(
+        layout, {shape: asset_file(shape, config.stage.texture_quality).layer.name for shape in shapes}
+    )
+
+
 def _own_layers(path: Path) -> list[Path]:
     """The layers that are authored for one garage alone."""
     names = (TILES_FILE, LANE_GRAPH_FILE, *(f"{kind.scattered}.usdc" for kind in KINDS if kind.scattered))
@@ -174,9 +182,7 @@ def _own_layers(path: Path) -> list[Path]:
 
 def _author(path: Path) -> dict[str, float]:
     layout, graph, config = _read(path.parent)
-    prototypes = name_prototypes(layout)
-    for spec in prototypes:
-        asset_of(spec)
+    prototypes = _prototypes(layout, config)
     before_mb = resident_mb()
     start = time.perf_counter()
     write_garage_layer(
@@ -184,6 +190,7 @@ def _author(path: Path) -> dict[str, float]:
         graph,
         arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
         prototypes=prototypes,
+        own_folder=ASSETS,
         asset_folder=ASSETS,
         metadata={},
         last_frame=0,
@@ -205,7 +212,7 @@ def _author_naively(layout: Layout, names: dict[object, str], path: Path) -> Non
     for prim_path, placement in zip(paths, layout.placements, strict=True):
         xform = UsdGeom.Xform.Define(stage, prim_path)
         prim = xform.GetPrim()
-        prim.GetReferences().AddReference(f"./{ASSETS}/{names[placement.spec]}.usdc")
+        prim.GetReferences().AddReference(f"./{ASSETS}/{names[placement.spec]}")
         prim.SetInstanceable(True)
         UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([OBJECT_LABELS[placement.kind]])
         xform.AddTranslateOp(UsdGeom.XformOp.PrecisionFloat).Set(Gf.Vec3f(*placement.position_m))

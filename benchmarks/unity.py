@@ -28,7 +28,7 @@ SECONDS = 0.5
 
 LAYERS = {
     "lane graph": ("nested", "garage_assets/LaneGraph.usdc"),
-    "a car": ("nested", "garage_assets/Car_01.usdc"),
+    "a car": ("nested", "garage_assets/Car_*.usdc"),
     "garage, nested": ("nested", "garage.usdc"),
     "garage, instanced": ("instanced", "garage.usdc"),
 }
@@ -65,7 +65,7 @@ def _reading(folder: Path) -> list[str]:
     ]
     program = compile_program(folder)
     for layer, (form, file) in LAYERS.items():
-        crate = _stage(folder, form) / file
+        crate = min(_stage(folder, form).glob(file))
         text = crate.with_suffix(".usda")
         opened = Sdf.Layer.FindOrOpen(str(crate))
         opened.Export(str(text))

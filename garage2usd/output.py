@@ -2,6 +2,7 @@
 
 import os
 import re
+import secrets
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -10,7 +11,7 @@ from pathlib import Path
 
 from garage2usd.errors import ConfigError, OutputError
 
-__all__ = ["check_length", "check_name", "check_writable", "publish", "staging_folder"]
+__all__ = ["check_length", "check_name", "check_writable", "publish", "staging_folder", "store"]
 
 _PREFIX = ".garage2usd-"
 _LONGEST_NAME_BYTES = 220
@@ -98,6 +99,40 @@ def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
             _remove(copy)
         raise
     return tuple(places)
+
+
+def store(path: Path, data: bytes) -> None:
+    """See to it that a file that several processes may write at once, all of them the same, holds `data`.
+
+    A file that does is left alone. Any other, such as one of which a disk that was full took only the beginning, is
+    replaced at once by a whole one, which nobody sees half written.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    if _holds(path, data):
+        return
+    hidden = path.with_name(f"{_PREFIX}{secrets.token_hex(8)}-{path.name}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        hidden.write_bytes(data)
+        hidden.replace(path)
+    except OSError as error:
+        if not _holds(path, data):  # systems that keep files from being replaced while another process reads them
+            raise OutputError(error.filename or path, error.strerror or str(error)) from None
+    finally:
+        with suppress(OSError):
+            hidden.unlink(missing_ok=True)
+
+
+def _holds(path: Path, data: bytes) -> bool:
+    """Whether a file can be read and holds `data`."""
+    try:
+        return path.stat().st_size == len(data) and path.read_bytes() == data
+    except OSError:
+        return False
 
 
 def _make_folder(folder: Path) -> list[Path]:

@@ -19,7 +19,7 @@ from garage2usd.progress import Progress, silent
 from garage2usd.report import write_report
 from garage2usd.site import make_site
 from garage2usd.site.room import check_room
-from garage2usd.stage import StageFormat, arrangement_of, write_labels, write_stage
+from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 from garage2usd.version import VERSION
@@ -70,7 +70,9 @@ class Build:
     pictures
         The picture of the plan, then the learning curve and the best plans where they were asked for.
     asset_folder
-        Folder of the stage's assets; None where the stage holds them itself.
+        Folder of the stage's own layers, and of its assets unless it shares them; None where it holds all that itself.
+    shared_assets
+        Folder of the assets that it shares with other stages; None where it has its own.
     seconds
         Seconds that each step took.
     findings
@@ -84,6 +86,7 @@ class Build:
     labels: Path
     pictures: tuple[Path, ...]
     asset_folder: Path | None
+    shared_assets: Path | None
     seconds: dict[str, float]
     findings: tuple[Finding, ...] | None = None
 
@@ -117,7 +120,7 @@ def generate(
     UnreachableStallError
         If stalls of a given structure have no route from an entrance and to an exit.
     """
-    return _generate(config, seed=seed, tape=tape, progress=progress)[0]
+    return _generate(config or GarageConfig(), seed=seed, tape=tape, progress=progress)[0]
 
 
 def build(
@@ -138,7 +141,6 @@ def build(
         As for `generate`.
     output
         The stage's path; ``.usda``, ``.usdc`` or ``.usdz``. Picture, report and assets go beside it, under its name.
-
     learning_curve
         Whether to draw the return of each episode as well.
     best_plans
@@ -157,7 +159,10 @@ def build(
     if path.suffix not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
     check_name(path)
-    check_writable(path.parent)
+    config = config or GarageConfig()
+    shared = shared_folder(path, config.stage)
+    for folder in filter(None, (path.parent, shared)):
+        check_writable(folder)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
     with staging_folder() as staging:
@@ -172,6 +177,7 @@ def build(
             arrangement=arrangement,
             metadata=_metadata(garage),
             config=garage.config.stage,
+            shared=shared,
             progress=progress,
         )
         labels = staging / f"{path.stem}_labels.json"
@@ -203,15 +209,15 @@ def build(
         labels=place_of[labels],
         pictures=tuple(place_of[picture] for picture in drawn),
         asset_folder=place_of[made.assets] if made.assets else None,
+        shared_assets=shared,
         seconds=seconds,
         findings=findings,
     )
 
 
 def _generate(
-    config: GarageConfig | None, *, seed: int | None, tape: str | None, progress: Progress
+    config: GarageConfig, *, seed: int | None, tape: str | None, progress: Progress
 ) -> tuple[Garage, dict[str, float]]:
-    config = config or GarageConfig()
     if seed is not None:
         config = config.with_seed(seed)
     clock = [time.perf_counter()]

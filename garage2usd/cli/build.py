@@ -56,7 +56,8 @@ def build(
     """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
 
     Beside the stage, say out/a.usda, it writes a picture of the plan (out/a_plan.png), a report (a_report.json), the
-    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/).
+    classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/); meshes
+    and textures go into a folder that many garages share instead if the configuration says so (stage.assets).
 
     \b
     Examples:
@@ -103,7 +104,7 @@ def _describe(made: "Build") -> None:
         ("check", _checked(made)),
         ("seed", str(garage.config.seed)),
         ("stage", str(made.stage)),
-        *([("assets", f"{made.asset_folder}/")] if made.asset_folder else []),
+        *(("assets", f"{folder}/") for folder in (made.asset_folder, made.shared_assets) if folder),
         *(("picture", str(picture)) for picture in made.pictures),
         ("report", str(made.report)),
         ("labels", str(made.labels)),
@@ -147,4 +148,6 @@ def _checked(made: "Build") -> str:
 
 def _dropped(made: "Build") -> str:
     """What a Unity project needs of a build."""
-    return made.stage.name if made.asset_folder is None else f"{made.stage.name} and {made.asset_folder.name}/"
+    own = [f"{made.asset_folder.name}/"] if made.asset_folder else []
+    shared = [f"{made.garage.config.stage.asset_folder}/"] if made.shared_assets else []
+    return " and ".join([made.stage.name, *own, *shared])

@@ -1,12 +1,13 @@
 """Settings of the stage's files."""
 
 from enum import StrEnum
+from pathlib import PurePosixPath
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 
 from garage2usd.settings import Settings
 
-__all__ = ["StageConfig", "StageForm", "TextureQuality"]
+__all__ = ["AssetPlace", "StageConfig", "StageForm", "TextureQuality"]
 
 
 _NESTED_FROM_SQUARES = 2000
@@ -36,6 +37,15 @@ class StageForm(StrEnum):
     """Everything in one layer without references, variants or instances, for readers that do not compose."""
 
 
+class AssetPlace(StrEnum):
+    """Where the assets of a stage are, which are the same in every garage."""
+
+    OWN = "own"
+    """In a folder of the stage's own beside it, or in a ``.usdz``."""
+    SHARED = "shared"
+    """In a folder that many stages share."""
+
+
 class StageConfig(Settings):
     """The stage's files."""
 
@@ -46,6 +56,26 @@ class StageConfig(Settings):
     composition: meshes are repeated for each object."""
     arrangements: int = Field(16, ge=1, le=100_000)
     """In the nested form: how many different draws of cars and the like the squares share."""
+    assets: AssetPlace = AssetPlace.OWN
+    """'own', or 'shared' for one folder of assets and textures that the ``.usda`` and ``.usdc`` of many garages refer
+    to."""
+    asset_folder: str = Field("../assets", min_length=1, max_length=200, pattern=r"^[^@:\\\x00-\x1f\x7f]+$")
+    """Where shared assets are: a path with slashes, relative to the folder of the stage."""
+
+    @field_validator("assets")
+    @classmethod
+    def _composed(cls, assets: AssetPlace, settings: ValidationInfo) -> AssetPlace:
+        if assets is AssetPlace.SHARED and settings.data.get("form") is StageForm.FLAT:
+            raise ValueError("'own' where stage.form is 'flat', which refers to no assets")
+        return assets
+
+    @field_validator("asset_folder")
+    @classmethod
+    def _relative(cls, folder: str) -> str:
+        path = PurePosixPath(folder)
+        if path.is_absolute():
+            raise ValueError("a path relative to the folder of the stage")
+        return str(path)
 
     def is_nested(self, squares: int) -> bool:
         """Whether equal squares share a prototype in a garage of so many squares."""

@@ -1,30 +1,40 @@
 """The only authoring of USD: a layout becomes a stage with its assets and textures."""
 
 import json
+import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.assets import MATERIALS
-from garage2usd.assets.textures import texture_folder
-from garage2usd.config.stage import StageConfig, StageForm
+from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
+from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
+from garage2usd.objects import Spec
+from garage2usd.output import store
 from garage2usd.progress import Progress, silent
 from garage2usd.stage.arrangement import Arrangement, arrange
+from garage2usd.stage.asset_files import AssetFile, asset_file
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive
 from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
-from garage2usd.stage.prototype_layer import write_prototype
-from garage2usd.stage.prototypes import asset_of, name_prototypes
+from garage2usd.stage.prototypes import name_prototypes
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["StageFiles", "StageFormat", "arrangement_of", "asset_folder_name", "write_labels", "write_stage"]
+__all__ = [
+    "StageFiles",
+    "StageFormat",
+    "arrangement_of",
+    "asset_folder_name",
+    "shared_folder",
+    "write_labels",
+    "write_stage",
+]
 
 
 class StageFormat(StrEnum):
@@ -36,12 +46,33 @@ class StageFormat(StrEnum):
 
 
 def asset_folder_name(stage_path: Path) -> str:
-    """Name of the folder beside a ``.usda`` or ``.usdc`` that holds its assets."""
+    """Name of the folder beside a ``.usda`` or ``.usdc`` that holds its layers, and its assets if it shares none."""
     return f"{stage_path.stem}_assets"
 
 
+def shared_folder(path: Path, config: StageConfig) -> Path | None:
+    """The folder of the assets that a stage at `path` shares with others; None where it has its own.
+
+    Raises
+    ------
+    ConfigError
+        If the stage is a ``.usdz``, which holds its assets itself, or the folder is within the stage's own, which each
+        build replaces.
+    """
+    if config.assets is AssetPlace.OWN:
+        return None
+    if path.suffix == StageFormat.USDZ:
+        raise ConfigError("stage.assets", str(config.assets), "'own' for a .usdz, which holds its assets itself")
+    # as USD joins paths, to which a link to a folder is no other folder
+    folder = Path(os.path.normpath(path.parent.absolute() / config.asset_folder))
+    own = Path(os.path.normpath(path.parent.absolute() / asset_folder_name(path)))
+    if folder == own or own in folder.parents:
+        raise ConfigError("stage.asset_folder", config.asset_folder, f"a folder outside of {own.name}")
+    return folder
+
+
 class StageFiles(NamedTuple):
-    """What a stage consists of: its file, and the folder of its assets where it does not hold them itself."""
+    """What a stage consists of: its file, and the folder of what it refers to unless the file holds that itself."""
 
     stage: Path
     assets: Path | None
@@ -67,6 +98,7 @@ def write_stage(
     arrangement: Arrangement,
     metadata: Mapping[str, str | int],
     config: StageConfig,
+    shared: Path | None = None,
     progress: Progress = silent,
 ) -> StageFiles:
     """Write a stage into a folder of its own.
@@ -83,6 +115,9 @@ def write_stage(
         Written into the root's customData.
     config
         Texture quality and form.
+    shared
+        Folder of the assets that it shares with others, by `shared_folder` for the place where it is going to stand.
+        Those that are missing there are added, those that are damaged are written again.
     progress
         Called with each prototype that is written.
 
@@ -90,21 +125,23 @@ def write_stage(
     -------
     StageFiles
         What now stands in the folder.
+
+    Raises
+    ------
+    OutputError
+        If the shared assets cannot be written.
     """
     packed = path.suffix == StageFormat.USDZ
     folder = path.parent / ("assets" if packed else asset_folder_name(path))
-    textures = folder / TEXTURE_FOLDER
-    textures.mkdir(parents=True)
-    prototypes = name_prototypes(layout)
-    used: set[str] = set()
-    shapes = {prototype.name: spec for spec, prototype in reversed(prototypes.items())}
-    for done, (name, spec) in enumerate(sorted(shapes.items())):
-        progress("assets", done, len(shapes))
-        asset = asset_of(spec)
-        write_prototype(asset, folder / f"{name}.usdc", label=spec.kind.label)
-        used.update(texture for part in asset.parts for texture in MATERIALS[part.material].textures())
-    for texture in sorted(used):
-        shutil.copyfile(texture_folder(config.texture_quality) / texture, textures / texture)
+    folder.mkdir()
+    assets = _asset_files(layout, config, progress)
+    for name, data in _contents(assets.values()).items():
+        if shared is None:
+            place = folder / name
+            place.parent.mkdir(exist_ok=True)
+            place.write_bytes(data)
+        else:
+            store(shared / name, data)
 
     # a browser reads a package only if its root layer is text
     layer_path = path.with_suffix(".usda") if packed else path
@@ -113,8 +150,9 @@ def write_stage(
         layout,
         graph,
         arrangement=arrangement,
-        prototypes=prototypes,
-        asset_folder=folder.name,
+        prototypes=name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()}),
+        own_folder=folder.name,
+        asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
         last_frame=write_drive(folder / f"{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
@@ -128,6 +166,25 @@ def write_stage(
     shutil.rmtree(folder)
     layer_path.unlink()
     return StageFiles(path, None)
+
+
+def _asset_files(layout: Layout, config: StageConfig, progress: Progress) -> dict[Spec, AssetFile]:
+    """The assets of the shapes of a layout."""
+    shapes = list(dict.fromkeys(spec.shape for spec in layout.placements.specs))
+    files = {}
+    for done, shape in enumerate(shapes):
+        progress("assets", done, len(shapes))
+        files[shape] = asset_file(shape, config.texture_quality)
+    return files
+
+
+def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
+    """What the files of some assets and of their textures hold, by their names in the folder of the assets."""
+    contents: dict[str, bytes] = {}
+    for asset in assets:
+        contents[asset.layer.name] = asset.layer.data
+        contents.update((f"{TEXTURE_FOLDER}/{texture.name}", texture.data) for texture in asset.textures)
+    return contents
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:

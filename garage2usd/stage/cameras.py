@@ -57,7 +57,7 @@ def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
     layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
 
 
-def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, asset_folder: str) -> None:
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, own_folder: str) -> None:
     """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
     entrance = layout.structure.where(Cell.ENTRANCE)[0]
@@ -74,7 +74,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     above = _camera(layer, path.AppendChild("Above"), far_m=max(_FAR_M, math.ceil(over[1])))
     _fixed(above, over, pitch_deg=-90.0)
     drive = define(layer, path.AppendChild(DRIVE_NAME), "Camera")
-    reference = Sdf.Reference(f"./{asset_folder}/{DRIVE_NAME}.usdc")
+    reference = Sdf.Reference(f"./{own_folder}/{DRIVE_NAME}.usdc")
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
 
 

@@ -33,8 +33,6 @@ def flatten_stage(source: Path, target: Path) -> None:
     UsdUtils.ModifyAssetPaths(flat, relative)
     for prim in _prims(flat.pseudoRoot):
         prim.ClearInfo("instanceable")
-        if prim.HasInfo("assetInfo"):  # it names a file that is no longer there
-            prim.ClearInfo("assetInfo")
     flat.Export(str(target))
 
 

@@ -4,6 +4,7 @@ The many instances are written as text, which USD parses faster than Python can 
 inside one change block. No stage is open, so that nothing is composed while writing.
 """
 
+import posixpath
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, islice
 from pathlib import Path
@@ -19,7 +20,15 @@ from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, write_lane_graph
-from garage2usd.stage.prim_text import group_pieces, group_text, moved_text, place_text, reference_text, rounded_m
+from garage2usd.stage.prim_text import (
+    anchored,
+    group_pieces,
+    group_text,
+    moved_text,
+    place_text,
+    reference_text,
+    rounded_m,
+)
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
@@ -38,6 +47,7 @@ def write_garage_layer(
     *,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
+    own_folder: str,
     asset_folder: str,
     metadata: Mapping[str, str | int],
     last_frame: int,
@@ -53,17 +63,21 @@ def write_garage_layer(
         Which prim each object is.
     prototypes
         Asset and look of every spec in the layout.
+    own_folder
+        Folder beside `path` of the layers that belong to this garage alone: the lane graph goes there, and the
+        prototypes of tiles and the scattered objects where tiles share prototypes.
     asset_folder
-        Folder of the assets beside `path`. The lane graph goes there, and the prototypes of tiles and the scattered
-        objects where those are shared.
+        Folder of the assets, relative to that of `path`, with slashes.
     metadata
         Written into the root's customData beside S, R and C.
     last_frame
-        Last frame of the driving camera, whose asset stands beside the others.
+        Last frame of the driving camera, whose layer stands in the same folder as the lane graph.
     path
         The file; ``.usda`` or ``.usdc``.
     """
-    text = _garage_text(layout, graph, arrangement, prototypes, path.parent / asset_folder)
+    folder = path.parent / own_folder
+    beside = anchored(posixpath.relpath(asset_folder, own_folder))
+    text = _garage_text(layout, graph, arrangement, prototypes, folder, (anchored(asset_folder), beside))
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.ImportFromString(text)
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
@@ -73,14 +87,14 @@ def write_garage_layer(
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, asset_folder=asset_folder)
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own_folder=own_folder)
     del text
     save(layer, path)
     # of a large garage each layer is a hundred megabytes while it is written
     del layer
-    write_lane_graph(path.parent / asset_folder / LANE_GRAPH_FILE, layout, graph)
+    write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph)
     for name, rows in arrangement.scattered.items():
-        write_instancer(path.parent / asset_folder / f"{name}.usdc", layout.placements, rows, prototypes)
+        write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes, asset_folder=beside)
 
 
 def _garage_text(
@@ -89,20 +103,25 @@ def _garage_text(
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
     folder: Path,
+    asset_folders: tuple[str, str],
 ) -> str:
-    """The garage but for cameras and metadata; prototypes of tiles are written into the folder of the assets."""
+    """The garage but for cameras and metadata; prototypes of tiles are written into `folder`.
+
+    The folder of the assets is given as the garage's layer and as a layer in `folder` refers to it.
+    """
+    outer_folder, inner_folder = asset_folders
     writer = InstanceWriter(
         layout,
         arrangement,
         prototypes,
-        f"./{folder.name}",
+        outer_folder,
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
         describe_stalls=not arrangement.nested,
     )
     labels = _tile_labels(graph, arrangement.squares)
     class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
     if arrangement.nested:
-        inner = InstanceWriter(layout, arrangement, prototypes, ".", classes={}, describe_stalls=False)
+        inner = InstanceWriter(layout, arrangement, prototypes, inner_folder, classes={}, describe_stalls=False)
         shared = share_tiles(layout, arrangement, labels, inner)
         write_tile_prototypes(shared, folder / TILES_FILE)
         tiles = _shared_tiles(arrangement, shared, folder.name)
@@ -142,12 +161,12 @@ def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWrit
     return _rows(arrangement, texts)
 
 
-def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, asset_folder: str) -> Iterator[str]:
+def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, own_folder: str) -> Iterator[str]:
     """Row groups, and an instance of a prototype for each tile, which inherits what variants say of it from its class.
 
     What all instances have in common stands in the prototypes, whose layer is so much smaller.
     """
-    asset = f"./{asset_folder}/{TILES_FILE}"
+    asset = f"./{own_folder}/{TILES_FILE}"
     headers = {
         name: reference_text(asset, prim=f"/{name}", base=f"/{ROOT_NAME}/{_CLASSES}/{name}") for name in shared.texts
     }
@@ -171,9 +190,9 @@ def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
         yield from group_pieces(row_name(row), islice(tiles, count), place=place_text(0.0, 0.0, z))
 
 
-def _part_text(asset_folder: str, file: str) -> str:
-    """A prim that stands in a layer of its own beside the assets."""
-    return f'def "{Path(file).stem}" (\n{reference_text(f"./{asset_folder}/{file}")})\n{{\n}}\n'
+def _part_text(own_folder: str, file: str) -> str:
+    """A prim that stands in a layer of its own."""
+    return f'def "{Path(file).stem}" (\n{reference_text(f"./{own_folder}/{file}")})\n{{\n}}\n'
 
 
 def _matrices(layout: Layout) -> dict[str, object]:

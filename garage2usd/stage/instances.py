@@ -27,7 +27,7 @@ class InstanceWriter:
     prototypes
         Asset and look of every spec in the layout.
     asset_folder
-        Folder of the assets, relative to the layer that the text goes to.
+        Folder of the assets as the layer that the text goes to refers to it.
     classes
         Path of the class that the objects of each switch inherit from; empty for none.
     describe_stalls
@@ -80,7 +80,7 @@ class InstanceWriter:
         prototype = self._prototypes[spec]
         switch = SWITCHES.get(KINDS[kind].name)
         base = self._classes.get(switch) if switch else None
-        header = header_text(f"{self._asset_folder}/{prototype.name}.usdc", look=prototype.look, base=base)
+        header = header_text(f"{self._asset_folder}/{prototype.file}", look=prototype.look, base=base)
         self._headers[kind, spec] = header
         return header
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.reading.taxonomy import LABELS_SCHEMA, SQUARE_TAXONOMY, labels_name
 
 __all__ = [
+    "anchored",
     "group_pieces",
     "group_text",
     "header_text",
@@ -24,6 +25,11 @@ _ORDERS = {
     False: 'uniform token[] xformOpOrder = ["xformOp:translate"]\n',
     True: 'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateY"]\n',
 }
+
+
+def anchored(path: str) -> str:
+    """A relative path that USD takes from the folder of the layer alone, never from a search path."""
+    return path if path.partition("/")[0] in {".", ".."} else f"./{path}"
 
 
 def reference_text(asset: str, *, prim: str = "", base: str | None = None) -> str:

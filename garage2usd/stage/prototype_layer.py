@@ -1,16 +1,20 @@
-"""One asset as a layer of its own: ``/Name`` with its meshes, materials and light."""
+"""One asset as a layer of its own: ``/Asset`` with its meshes, materials and light."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
+from pxr import Kind as ModelKind
 
 from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch, pascal_case
+from garage2usd.config.stage import TextureQuality
+from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
 from garage2usd.reading.taxonomy import OBJECT_TAXONOMY
 from garage2usd.stage.looks import define_material, set_varying
+from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
 __all__ = ["NITS_PER_INTENSITY", "write_prototype"]
@@ -18,6 +22,8 @@ __all__ = ["NITS_PER_INTENSITY", "write_prototype"]
 NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
 
+_ROOT = "Asset"
+"""Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
 
 
@@ -38,34 +44,40 @@ _FRICTION = {
 }
 
 
-def write_prototype(asset: Asset, path: Path, *, label: str) -> None:
-    """Author `asset` as a ``.usdc`` whose default prim is named like the file.
+def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQuality) -> None:
+    """Author `asset` as a ``.usdc``; its bytes do not depend on the name of the file.
 
     Parameters
     ----------
     asset
         Meshes in metres, Y up.
     path
-        The file; its stem is the prim's name.
-    label
-        Its semantic class.
+        The file.
+    kind
+        What it is: its semantic class, and its name in the model's assetInfo.
+    quality
+        Of the textures that it refers to, in the folder ``textures`` beside the file.
     """
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
-    root = UsdGeom.Xform.Define(stage, Sdf.Path.absoluteRootPath.AppendChild(path.stem)).GetPrim()
+    root = UsdGeom.Xform.Define(stage, Sdf.Path.absoluteRootPath.AppendChild(_ROOT)).GetPrim()
     stage.SetDefaultPrim(root)
     model = Usd.ModelAPI(root)
-    model.SetKind(Kind.Tokens.component)
-    model.SetAssetName(path.stem)
-    model.SetAssetIdentifier(Sdf.AssetPath(f"./{path.name}"))
-    UsdSemantics.LabelsAPI.Apply(root, OBJECT_TAXONOMY).CreateLabelsAttr([label])
+    model.SetKind(ModelKind.Tokens.component)
+    model.SetAssetName(pascal_case(kind.name))
+    UsdSemantics.LabelsAPI.Apply(root, OBJECT_TAXONOMY).CreateLabelsAttr([kind.label])
 
     geometry = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Geom")).GetPath()
     looks = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Looks")).GetPath()
     materials = {
-        key: define_material(stage, looks.AppendChild(pascal_case(key)), MATERIALS[key], varying=key in VARYING)
+        key: define_material(
+            stage,
+            looks.AppendChild(pascal_case(key)),
+            named_textures(MATERIALS[key], quality),
+            varying=key in VARYING,
+        )
         for key in sorted({part.material for part in asset.parts})
     }
     frictions = {touch: _define_friction(stage, looks, touch) for touch in sorted(_touched(asset))}

@@ -1,6 +1,7 @@
 """Which asset stands for which spec: one prototype for each distinct shape of a layout."""
 
 from collections import Counter
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -17,17 +18,27 @@ class Prototype(NamedTuple):
     Attributes
     ----------
     name
-        Name of the asset.
+        Name of the asset in this garage.
+    file
+        Name of its file, the same in every garage.
     look
         (variant set, variant) pairs that an instance selects.
     """
 
     name: str
+    file: str
     look: Look = ()
 
 
-def name_prototypes(layout: Layout) -> dict[Spec, Prototype]:
+def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Prototype]:
     """Name the distinct shapes of a layout, numbered by kind in the order of their first place.
+
+    Parameters
+    ----------
+    layout
+        The objects.
+    files
+        Name of the file of each shape.
 
     Returns
     -------
@@ -43,7 +54,7 @@ def name_prototypes(layout: Layout) -> dict[Spec, Prototype]:
             kind = pascal_case(spec.kind.name)
             counts[kind] += 1
             names[shape] = f"{kind}_{counts[kind]:02d}"
-        prototypes[spec] = Prototype(names[shape], spec.look)
+        prototypes[spec] = Prototype(names[shape], files[shape], spec.look)
     return prototypes
 
 

@@ -20,9 +20,16 @@ _TYPES = Sdf.ValueTypeNames
 
 
 def write_instancer(
-    path: Path, objects: ObjectTable, rows: NDArray[np.intp], prototypes: Mapping[Spec, Prototype]
+    path: Path,
+    objects: ObjectTable,
+    rows: NDArray[np.intp],
+    prototypes: Mapping[Spec, Prototype],
+    *,
+    asset_folder: str,
 ) -> None:
-    """Write a layer beside the assets with an instancer that has a point for each object in some rows, all of one kind.
+    """Write a layer with an instancer that has a point for each object in some rows, all of one kind.
+
+    Its assets are in `asset_folder`, as the layer refers to it.
 
     Notes
     -----
@@ -33,16 +40,16 @@ def write_instancer(
     root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
     with new_layer(path, default_prim=path.stem) as layer:
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
-        _author_prototypes(prim, [prototypes[spec].name for spec in specs])
+        _author_prototypes(prim, [prototypes[spec] for spec in specs], asset_folder)
         _author_points(prim, objects, rows, indices)
 
 
-def _author_prototypes(instancer: Sdf.PrimSpec, names: Sequence[str]) -> None:
+def _author_prototypes(instancer: Sdf.PrimSpec, prototypes: Sequence[Prototype], asset_folder: str) -> None:
     folder = define(instancer.layer, instancer.path.AppendChild("Prototypes"), "Scope", kind=Kind.Tokens.group)
     targets = []
-    for name in names:
-        child = define(instancer.layer, folder.path.AppendChild(name), "Xform")
-        reference = Sdf.Reference(f"./{name}.usdc")
+    for prototype in prototypes:
+        child = define(instancer.layer, folder.path.AppendChild(prototype.name), "Xform")
+        reference = Sdf.Reference(f"{asset_folder}/{prototype.file}")
         child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
         targets.append(child.path)
     relationship = Sdf.RelationshipSpec(instancer, "prototypes", custom=False)

@@ -1,4 +1,4 @@
-"""Prototypes of whole tiles: in a large garage equal tiles share one, in a layer beside the assets."""
+"""Prototypes of whole tiles: in a large garage equal tiles share one, in a layer of their own."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ from garage2usd.stage.variants import SWITCHES, Switch
 __all__ = ["TILES_FILE", "TilePrototypes", "share_tiles", "write_tile_prototypes"]
 
 TILES_FILE = "Tiles.usdc"
-"""Layer of the tile prototypes, beside the assets."""
+"""Layer of the tile prototypes."""
 _SAME_PLACE_M = 1e-5
 _SAME_YAW_RAD = 1e-6
 _TILES_AT_ONCE = 4096
@@ -58,7 +58,7 @@ def share_tiles(
     labels
         What a label says of each tile.
     writer
-        Of instances whose assets stand in the folder of the prototypes, without classes.
+        Of instances for the layer of the prototypes, without classes.
     """
     names: dict[tuple[str, bytes], str] = {}
     first: list[int] = []

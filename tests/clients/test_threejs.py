@@ -19,6 +19,7 @@ from garage2usd.assets import MATERIALS
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.looks import PACKED_CHANNELS
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.texture_files import named_textures
 
 pytestmark = [
     pytest.mark.client,
@@ -41,12 +42,13 @@ def images_by_size(package):
     return images
 
 
-def uses_of_textures(layout):
+def uses_of_textures(layout, quality):
     """How many maps show each texture: a packed one is three of its material's."""
+    looks = {key: named_textures(material, quality) for key, material in MATERIALS.items()}
     uses = Counter()
     for placement in layout.placements:
         for part in asset_of(placement.spec).parts:
-            look = MATERIALS[part.material]
+            look = looks[part.material]
             uses.update(look.textures())
             uses.update([look.packed_texture] * (len(PACKED_CHANNELS) - 1) if look.packed_texture else [])
     return uses
@@ -82,7 +84,9 @@ def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     shown = {images[int(size)][0]: texture for size, texture in scene["textures"].items()}
     assert set(shown) == texture_names(Usd.Stage.Open(str(build.stage)))
     assert {name: (texture["width"], texture["height"]) for name, texture in shown.items()} == dict(images.values())
-    assert {name: texture["uses"] for name, texture in shown.items()} == uses_of_textures(layout)
+    assert {name: texture["uses"] for name, texture in shown.items()} == uses_of_textures(
+        layout, build.garage.config.stage.texture_quality
+    )
 
 
 # In greys of 255, measured: 0.0 from run to run; without cars 2.4 from inside and 1.2 from above, mirrored 8.1 and 1.7.

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from pxr import Sdf, Usd, UsdValidation
 from support.sample_files import SAMPLES, each_build, each_format, each_sample
+from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
 
@@ -70,6 +71,14 @@ def test_tiles_that_share_prototypes_pass_both(builds, tmp_path):
     assert nvidia_findings(stage, tmp_path / "findings.csv", "--no-variants") == []
 
 
+def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
+    config = GarageConfig(**{**SETTINGS, "stage": {**SETTINGS["stage"], "assets": "shared"}})
+    made = build(config, tmp_path / "a" / "small.usdc")
+    assert usd_findings(made.stage) == []
+    for number, path in enumerate((made.stage, made.shared_assets)):
+        assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
+
+
 @pytest.mark.parametrize("sample", [sample for sample in SAMPLES if sample not in IN_FULL], ids=lambda path: path.stem)
 def test_nvidia_validation_of_prototypes_finds_nothing(sample, builds, tmp_path):
     assert nvidia_findings(builds(sample, "usdc").asset_folder, tmp_path / "findings.csv", "--no-variants") == []
@@ -79,8 +88,8 @@ def test_nvidia_validation_sees_a_broken_prototype(builds, tmp_path):
     """Or else the test above would prove nothing of a folder of prototypes."""
     sample = next(sample for sample in SAMPLES if sample.stem == "paper_7x9")
     folder = shutil.copytree(builds(sample, "usdc").asset_folder, tmp_path / "assets")
-    layer = Sdf.Layer.FindOrOpen(str(folder / "Column_01.usdc"))
-    mesh = next(iter(layer.GetPrimAtPath("/Column_01/Geom").nameChildren))
+    layer = Sdf.Layer.FindOrOpen(str(min(folder.glob("Column_*.usdc"))))
+    mesh = next(iter(layer.GetPrimAtPath("/Asset/Geom").nameChildren))
     mesh.attributes["extent"].default = [(0, 0, 0), (0.1, 0.1, 0.1)]
     layer.Save()
     findings = nvidia_findings(folder, tmp_path / "findings.csv", "--no-variants")

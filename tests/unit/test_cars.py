@@ -3,7 +3,9 @@ import pytest
 
 from garage2usd.assets import Collider
 from garage2usd.assets.cars import car
+from garage2usd.config.stage import TextureQuality
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype
 
 each_body = pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
@@ -175,7 +177,7 @@ def test_each_wheel_stands_on_the_floor(body):
 @each_body
 def test_a_car_takes_150_kb(body, tmp_path):
     path = tmp_path / "Car.usdc"
-    write_prototype(car(body), path, label="car")
+    write_prototype(car(body), path, kind=CarSpec.kind, quality=TextureQuality.HIGH)
     assert path.stat().st_size <= 150_000
 
 

@@ -1,10 +1,11 @@
 import os
 import stat
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 from garage2usd.errors import OutputError
-from garage2usd.output import check_writable, publish, staging_folder
+from garage2usd.output import check_writable, publish, staging_folder, store
 
 
 def make(staging, name, text):
@@ -54,3 +55,42 @@ def test_a_folder_without_permission_is_refused(tmp_path):
 
     with pytest.raises(OutputError):
         check_writable(Path(folder))
+
+
+def test_what_is_stored_is_written_once_and_again_only_where_it_is_damaged(tmp_path):
+    path = tmp_path / "a" / "b.bin"
+    store(path, b"whole")
+    first = path.stat()
+    store(path, b"whole")
+    assert path.stat().st_ino == first.st_ino
+    for damage in (b"", b"who", b"whale"):
+        path.write_bytes(damage)
+        store(path, b"whole")
+        assert path.read_bytes() == b"whole"
+    assert list(path.parent.iterdir()) == [path]
+    assert path.stat().st_mode == first.st_mode == make(tmp_path, "other.txt", "").stat().st_mode
+
+
+def test_nobody_sees_a_stored_file_half_written(tmp_path):
+    path, data = tmp_path / "large.bin", bytes(range(256)) * 20_000
+    seen = set()
+    with ThreadPoolExecutor(5) as threads:
+        for _ in range(20):
+            path.unlink(missing_ok=True)
+            writers = [threads.submit(store, path, data) for _ in range(4)]
+            while not all(writer.done() for writer in writers):
+                if path.exists():
+                    seen.add(path.read_bytes() == data)
+            for writer in writers:
+                writer.result()
+            assert list(tmp_path.iterdir()) == [path]
+    assert seen == {True}
+
+
+def test_what_cannot_be_stored_leaves_nothing(tmp_path):
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "file").write_text("")
+    for path in (tmp_path / "taken", tmp_path / "file" / "below"):
+        with pytest.raises(OutputError):
+            store(path, b"data")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "taken"]

@@ -3,8 +3,11 @@
 import pytest
 from pxr import Tf, Usd, UsdUtils
 from support.sample_files import SAMPLES, each_sample
+from support.small_garage import SETTINGS
 from support.unity.agreement import STAGES, installed, same, written
 from support.unity.small_stages import SMALL_STAGES
+
+from garage2usd import GarageConfig, build
 
 
 @pytest.mark.parametrize("form", ["usda", "usdc"])
@@ -30,6 +33,16 @@ def "A" ( references = @sub/package.usdz@</World> ) {}
 def "B" ( references = @sub/package.usdz[root.usd]@</World/I1> ) {}
 """
     same(usd_dump, written(tmp_path, {"outer.usda": text}, "usda"))
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested"])
+def test_stage_with_shared_assets(usd_dump, tmp_path, form):
+    stage = {**SETTINGS["stage"], "form": form, "assets": "shared"}
+    made = build(GarageConfig(**{**SETTINGS, "stage": stage}), tmp_path / "garage" / "g.usdc")
+    assert same(usd_dump, made.stage, tmp_path) == []
+    # the folder of the stage is the root where none is named, and leads to none of the assets
+    alone = usd_dump.ask("stage", made.stage)["warnings"]
+    assert any("../assets/" in warning and "within the root folder" in warning for warning in alone)
 
 
 @pytest.mark.parametrize("path", sorted(STAGES.glob("*.usda")), ids=lambda path: path.stem)

@@ -16,9 +16,9 @@ def installed(package: str, endings: tuple[str, ...]) -> list[Path]:
     return sorted(path for folder in folders for path in Path(folder).rglob("*") if path.suffix in endings)
 
 
-def same(reader, path) -> list[str]:
-    """Both say the same of a stage; gives the warnings."""
-    found = reader.ask("stage", path)
+def same(reader, path, *root) -> list[str]:
+    """Both say the same of a stage, of a root folder where one is given; gives the warnings."""
+    found = reader.ask("stage", path, *root)
     assert "refused" not in found, found
     warnings = found.pop("warnings")
     wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))

@@ -1,0 +1,49 @@
+"""Textures as files whose names say what they hold, so that equal ones of all stages have one name."""
+
+import hashlib
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+from garage2usd.assets import Material
+from garage2usd.assets.textures import texture_folder
+from garage2usd.config.stage import TextureQuality
+
+__all__ = ["NamedFile", "content_name", "named_textures", "texture_file"]
+
+_DIGITS = 16
+"""Hexadecimal digits of SHA-256 in a name: among a million files two share a name with a chance of 3e-8."""
+
+
+class NamedFile(NamedTuple):
+    """A file that is named by what it holds."""
+
+    name: str
+    data: bytes
+
+
+def content_name(stem: str, data: bytes, suffix: str) -> str:
+    """The name of a file by what it holds: `stem`, the beginning of its SHA-256, and `suffix`."""
+    return f"{stem}_{hashlib.sha256(data).hexdigest()[:_DIGITS]}{suffix}"
+
+
+@lru_cache(maxsize=128)
+def texture_file(texture: str, quality: TextureQuality) -> NamedFile:
+    """A texture of the shipped set in a quality; read once a process."""
+    path = texture_folder(quality) / texture
+    data = path.read_bytes()
+    return NamedFile(content_name(path.stem, data, path.suffix), data)
+
+
+def named_textures(material: Material, quality: TextureQuality) -> Material:
+    """A material whose textures have the names that `texture_file` gives them."""
+
+    def name(texture: str | None) -> str | None:
+        return None if texture is None else texture_file(texture, quality).name
+
+    return replace(
+        material,
+        colour_texture=name(material.colour_texture),
+        packed_texture=name(material.packed_texture),
+        normal_texture=name(material.normal_texture),
+    )
