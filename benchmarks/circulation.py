@@ -17,9 +17,9 @@ EQUAL, METRES = BayConfig(dimensioned=False), BayConfig()
 IRREGULAR = {"rectangles": 5, "min_portal_distance_cells": 10}
 TWO = {"entrances": 2, "exits": 2}
 SIZES: dict[str, tuple[int, dict[str, object]]] = {
-    "7 x 9": (10, {}),
+    "7 x 9": (40, {}),
     "12 x 16 irregular": (
-        10,
+        40,
         {
             "height_cells": 12,
             "width_cells": 16,
@@ -32,7 +32,7 @@ SIZES: dict[str, tuple[int, dict[str, object]]] = {
     ),
     "20 x 30": (8, {"height_cells": 20, "width_cells": 30, "min_portal_distance_cells": 10, **TWO}),
     "40 x 60 irregular": (4, {"height_cells": 40, "width_cells": 60, "obstacles": 8, **IRREGULAR, **TWO}),
-    "100 x 100 irregular": (2, {"height_cells": 100, "width_cells": 100, "obstacles": 30, **IRREGULAR, **TWO}),
+    "100 x 100 irregular": (3, {"height_cells": 100, "width_cells": 100, "obstacles": 30, **IRREGULAR, **TWO}),
 }
 FREE = PlanConfig(circulation="allow")
 LOOPS = PlanConfig(longest_stretch_cells=0)

@@ -11,7 +11,7 @@ from garage2usd.checks.aisle import dead_ends
 from garage2usd.checks.openings import section_of
 from garage2usd.checks.subject import Subject
 from garage2usd.driving import DrivenGarage
-from garage2usd.driving.assembly import StandingThing, assembled
+from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
 from garage2usd.limits import allow_seconds
 from garage2usd.reading.ground import Point, StallOutline
 
@@ -64,7 +64,7 @@ def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
     for name, label, pieces in subject.solids.grounds(height_m):
         if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
             ground = _simple(pieces)
-            home = subject.home_of(ground.convex_hull)
+            home = subject.home_of(ground.convex_hull) if label in BELONGINGS else None
             yield StandingThing(name, label, ground, home.name if home else None)
     for thing in subject.things:
         if thing.label in _DRIVEN_THROUGH:

@@ -14,12 +14,12 @@ from garage2usd.driving.obstacles import Obstacles
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.structure.lane_graph import LaneEdge, LaneKind
 
-__all__ = ["StandingThing", "assembled"]
+__all__ = ["BELONGINGS", "StandingThing", "assembled"]
 
 _PORTALS = {LaneKind.ENTRANCE.value: SquareUse.ENTRANCE, LaneKind.EXIT.value: SquareUse.EXIT}
 _CAR = "car"
-_OWN = {_CAR, "wheel_stop", "traffic_cone"}
-"""What is not in the way of the car whose stall it stands in."""
+BELONGINGS = frozenset({_CAR, "wheel_stop", "traffic_cone"})
+"""Classes of what is not in the way of the car whose stall it stands in."""
 
 
 class StandingThing(NamedTuple):
@@ -34,7 +34,7 @@ class StandingThing(NamedTuple):
     ground
         What it covers of the floor, (x, z) in metres.
     home
-        Name of the stall that it stands in, if it stands in one.
+        Name of the stall that it stands in, if it stands in one; counts for `BELONGINGS` alone.
     """
 
     name: str
@@ -70,7 +70,7 @@ def assembled(
     things = sorted(standing, key=lambda thing: thing.label == _CAR)
     own: dict[str | None, list[str]] = defaultdict(list)
     for thing in things:
-        if thing.label in _OWN:
+        if thing.label in BELONGINGS:
             own[thing.home].append(thing.name)
     taken = {thing.home for thing in things if thing.label == _CAR}
     return DrivenGarage(

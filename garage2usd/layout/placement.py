@@ -159,14 +159,13 @@ class Stall:
         It is turned as the stall is unless `yaw_rad` is given. In the second stall of a square, ``Car`` is named
         ``Car_2``, and piece 3 of ``Cone`` is named ``Cone_2_3``.
         """
-        x, z = rounded(self.to_world(point))
-        return Placement(
+        return placed(
             f"{name}_{self.ordinal}" + ("" if piece is None else f"_{piece}"),
             spec,
-            (x, 0.0, z),
-            self.yaw_rad if yaw_rad is None else yaw_rad,
-            self.square,
-            self.ordinal,
+            self.to_world(point),
+            yaw_rad=self.yaw_rad if yaw_rad is None else yaw_rad,
+            square=self.square,
+            ordinal=self.ordinal,
         )
 
     def to_world(self, point: Point) -> Point:
@@ -185,11 +184,18 @@ def stall_name(square: Square, ordinal: int) -> str:
 
 
 def placed(
-    name: str, spec: Spec, point: Point, *, height_m: float = 0.0, yaw_rad: float = 0.0, square: Square | None = None
+    name: str,
+    spec: Spec,
+    point: Point,
+    *,
+    height_m: float = 0.0,
+    yaw_rad: float = 0.0,
+    square: Square | None = None,
+    ordinal: int | None = None,
 ) -> Placement:
     """An object over a point (x, z) of the garage, which is rounded to the micrometre."""
     x, z = rounded(point)
-    return Placement(name, spec, (x, height_m, z), yaw_rad, square)
+    return Placement(name, spec, (x, height_m, z), yaw_rad, square, ordinal)
 
 
 def of_spec(placements: Iterable[Placement], spec: type[_S]) -> Iterator[tuple[Placement, _S]]:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled
+from garage2usd.compiled import compiled, copy_row
 from garage2usd.planning.board import FAR, Board, measure
 from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, first_frontier, step
 from garage2usd.planning.ground import PADDING, Ground
@@ -218,7 +218,7 @@ def enumerate_layouts(
             state.counts[1] += 1
             if value > best + 1e-9:
                 best = value
-                state.best_cells[:] = board.cells
+                copy_row(state.best_cells, board.cells)
             depth -= 1
             continue
         if tried[depth] < 0:
