@@ -53,5 +53,5 @@ def _repaired(ground: Ground, board: Board, given: list[Lanes]) -> Iterator[Rank
     for lanes in given:
         put_lanes(ground, board, lanes)
         if connect(ground, board):
-            value = max(measure(ground, board), NO_VALUE)  # without stalls it has no value, but stands
+            value = max(measure(ground, board, -np.inf), NO_VALUE)  # without stalls it has no value, but stands
             yield value, lanes_on(ground, board)

@@ -7,7 +7,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Whole", "compiled", "compiled_inner", "copy_row"]
+__all__ = ["Whole", "compiled", "compiled_allocating", "compiled_inner", "copy_row"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -21,8 +21,15 @@ def compiled(function: Callable[P, T]) -> Callable[P, T]:
     """Compile a function on its first call and keep the machine code on disk.
 
     Beside the module where that folder can be written, else in the user's cache folder, else for this process only.
+    The function makes no array, so that the compiler need not count references, which is half of its work: arrays come
+    from whoever calls.
     """
-    return _compiled(function, is_inner=False)
+    return _compiled(function, is_inner=False, allocates=False)
+
+
+def compiled_allocating(function: Callable[P, T]) -> Callable[P, T]:
+    """Compile a function that makes arrays or lists of its own."""
+    return _compiled(function, is_inner=False, allocates=True)
 
 
 def compiled_inner(function: Callable[P, T]) -> Callable[P, T]:
@@ -31,13 +38,20 @@ def compiled_inner(function: Callable[P, T]) -> Callable[P, T]:
     It gets no way in from Python: unpacking what a function takes is often more code than the function itself, and
     takes as long to compile.
     """
-    return _compiled(function, is_inner=True)
+    return _compiled(function, is_inner=True, allocates=False)
 
 
-def _compiled(function: Callable[P, T], *, is_inner: bool) -> Callable[P, T]:
+def compiled_inlined(function: Callable[P, T]) -> Callable[P, T]:
+    """Compile a function as a part of the one compiled function that calls it."""
+    return cast("Callable[P, T]", numba.njit(inline="always")(function))
+
+
+def _compiled(function: Callable[P, T], *, is_inner: bool, allocates: bool) -> Callable[P, T]:
     def jit(*, cache: bool) -> Callable[P, T]:
-        # its stubs lack these two options
-        made = numba.njit(cache=cache, no_cpython_wrapper=is_inner, no_cfunc_wrapper=is_inner)  # type: ignore[call-overload]
+        # its stubs lack these options; nothing here is called from C
+        made = numba.njit(  # type: ignore[call-overload]
+            cache=cache, no_cpython_wrapper=is_inner, no_cfunc_wrapper=True, _nrt=allocates
+        )
         return cast("Callable[P, T]", made(function))
 
     try:

@@ -12,8 +12,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled, compiled_inner
-from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
+from garage2usd.compiled import Whole, compiled, compiled_allocating, compiled_inner
+from garage2usd.driving.sweep import Floats, box_around, bulge, clearance, corners_at
 
 __all__ = ["HEADINGS", "first_touch", "least_clearance", "search"]
 
@@ -35,8 +35,7 @@ _FIRST, _SECOND = np.int64(0), np.int64(4)
 @compiled
 def first_touch(corners: Floats, shapes: Floats, boxes: Floats, need: float) -> int:
     """Number of a shape that the hull of two footprints comes nearer to than `need`; -1 if there is none."""
-    left, right = corners[:, 0].min() - need, corners[:, 0].max() + need
-    low, high = corners[:, 1].min() - need, corners[:, 1].max() + need
+    left, low, right, high = box_around(corners, need)
     for number in range(shapes.shape[0]):
         if boxes[number, 0] > right or boxes[number, 2] < left or boxes[number, 1] > high or boxes[number, 3] < low:
             continue
@@ -45,7 +44,7 @@ def first_touch(corners: Floats, shapes: Floats, boxes: Floats, need: float) -> 
     return -1
 
 
-@compiled
+@compiled_allocating
 def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, boxes: Floats, body: Floats, most: float) -> float:
     """Least distance, or less, to any shape along poses (x, z, yaw), `bulges` a step; `most` where all is farther."""
     corners = np.empty((8, 2))
@@ -54,8 +53,7 @@ def least_clearance(poses: Floats, bulges: Floats, shapes: Floats, boxes: Floats
         for end in range(2):
             corners_at(poses[step + end, 0], poses[step + end, 1], poses[step + end, 2], body, corners, 4 * end)
         reach = least + bulges[step]
-        left, right = corners[:, 0].min() - reach, corners[:, 0].max() + reach
-        low, high = corners[:, 1].min() - reach, corners[:, 1].max() + reach
+        left, low, right, high = box_around(corners, reach)
         for number in range(shapes.shape[0]):
             if boxes[number, 0] > right or boxes[number, 2] < left or boxes[number, 1] > high or boxes[number, 3] < low:
                 continue
@@ -104,7 +102,7 @@ def _slot(keys: NDArray[np.int64], key: int) -> int:
     return slot
 
 
-@compiled
+@compiled_allocating
 def search(
     start: Floats,
     goals: Floats,
@@ -222,7 +220,7 @@ def search(
     return 0, np.empty((0, 3))
 
 
-@compiled_inner
+@compiled_allocating
 def _steps(node: int, parent: NDArray[np.int32], code: NDArray[np.int8], step_m: Floats) -> Floats:
     """The steps from the start to a node."""
     count, at = 0, node

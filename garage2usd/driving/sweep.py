@@ -12,9 +12,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled
+from garage2usd.compiled import Whole, compiled, compiled_inner
 
-__all__ = ["Floats", "bulge", "clearance", "corners_at"]
+__all__ = ["Floats", "box_around", "bulge", "clearance", "corners_at"]
 
 Floats = NDArray[np.float64]
 _SHORTEST = 1e-9
@@ -29,6 +29,16 @@ def corners_at(x: float, z: float, yaw: float, body: Floats, corners: Floats, ro
         left = body[2] if corner in (0, 3) else -body[2]
         corners[row + corner, 0] = x - sin * ahead - cos * left
         corners[row + corner, 1] = z - cos * ahead + sin * left
+
+
+@compiled_inner
+def box_around(corners: Floats, reach: float) -> tuple[float, float, float, float]:
+    """Least x and z, and most x and z, within reach of any of the corners."""
+    left, low, right, high = np.inf, np.inf, -np.inf, -np.inf
+    for corner in range(corners.shape[0]):
+        left, right = min(left, corners[corner, 0]), max(right, corners[corner, 0])
+        low, high = min(low, corners[corner, 1]), max(high, corners[corner, 1])
+    return left - reach, low - reach, right + reach, high + reach
 
 
 @compiled

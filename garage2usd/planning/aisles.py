@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner
+from garage2usd.compiled import compiled, compiled_inlined, compiled_inner
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
@@ -182,6 +182,50 @@ def _single_spines(ground: Ground, runs: Runs) -> NDArray[np.int64]:
     return spines[:, :, None]
 
 
+class Room(NamedTuple):
+    """Room for an episode over aisles.
+
+    Attributes
+    ----------
+    states, options
+        int64, shape (runs,): the state and the option of each run.
+    rewards
+        float64, shape (runs,).
+    tape
+        int8, shape (runs,): the options again, as an archive keeps them.
+    profiles
+        int64: what lies behind each square of a run.
+    counts, ahead
+        int64, shapes (9,) and (4,): how often a run has each profile, and each number of free squares ahead.
+    laid
+        int64: the lanes of a plan.
+    """
+
+    states: NDArray[np.int64]
+    options: NDArray[np.int64]
+    rewards: NDArray[np.float64]
+    tape: NDArray[np.int8]
+    profiles: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    ahead: NDArray[np.int64]
+    laid: NDArray[np.int64]
+
+
+def new_room(ground: Ground, runs: Runs) -> Room:
+    """Room for episodes on a ground with these runs."""
+    count = len(runs.first)
+    return Room(
+        np.zeros(count, np.int64),
+        np.zeros(count, np.int64),
+        np.zeros(count),
+        np.zeros(count, np.int8),
+        np.zeros(runs.length.max(initial=0), np.int64),
+        np.zeros(_PROFILES, np.int64),
+        np.zeros(_AHEAD, np.int64),
+        np.zeros(len(ground.squares), np.int64),
+    )
+
+
 def new_values() -> NDArray[np.float64]:
     """Values of the options by state when nothing is learnt yet: hopes that make the agent try each."""
     return np.full((_STATES, OPTIONS), _OPTIMISTIC)
@@ -203,12 +247,23 @@ def _profile(board: Board, square: int, across: int) -> int:
 
 
 @compiled_inner
-def _state(
-    board: Board, first: int, length: int, along: int, across: int, profiles: NDArray[np.int64]
-) -> tuple[int, int]:
+def _commonest(counts: NDArray[np.int64]) -> int:
+    """Where a row of numbers is greatest first."""
+    most = 0
+    for place in range(len(counts)):
+        if counts[place] > counts[most]:
+            most = place
+    return most
+
+
+@compiled_inlined
+def _state(board: Board, first: int, length: int, along: int, across: int, room: Room) -> tuple[int, int]:
     """State of a run, the same on every site, and its most frequent profile."""
-    counts = np.zeros(_PROFILES, np.int64)
-    ahead = np.zeros(_AHEAD, np.int64)
+    profiles, counts, ahead = room.profiles, room.counts, room.ahead
+    for profile in range(_PROFILES):
+        counts[profile] = 0
+    for far in range(_AHEAD):
+        ahead[far] = 0
     for index in range(length):
         q = first + index * along
         profiles[index] = _profile(board, q, across)
@@ -217,9 +272,9 @@ def _state(
         while far < _AHEAD - 1 and board.cells[q + (far + 1) * across] == 0:
             far += 1
         ahead[far] += 1
-    most = int(np.argmax(counts))
+    most = _commonest(counts)
     even = 1 if counts[most] > 0.8 * length else 0
-    return (most * _SHARES + even) * _AHEAD + int(np.argmax(ahead)), most
+    return (most * _SHARES + even) * _AHEAD + _commonest(ahead), most
 
 
 @compiled_inner
@@ -248,6 +303,7 @@ def learn_aisles(
     parameters: SarsaParameters,
     values: NDArray[np.float64],
     archive: Archive,
+    room: Room,
     random: NDArray[np.uint64],
     curve: NDArray[np.float64],
     schedule: NDArray[np.float64],
@@ -265,11 +321,7 @@ def learn_aisles(
     repair.
     """
     gamma, epsilon, alpha = parameters.gamma, schedule[0], schedule[2]
-    states, options = np.zeros(len(runs.first), np.int64), np.zeros(len(runs.first), np.int64)
-    rewards = np.zeros(len(runs.first))
-    profiles = np.zeros(runs.length.max(), np.int64)
-    laid = np.zeros(len(ground.squares), np.int64)
-    tape = np.zeros(len(runs.first), np.int8)
+    states, options, rewards, tape, profiles, _, _, laid = room
     taken = 0
     for episode in range(first, last):
         clear(ground, board)
@@ -286,7 +338,8 @@ def learn_aisles(
         direction, place = choice % 2, choice // 2
         along, across = (1, ground.stride) if direction == 0 else (ground.stride, 1)
         earned = 0.0
-        for spine in runs.spines[direction, place]:
+        for number in range(runs.spines.shape[2]):
+            spine = runs.spines[direction, place, number]
             if spine < 0:
                 break
             earned += _lay_run(
@@ -298,7 +351,7 @@ def learn_aisles(
             part_end = part_begin + 1 + below(random, np.int64(_LONGEST_PART))
         for run in range(begin, runs.turned[direction]):
             head, length = runs.first[run], runs.length[run]
-            state, most = _state(board, head, length, along, across, profiles)
+            state, most = _state(board, head, length, along, across, room)
             option = below(random, np.int64(OPTIONS))
             if run < part_begin or run >= part_end:
                 option = archive.tapes[entry, run]
@@ -333,14 +386,14 @@ def learn_aisles(
             values[state, option] += alpha * (target - values[state, option])
         curve[episode] = earned
         if connect(ground, board):
-            value = measure(ground, board)
+            value = measure(ground, board, -np.inf)
             if value > NO_VALUE:
                 count = 0
                 for q in ground.squares:
                     if board.cells[q] == 1:
                         laid[count] = q
                         count += 1
-                keep(ground, archive, laid[:count], value, tape, choice)
+                keep(archive, laid, count, value, tape, len(tape), choice)
         epsilon, alpha = epsilon * schedule[1], alpha * schedule[3]
     schedule[0], schedule[2] = epsilon, alpha
     return taken

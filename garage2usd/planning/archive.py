@@ -1,12 +1,13 @@
 """The archive: the best distinct plans met, each with the way that led to it. Compiled."""
+# ruff: noqa: C901 - an entry is written in loops over its numbers
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled, compiled_inner, copy_row
-from garage2usd.planning.ground import Ground
+from garage2usd.compiled import Whole, compiled, compiled_inlined, compiled_inner
+from garage2usd.planning.ground import Ground, Lanes
 
 __all__ = ["Archive", "below", "keep", "new_archive", "next_random", "ranked_lanes", "uniform"]
 
@@ -21,7 +22,7 @@ class Archive(NamedTuple):
     keys
         uint64, shape (size,): the lanes' hash.
     lanes
-        bool, shape (size, squares).
+        bool, shape (size, padded): by square of the padded matrix.
     tapes
         int8, shape (size, steps): actions from the square `starts`, `lengths` of them; of an agent over aisles what
         became of each run, with the choice of direction and spine as `starts`.
@@ -40,12 +41,12 @@ class Archive(NamedTuple):
     in_use: NDArray[np.int64]
 
 
-def new_archive(size: int, *, squares: int, steps: int) -> Archive:
-    """An empty archive."""
+def new_archive(size: int, *, padded: int, steps: int) -> Archive:
+    """An empty archive of plans on a padded matrix with so many squares, for ways of at most so many steps."""
     return Archive(
         np.full(size, -np.inf),
         np.zeros(size, np.uint64),
-        np.zeros((size, squares), np.bool_),
+        np.zeros((size, padded), np.bool_),
         np.zeros((size, steps), np.int8),
         np.zeros(size, np.int64),
         np.zeros(size, np.int64),
@@ -53,10 +54,10 @@ def new_archive(size: int, *, squares: int, steps: int) -> Archive:
     )
 
 
-def ranked_lanes(archive: Archive) -> tuple[tuple[float, NDArray[np.bool_]], ...]:
+def ranked_lanes(archive: Archive, ground: Ground) -> tuple[tuple[float, Lanes], ...]:
     """(value, lanes) of all entries, best first."""
     order = np.argsort(-archive.values[: archive.in_use[0]], kind="stable")
-    return tuple((float(archive.values[entry]), archive.lanes[entry]) for entry in order)
+    return tuple((float(archive.values[entry]), archive.lanes[entry, ground.squares]) for entry in order)
 
 
 @compiled_inner
@@ -92,40 +93,51 @@ def _square_key(square: int) -> np.uint64:
     return _mixed(np.uint64(square + 1) * np.uint64(0x9E3779B97F4A7C15))
 
 
-@compiled_inner
+@compiled_inlined
 def keep(
-    ground: Ground, archive: Archive, laid: NDArray[np.int64], value: float, tape: NDArray[np.int8], start: int
+    archive: Archive,
+    laid: NDArray[np.int64],
+    lanes: int,
+    value: float,
+    tape: NDArray[np.int8],
+    steps: Whole,
+    start: int,
 ) -> None:
     """Keep a plan if it is new and better than the worst kept.
 
     Parameters
     ----------
-    ground, archive
+    archive
         Where.
-    laid
-        Its lanes.
+    laid, lanes
+        Its lanes, and how many there are.
     value
         Its value.
-    tape, start
-        The actions that lead to it, and from where.
+    tape, steps, start
+        The actions that lead to it, how many there are, and from where.
     """
     count, size = archive.in_use, len(archive.values)
     full = count[0] == size
     if full and value <= archive.values[count[1]]:
         return
     key = np.uint64(0)
-    for q in laid:
-        key ^= _square_key(q)
+    for index in range(lanes):
+        key ^= _square_key(laid[index])
     for index in range(count[0]):
         if archive.keys[index] == key:
             return
     place = count[1] if full else count[0]
     count[0] = min(count[0] + 1, size)
     archive.values[place], archive.keys[place] = value, key
-    archive.lanes[place] = False
-    for q in laid:
-        archive.lanes[place, np.searchsorted(ground.squares, q)] = True
-    archive.starts[place], archive.lengths[place] = start, len(tape)
-    copy_row(archive.tapes[place], tape)
+    for q in range(archive.lanes.shape[1]):
+        archive.lanes[place, q] = False
+    for index in range(lanes):
+        archive.lanes[place, laid[index]] = True
+    archive.starts[place], archive.lengths[place] = start, steps
+    for index in range(steps):
+        archive.tapes[place, index] = tape[index]
     if count[0] == size:
-        count[1] = np.argmin(archive.values)
+        count[1] = 0
+        for entry in range(size):
+            if archive.values[entry] < archive.values[count[1]]:
+                count[1] = entry

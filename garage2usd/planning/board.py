@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner
+from garage2usd.compiled import compiled, compiled_inlined, compiled_inner
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.survey import survey
 
@@ -23,7 +23,6 @@ __all__ = [
     "lay",
     "mark_network",
     "measure",
-    "measure_above",
     "new_board",
     "stalls_at",
     "value_now",
@@ -85,7 +84,7 @@ def new_board(ground: Ground) -> Board:
     )
 
 
-@compiled_inner
+@compiled_inlined
 def clear(ground: Ground, board: Board) -> None:
     """Take all lanes off."""
     for q in range(len(ground.cells)):
@@ -170,7 +169,7 @@ def value_now(ground: Ground, board: Board) -> float:
     return float(weights[0] * stalls + weights[1] * mean_time + weights[2] * board.tally[_UNUSED])
 
 
-@compiled_inner
+@compiled_inlined
 def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
     """Dead-end aisles over the ground's limit, from the tip to the next junction or portal."""
     stride, count = ground.stride, 0
@@ -217,17 +216,10 @@ def stalls_at(ground: Ground, board: Board, square: int) -> tuple[int, int]:
 
 
 @compiled
-def measure(ground: Ground, board: Board) -> float:
+def measure(ground: Ground, board: Board, least: float) -> float:
     """Score y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
-    See `measure_above`.
-    """
-    return measure_above(ground, board, -np.inf)
-
-
-@compiled_inner
-def measure_above(ground: Ground, board: Board, least: float) -> float:
-    """What `measure` does, but a score below `least` is returned as it is, without a look at the faults.
+    A score below `least` is returned as it is, without a look at the faults.
 
     Unlike `lay` it keeps neither `edges` nor `near`.
 
@@ -316,7 +308,8 @@ def faults_cost(ground: Ground, board: Board) -> float:
 def mark_network(ground: Ground, board: Board, first: int) -> int:
     """Set `near` to 1 on all lanes and portals that are connected to a lane, to 0 elsewhere; returns how many lanes."""
     cells, reached, queue = board.cells, board.near, board.queue
-    reached[:] = 0
+    for q in range(len(reached)):
+        reached[q] = 0
     queue[0], reached[first] = first, 1
     head, tail = 0, 1
     while head < tail:

@@ -1,17 +1,18 @@
 """Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. Compiled."""
 # Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
-# ruff: noqa: C901, PLR0915, PLR2004 - moves are judged in loops over shared counters
+# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - moves are judged in loops over shared counters
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled, compiled_inner, copy_row
+from garage2usd.compiled import Whole, compiled, compiled_inlined, compiled_inner, copy_row
 from garage2usd.planning.archive import below, uniform
-from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, measure_above, stalls_at
+from garage2usd.planning.board import FAR, FAULTS, NO_VALUE, Board, measure, stalls_at
 from garage2usd.planning.draft import Draft, apply, gather, revert
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.labels import fault, find_faults, is_long, label_lanes, through, trim
 from garage2usd.planning.moves import propose
+from garage2usd.planning.polish import Room
 from garage2usd.planning.sizes import (
     Sizes,
     copy_sides,
@@ -114,7 +115,7 @@ def _drive(board: Board, draft: Draft, sizes: Sizes, stride: int, sign: Whole) -
             sizes.driven[1, q % stride] += sign * (ways >> 1)
 
 
-@compiled_inner
+@compiled_inlined
 def _find_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
     """Find the lines around a move that get another side by it."""
     draft.size[2] = 0
@@ -140,7 +141,7 @@ def _resize_lines(ground: Ground, draft: Draft, sizes: Sizes) -> None:
         resize(ground, sizes, axis, line, side_now(sizes, axis, line))
 
 
-@compiled_inner
+@compiled_inlined
 def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
     """Whether there is such a square around a move."""
     for index in range(draft.size[1]):
@@ -153,7 +154,7 @@ def _touches_long(board: Board, draft: Draft, stretch_squares: int) -> bool:
 def _tally(ground: Ground, board: Board, draft: Draft, sizes: Sizes) -> float:
     """Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible."""
     sync(ground, board, sizes)
-    exact = measure(ground, board)
+    exact = measure(ground, board, -np.inf)
     if exact == NO_VALUE:
         return NO_VALUE
     tally = draft.tally
@@ -175,7 +176,7 @@ def _gain(ground: Ground, draft: Draft, price: float, stretch_price: float) -> f
     return float(gain - price * (change[_BAD] + change[_BLOCKS]) - stretch_price * change[_EXCESS])
 
 
-@compiled_inner
+@compiled_inlined
 def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     """Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most."""
     cells, hops, most = board.cells, board.hops, 0
@@ -188,7 +189,7 @@ def _shortcut(board: Board, draft: Draft, stride: int) -> int:
     return most
 
 
-@compiled_inner
+@compiled_inlined
 def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
     """More than the lines around a move are likely to gain by other sides, to leave most of them unweighed."""
     hope = 0.0
@@ -209,6 +210,7 @@ def anneal_labels(
     board: Board,
     draft: Draft,
     sizes: Sizes,
+    room: Room,
     random: NDArray[np.uint64],
     trials: int,
     heats: tuple[float, float],
@@ -219,8 +221,8 @@ def anneal_labels(
 
     Parameters
     ----------
-    ground, board, draft, sizes
-        The site, its lanes, room for labels, and the sides of the squares.
+    ground, board, draft, sizes, room
+        The site, its lanes, room for labels, the sides of the squares, and room for the best plan room.
     random
         State of the random numbers.
     trials
@@ -241,7 +243,8 @@ def anneal_labels(
     """
     cells, rules = board.cells, ground.rules
     best, best_faults, fault_price = NO_VALUE, np.int64(0), _FAULT_PRICE
-    best_cells, best_kept, copy = cells.copy(), sizes.kept_mm.copy(), cells.copy()
+    copy_row(room.cells, cells)
+    copy_sides(room.kept_mm, sizes.kept_mm)
     cooling = (heats[1] / heats[0]) ** (1.0 / max(1, trials))
     pricing = (prices[1] / prices[0]) ** (1.0 / max(1, trials))
     heat, price, stretch_price = heats[0], prices[0], prices[2]
@@ -250,37 +253,38 @@ def anneal_labels(
     label_lanes(ground, board, draft)
     if is_sized:
         sync(ground, board, sizes)
-        measure(ground, board)
+        measure(ground, board, -np.inf)
         settle(ground, board, sizes, 2)
     _tally(ground, board, draft, sizes)
     find_faults(ground, board, draft)
-    changed, hops = 1, board.hops.copy()
+    copy_row(draft.hops, board.hops)
+    changed = 1
     faulty_share = _FAULTY_SHARE
     for trial in range(trials + _MENDING_TRIALS + 1):
         if trial == trials:
             heat, faulty_share, refresh = _MENDING_HEAT, _MENDING_FAULTY_SHARE, _MENDING_REFRESH
         if trial == trials or (trial % refresh == refresh - 1 and changed > 0):
             changed = 0
-            copy_row(copy, cells)
+            copy_row(draft.cells, cells)
             if rules.is_asked:
                 trim(ground, board)
             measured = _tally(ground, board, draft, sizes)
             faults = board.tally[FAULTS]
             if measured - fault_price * faults > best - fault_price * best_faults:
                 best, best_faults = measured, faults
-                copy_row(best_cells, cells)
-                copy_sides(best_kept, sizes.kept_mm)
-            copy_row(cells, copy)
+                copy_row(room.cells, cells)
+                copy_sides(room.kept_mm, sizes.kept_mm)
+            copy_row(cells, draft.cells)
             if trial >= trials:
                 # what is broken still is mended on the best, from its trimmed lanes
                 fault_price = _FAULT_PRICE_AT_LAST
-                copy_row(cells, best_cells)
-                copy_sides(sizes.kept_mm, best_kept)
+                copy_row(cells, room.cells)
+                copy_sides(sizes.kept_mm, room.kept_mm)
             # moves leave labels that are sound but not what pruning says: loops of dead ends
             label_lanes(ground, board, draft)
             _tally(ground, board, draft, sizes)
             find_faults(ground, board, draft)
-            copy_row(hops, board.hops)
+            copy_row(draft.hops, board.hops)
             # beyond the last trial only to mend what is broken still
             if trial >= trials and best_faults == 0:
                 break
@@ -294,9 +298,9 @@ def anneal_labels(
         if not propose(ground, board, draft, random, faulty_share):
             continue
         threshold = heat * np.log(max(uniform(random), 1e-300))
-        changed += _try_move(ground, board, draft, sizes, hops, threshold, price, stretch_price)
-    copy_row(cells, best_cells)
-    copy_sides(sizes.kept_mm, best_kept)
+        changed += _try_move(ground, board, draft, sizes, threshold, price, stretch_price)
+    copy_row(cells, room.cells)
+    copy_sides(sizes.kept_mm, room.kept_mm)
     return _tally(ground, board, draft, sizes)
 
 
@@ -306,16 +310,16 @@ def _try_move(
     board: Board,
     draft: Draft,
     sizes: Sizes,
-    hops: NDArray[np.int32],
     threshold: float,
     price: float,
     stretch_price: float,
 ) -> bool:
-    """Make the move of the draft if it gains as much as the threshold; `hops` holds those of the lanes as they are."""
+    """Make the move of the draft if it gains as much as the threshold."""
     tally, change, stride = draft.tally, draft.change, ground.stride
     is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
     gather(draft, stride)
-    change[:] = 0
+    for figure in range(len(change)):
+        change[figure] = 0
     draft.size[2] = 0
     _count(ground, board, draft, _TAKEN_OFF)
     if _touches_long(board, draft, ground.rules.stretch_squares):
@@ -336,16 +340,16 @@ def _try_move(
         if is_sized:
             _find_lines(ground, draft, sizes)
             _resize_lines(ground, draft, sizes)
-        if measure_above(ground, board, np.inf) > NO_VALUE:
+        if measure(ground, board, np.inf) > NO_VALUE:
             for figure in range(3):
                 change[figure] = board.tally[figure] - tally[figure]
             gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * (sizes.area_m2[0] - floor)
             if gain >= threshold:
-                copy_row(hops, board.hops)
+                copy_row(draft.hops, board.hops)
                 for figure in range(3):
                     tally[figure] += change[figure]
                 return True
-        copy_row(board.hops, hops)
+        copy_row(board.hops, draft.hops)
     if is_sized:
         _drive(board, draft, sizes, stride, _TAKEN_OFF)
     revert(board, draft)
@@ -355,7 +359,7 @@ def _try_move(
     return False
 
 
-@compiled_inner
+@compiled_inlined
 def _try_side(
     ground: Ground, board: Board, draft: Draft, sizes: Sizes, random: NDArray[np.uint64], heat: float
 ) -> None:
@@ -366,9 +370,10 @@ def _try_side(
     if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0 or side == sizes.kept_mm[axis, line]:
         return
     change, tally = draft.change, draft.tally
-    change[:] = 0
     fitted = max(side, sizes.least_mm[axis, line])
-    area = weigh(ground, board, sizes, axis, line, fitted, change)
+    area = weigh(ground, board, sizes, axis, line, fitted)
+    for figure in range(len(change)):
+        change[figure] = sizes.change[figure] if figure < len(sizes.change) else 0
     if _gain(ground, draft, 0.0, 0.0) - sizes.price[0] * area >= heat * np.log(max(uniform(random), 1e-300)):
         sizes.kept_mm[axis, line] = side
         resize(ground, sizes, axis, line, fitted)

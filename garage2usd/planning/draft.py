@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled_inner
+from garage2usd.compiled import Whole, compiled_inlined, compiled_inner
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.ground import Ground
 
@@ -35,11 +35,15 @@ class Draft(NamedTuple):
         int8: labels after and before the move.
     old_hops
         int32: hops of the moved squares before it.
+    cells, hops
+        int8 and int32, by square: cells before the dead ends are trimmed, and hops of the lanes before a move.
     lines
         int64, shape (K, 2): axis and number of the lines that get another side by a move.
     size
         int64, shape (4,): how many squares are moved, how many are around, how many lines get another side, and how
         many squares are faulty.
+    lengths
+        int64, shape (2,): squares of a path on either side of where it is met.
     tally
         int64, shape (6,): stalls, time, unused squares, faults of labels, blocks, squares too long.
     change
@@ -56,8 +60,11 @@ class Draft(NamedTuple):
     fresh: NDArray[np.int8]
     old: NDArray[np.int8]
     old_hops: NDArray[np.int32]
+    cells: NDArray[np.int8]
+    hops: NDArray[np.int32]
     lines: NDArray[np.int64]
     size: NDArray[np.int64]
+    lengths: NDArray[np.int64]
     tally: NDArray[np.int64]
     change: NDArray[np.int64]
 
@@ -76,8 +83,11 @@ def new_draft(ground: Ground) -> Draft:
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int8),
         np.zeros(_MOVED, np.int32),
+        np.zeros(size, np.int8),
+        np.zeros(size, np.int32),
         np.zeros((10 * _MOVED, 2), np.int64),
         np.zeros(4, np.int64),
+        np.zeros(2, np.int64),
         np.zeros(6, np.int64),
         np.zeros(6, np.int64),
     )
@@ -94,7 +104,7 @@ def add_square(draft: Draft, q: int, label: Whole) -> bool:
     return True
 
 
-@compiled_inner
+@compiled_inlined
 def gather(draft: Draft, stride: int) -> None:
     """Find the squares that a move may touch."""
     draft.marks[0] += 1
@@ -109,7 +119,7 @@ def gather(draft: Draft, stride: int) -> None:
     draft.size[1] = size
 
 
-@compiled_inner
+@compiled_inlined
 def apply(ground: Ground, board: Board, draft: Draft) -> None:
     """Make the move; new lanes get their hops from what is around."""
     cells, hops, label, stride = board.cells, board.hops, draft.label, ground.stride
@@ -134,7 +144,7 @@ def apply(ground: Ground, board: Board, draft: Draft) -> None:
                         hops[q] = 1
 
 
-@compiled_inner
+@compiled_inlined
 def revert(board: Board, draft: Draft) -> None:
     """Take the move back."""
     for index in range(draft.size[0] - 1, -1, -1):

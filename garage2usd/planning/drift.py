@@ -80,9 +80,18 @@ def _reach(board: Board, stride: int, q: int, p: int) -> bool:
 
 @compiled
 def drift(
-    ground: Ground, board: Board, random: NDArray[np.uint64], flips: int, hottest: float, coldest: float, refresh: int
+    ground: Ground,
+    board: Board,
+    best_cells: NDArray[np.int8],
+    random: NDArray[np.uint64],
+    flips: int,
+    hottest: float,
+    coldest: float,
+    refresh: int,
 ) -> float:
     """Anneal the feasible lanes in `board.cells`; leaves the best measured there and returns its value.
+
+    `best_cells` is room for as many.
 
     Notes
     -----
@@ -91,23 +100,24 @@ def drift(
     measurements take no more than a share of the time.
     """
     cells, stride, weights = board.cells, ground.stride, ground.weights
-    measured = measure(ground, board)
-    best, best_cells = measured, cells.copy()
+    measured = measure(ground, board, -np.inf)
+    best = measured
+    copy_row(best_cells, cells)
     stalls, time, unused = board.tally[0], board.tally[1], board.tally[2]
-    around = np.zeros(8, np.int64)
+    around = board.queue  # measuring needs it no longer than a call
     cooling = (coldest / hottest) ** (1.0 / max(1, flips))
     heat, changed, wholes = hottest, 0, 0
     for trial in range(flips):
         heat *= cooling
         if trial % refresh == refresh - 1 and changed > 0:
-            measured = measure(ground, board)
+            measured = measure(ground, board, -np.inf)
             stalls, time, unused, changed = board.tally[0], board.tally[1], board.tally[2], 0
             if measured > best:
                 best = measured
                 copy_row(best_cells, cells)
         draw = next_random(random)
-        q = ground.squares[int((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
-        step = (0, 0, 1, stride)[int(draw & np.uint64(3))]
+        q = ground.squares[np.int64((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
+        step = (0, 0, 1, stride)[np.int64(draw & np.uint64(3))]
         p = q + step
         if cells[p] != 0 and cells[p] != 1:
             continue
@@ -156,7 +166,7 @@ def drift(
                     changed += 1
                 elif held and change > 0 and wholes * len(ground.squares) <= _WHOLE_SHARE * trial:
                     wholes += 1
-                    exact = measure(ground, board)
+                    exact = measure(ground, board, -np.inf)
                     now = weights[0] * stalls + before + weights[2] * unused
                     if exact > NO_VALUE and exact >= now + threshold:
                         accepted = True
@@ -169,10 +179,10 @@ def drift(
         if not accepted:
             flip(cells, q, p)
             if whole:  # the measurement took all distances with it
-                measure(ground, board)
+                measure(ground, board, -np.inf)
             else:
                 _reach(board, stride, q, p)
-    if measure(ground, board) > best:
+    if measure(ground, board, -np.inf) > best:
         copy_row(best_cells, cells)
     copy_row(cells, best_cells)
-    return measure(ground, board)
+    return measure(ground, board, -np.inf)

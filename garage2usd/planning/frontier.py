@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, copy_row
+from garage2usd.compiled import compiled, compiled_allocating, copy_row
 from garage2usd.planning.board import FAR, Board, measure
 from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, first_frontier, step
 from garage2usd.planning.ground import PADDING, Ground
@@ -18,7 +18,7 @@ from garage2usd.planning.ground import PADDING, Ground
 __all__ = ["Enumeration", "advance", "enumerate_layouts", "new_enumeration", "suffix_values"]
 
 
-@compiled
+@compiled_allocating
 def advance(
     table: SquareTable, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
@@ -47,7 +47,7 @@ def advance(
     return unique_keys[:size].copy(), unique_values[:size].copy()
 
 
-@compiled
+@compiled_allocating
 def suffix_values(
     table: SquareTable,
     index: int,
@@ -132,6 +132,8 @@ class Enumeration(NamedTuple):
         (squares,).
     keys, values
         Frontier and value before each square; int64 and float64, shape (squares + 1,).
+    room
+        int64, shape (3, columns + 2), as `step` asks for.
     best_cells
         The cells of the best layout, as in `Board.cells`.
     best
@@ -148,6 +150,7 @@ class Enumeration(NamedTuple):
     tried: NDArray[np.int64]
     keys: NDArray[np.int64]
     values: NDArray[np.float64]
+    room: NDArray[np.int64]
     best_cells: NDArray[np.int8]
     best: NDArray[np.float64]
     counts: NDArray[np.int64]
@@ -167,6 +170,7 @@ def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumera
         tried=np.full(total, -1),
         keys=keys,
         values=np.zeros(total + 1),
+        room=np.zeros((3, table.cols + 2), np.int64),
         best_cells=ground.cells.copy(),
         best=np.array([floor]),
         counts=np.zeros(2, np.int64),
@@ -204,7 +208,7 @@ def enumerate_layouts(
         Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
     """
     total, choices = state.ways.shape
-    room = np.zeros((3, table.cols + 2), np.int64)
+    room = state.room
     ways, bounds, children, tried = state.ways, state.bounds, state.children, state.tried
     next_keys, next_values = state.next_keys, state.next_values
     stride = ground.stride
@@ -214,7 +218,7 @@ def enumerate_layouts(
         if depth < 0:
             break
         if depth == total:
-            value = measure(ground, board)
+            value = measure(ground, board, -np.inf)
             state.counts[1] += 1
             if value > best + 1e-9:
                 best = value

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled_inner
+from garage2usd.compiled import compiled_inlined, compiled_inner
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft
 from garage2usd.planning.ground import Ground
@@ -19,7 +19,8 @@ def label_lanes(ground: Ground, board: Board, draft: Draft) -> None:
     cells, label, state, queue = board.cells, draft.label, board.state, draft.queue
     deepest = ground.rules.dead_end_squares
     survey(ground.squares, ground.stride, cells, state, board.queue, deepest, np.int64(0))
-    label[:] = 0
+    for q in range(len(label)):
+        label[q] = 0
     for q in ground.squares:
         if cells[q] == 1:
             label[q] = 1
@@ -92,7 +93,7 @@ def is_long(board: Board, stretch_squares: int, q: int) -> bool:
     return bool(stretch_squares > 0 and board.state[q] > STRETCH + stretch_squares)
 
 
-@compiled_inner
+@compiled_inlined
 def trim(ground: Ground, board: Board) -> None:
     """Take off the tips of all dead ends that are too deep, until none is."""
     cells, rules = board.cells, ground.rules

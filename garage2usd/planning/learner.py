@@ -80,12 +80,13 @@ def _learn_once(
 ) -> Learnt:
     """Run all episodes in batches, between which progress is reported and signals are handled."""
     from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415 - only planning pays for it
-    from garage2usd.planning.sarsa import grown, learn, new_memory  # noqa: PLC0415
+    from garage2usd.planning.sarsa import grown, learn, new_memory, new_room  # noqa: PLC0415
 
     parameters = plan.resolved()
     steps = parameters.max_steps_per_square * len(ground.squares)
     kept = min(plan.archive_size, _ELITE) if parameters.revisit_rate else plan.archive_size
-    archive = new_archive(kept, squares=len(ground.squares), steps=steps)
+    archive = new_archive(kept, padded=len(ground.cells), steps=steps)
+    room = new_room(ground, archive)
     memory = new_memory(parameters, bits=max(_TABLE_BITS, (4 * steps).bit_length()))
     curve = np.zeros(plan.episodes)
     batch = max(1, _BATCH_SQUARES // len(ground.squares))
@@ -94,11 +95,11 @@ def _learn_once(
         progress("plan", episode, plan.episodes)
         goal = min(episode + batch, plan.episodes)
         while episode < goal:
-            episode, more = learn(ground, board, parameters, memory, archive, random, curve, episode, goal)
+            episode, more = learn(ground, board, parameters, memory, archive, room, random, curve, episode, goal)
             taken += more
             if episode < goal:
                 memory = grown(memory)
-    return Learnt(ranked_lanes(archive), curve, taken)
+    return Learnt(ranked_lanes(archive, ground), curve, taken)
 
 
 def learn_aisles(
@@ -119,17 +120,18 @@ def learn_aisles(
     runs = aisles.runs_of(ground)
     if not len(runs.first):
         return Learnt((), np.zeros(plan.episodes), 0)
-    archive = new_archive(plan.archive_size, squares=len(ground.squares), steps=len(runs.first))
+    archive = new_archive(plan.archive_size, padded=len(ground.cells), steps=len(runs.first))
     greedy = parameters._replace(revisit_rate=0.0)
     whole = 2 * runs.spines.shape[1]
     taken, values, best = 0, aisles.new_values(), -np.inf
+    room = aisles.new_room(ground, runs)
     for start in range(parameters.starts):
         progress("plan", start, parameters.starts)
         learnt, steps = _school(ground, greedy, random)
-        tried = new_archive(1, squares=len(ground.squares), steps=len(runs.first))
+        tried = new_archive(1, padded=len(ground.cells), steps=len(runs.first))
         schedule, curve = np.array([0.0, 1.0, 0.0, 1.0]), np.zeros(whole)
         taken += steps + aisles.learn_aisles(
-            ground, board, runs, greedy, learnt, tried, random, curve, schedule, 0, whole
+            ground, board, runs, greedy, learnt, tried, room, random, curve, schedule, 0, whole
         )
         if tried.in_use[0] and tried.values[0] > best:
             values, best = learnt, tried.values[0]
@@ -142,10 +144,10 @@ def learn_aisles(
     for first in range(0, episodes, batch):
         progress("plan", first, episodes)
         taken += aisles.learn_aisles(
-            ground, board, runs, parameters, values, archive, random, curve, schedule,
+            ground, board, runs, parameters, values, archive, room, random, curve, schedule,
             first, min(first + batch, episodes),
         )  # fmt: skip
-    return Learnt(ranked_lanes(archive), curve, taken)
+    return Learnt(ranked_lanes(archive, ground), curve, taken)
 
 
 def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint64]) -> tuple[NDArray[np.float64], int]:
@@ -156,10 +158,10 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
 
     nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(next_random(random)))))
     values, runs = aisles.new_values(), aisles.runs_of(nursery)
-    archive = new_archive(1, squares=len(nursery.squares), steps=len(runs.first))
+    archive = new_archive(1, padded=len(nursery.cells), steps=len(runs.first))
     schedule = _schedule(_NURSERY_EPISODES, epsilon=(0.5, 0.02), alpha=(0.3, 0.02))
     taken = aisles.learn_aisles(
-        nursery, new_board(nursery), runs, parameters, values, archive, random,
+        nursery, new_board(nursery), runs, parameters, values, archive, aisles.new_room(nursery, runs), random,
         np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES,
     )  # fmt: skip
     return values, taken

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled_inner
+from garage2usd.compiled import compiled_inlined, compiled_inner
 from garage2usd.planning.archive import below, uniform
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft, add_square
@@ -54,7 +54,7 @@ def propose(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint6
     return _shift_run(ground, board, draft, q, step)
 
 
-@compiled_inner
+@compiled_inlined
 def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> int:
     """A label that suits a new lane on a square, mostly."""
     label, deepest = draft.label, ground.rules.dead_end_squares
@@ -70,7 +70,7 @@ def _new_label(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return least + 1 if least <= deepest else 1
 
 
-@compiled_inner
+@compiled_inlined
 def _flip(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane goes, or a free square beside a lane becomes one."""
     if board.cells[q] == 1:
@@ -81,7 +81,7 @@ def _flip(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64]
     return touched and add_square(draft, q, _new_label(ground, board, draft, random, q))
 
 
-@compiled_inner
+@compiled_inlined
 def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """A lane gets another label."""
     if board.cells[q] != 1:
@@ -90,7 +90,7 @@ def _relabel(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     return fresh != draft.label[q] and add_square(draft, q, fresh)
 
 
-@compiled_inner
+@compiled_inlined
 def _exchange(board: Board, draft: Draft, q: int, p: int) -> bool:
     """A lane moves to the free square beside it."""
     if board.cells[q] != 1 or board.cells[p] != 0:
@@ -98,7 +98,7 @@ def _exchange(board: Board, draft: Draft, q: int, p: int) -> bool:
     return add_square(draft, q, _OFF) and add_square(draft, p, np.int64(draft.label[q]))
 
 
-@compiled_inner
+@compiled_inlined
 def _flip_pair(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int, p: int) -> bool:
     """Two lanes side by side go, or two free squares become lanes that lead on or end."""
     cells, deepest = board.cells, ground.rules.dead_end_squares
@@ -110,14 +110,15 @@ def _flip_pair(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return add_square(draft, q, np.int64(2 if ends else 1)) and add_square(draft, p, np.int64(3 if ends else 1))
 
 
-@compiled_inner
+@compiled_inlined
 def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], q: int) -> bool:
     """The path between two junctions goes, but for dead ends beside these."""
     cells, label, stride, deepest = board.cells, draft.label, ground.stride, ground.rules.dead_end_squares
     if label[q] != 1 or through(cells, label, stride, q) != 2:
         return False
     add_square(draft, q, _OFF)
-    lengths = np.zeros(2, np.int64)
+    lengths = draft.lengths
+    lengths[0] = lengths[1] = 0
     for side in range(2):
         previous, here, found = q, q, 0
         for step in (-stride, stride, -1, 1):
@@ -151,7 +152,7 @@ def _take_path(ground: Ground, board: Board, draft: Draft, random: NDArray[np.ui
     return True
 
 
-@compiled_inner
+@compiled_inlined
 def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) -> bool:
     """A straight run between two junctions shifts to the side."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -176,7 +177,7 @@ def _shift_run(ground: Ground, board: Board, draft: Draft, q: int, step: int) ->
     return True
 
 
-@compiled_inner
+@compiled_inlined
 def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Lead a new lane from one on over free squares to the next lane, straight or with one bend."""
     cells, label, stride = board.cells, draft.label, ground.stride
@@ -198,7 +199,7 @@ def _connect(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint
     return True
 
 
-@compiled_inner
+@compiled_inlined
 def _shift_line(ground: Ground, board: Board, draft: Draft, random: NDArray[np.uint64], start: int, step: int) -> bool:
     """Shift all lanes of a line along which cars drive to the side, with the ends of what they join."""
     cells, label, stride = board.cells, draft.label, ground.stride

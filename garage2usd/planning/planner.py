@@ -127,7 +127,7 @@ def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[Ranked]:
     put_lanes(ground, board, lanes)
     if not connect(ground, board):
         return []
-    value = max(measure(ground, board), NO_VALUE)  # without stalls it has no value, but stands
+    value = max(measure(ground, board, -np.inf), NO_VALUE)  # without stalls it has no value, but stands
     return [(value, lanes_on(ground, board))]
 
 
@@ -136,7 +136,7 @@ def _score(ground: Ground, board: "Board", lanes: Lanes) -> Score:
     from garage2usd.planning.board import measure, value_now  # noqa: PLC0415
 
     put_lanes(ground, board, lanes)
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     stalls, time, unused = board.tally[:3].tolist()
     if stalls == 0:
         return Score(float(ground.weights[2] * unused), 0, 0.0, unused)

@@ -1,15 +1,18 @@
 """Repair and polish of lanes: joining what is apart, and flips of squares that raise the value. Compiled."""
+# ruff: noqa: C901, PLR0912, PLR0915 - climbing and annealing in one function, as each is compiled with all it calls
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inner, copy_row
+from garage2usd.compiled import compiled, compiled_inlined, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure_above
+from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes, copy_sides, floor_cost, settle, side_now, sync
 
-__all__ = ["anneal", "climb", "connect", "settled_worth", "worth"]
+__all__ = ["Room", "connect", "improve", "new_room"]
 
 _RESIZED_EVERY = 40
 """One move in so many is of a side, of which there are far fewer than squares."""
@@ -41,7 +44,7 @@ def connect(ground: Ground, board: Board) -> bool:
     return joined
 
 
-@compiled_inner
+@compiled_inlined
 def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     """A square beside a portal: the first lane, else a free one from which all portals are reached, or -1."""
     cells, free = board.cells, -1
@@ -54,7 +57,7 @@ def _lane_at(ground: Ground, board: Board, portal: int) -> int:
     return free
 
 
-@compiled_inner
+@compiled_inlined
 def _lay_way(ground: Ground, board: Board) -> bool:
     """Lay the shortest way over free squares from the marked network to any other lane or portal."""
     cells, reached, came, queue = board.cells, board.near, board.hops, board.queue
@@ -83,26 +86,27 @@ def _lay_way(ground: Ground, board: Board) -> bool:
     return False
 
 
-@compiled_inner
+@compiled_inlined
 def _reaches_all(ground: Ground, board: Board, first: int) -> bool:
-    """Whether every portal is reached from a square over squares that are free or lanes."""
-    cells, queue = board.cells, board.queue
-    seen = np.zeros(len(cells), np.bool_)
-    queue[0], seen[first] = first, True
+    """Whether every portal is reached from a square over squares that are free or lanes; takes `near` for marks."""
+    cells, queue, seen = board.cells, board.queue, board.near
+    for q in range(len(cells)):
+        seen[q] = 0
+    queue[0], seen[first] = first, 1
     head, tail = 0, 1
     while head < tail:
         q = queue[head]
         head += 1
         for step in (-ground.stride, ground.stride, -1, 1):
             p = q + step
-            if cells[p] >= 0 and not seen[p]:
-                seen[p] = True
+            if cells[p] >= 0 and seen[p] == 0:
+                seen[p] = 1
                 if cells[p] <= 1:
                     queue[tail] = p
                     tail += 1
     all_seen = True
     for portal in ground.portals:
-        all_seen &= seen[portal]
+        all_seen &= seen[portal] == 1
     return all_seen
 
 
@@ -116,39 +120,83 @@ def _beside_lane(ground: Ground, board: Board, square: int) -> bool:
 
 
 @compiled_inner
-def worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
+def _worth(ground: Ground, board: Board, sizes: Sizes, least: float) -> float:
     """Value of the lanes on the board less the price of the floor, in the sides that they ask for, or NO_VALUE.
 
     Below `least` faults may be left out of it.
     """
     if not (sizes.is_chosen[0] or sizes.is_chosen[1]):
-        return measure_above(ground, board, least)
+        return measure(ground, board, least)
     sync(ground, board, sizes)
     floor = floor_cost(sizes)
-    value = measure_above(ground, board, least + floor)
+    value = measure(ground, board, least + floor)
     return value if value == NO_VALUE else value - floor
 
 
+class Room(NamedTuple):
+    """Room to polish plans.
+
+    Attributes
+    ----------
+    cells
+        int8, as in `Board.cells`: the best lanes met.
+    kept_mm
+        int64, as in `Sizes.kept_mm`: the sides of the best plan met.
+    order
+        int64: the free squares, in the order of a pass over them.
+    """
+
+    cells: NDArray[np.int8]
+    kept_mm: NDArray[np.int64]
+    order: NDArray[np.int64]
+
+
+def new_room(ground: Ground, sizes: Sizes) -> Room:
+    """Room for the plans of a ground."""
+    return Room(ground.cells.copy(), sizes.kept_mm.copy(), ground.squares.copy())
+
+
 @compiled
-def settled_worth(ground: Ground, board: Board, sizes: Sizes) -> float:
-    """The same after every line along which no car drives has got the side that pays best; NO_VALUE if infeasible."""
-    if sizes.is_chosen[0] or sizes.is_chosen[1]:
+def improve(
+    ground: Ground,
+    board: Board,
+    sizes: Sizes,
+    room: Room,
+    random: NDArray[np.uint64],
+    passes: int,
+    flips: int,
+    hottest: float,
+    coldest: float,
+) -> float:
+    """Improve the feasible lanes in `board.cells`; leaves the best met there and returns its value.
+
+    First every line along which no car drives gets the side that pays best.
+
+    Parameters
+    ----------
+    ground, board, sizes, room, random
+        The site, its lanes, the sides of its squares, room for plans, and the state of the random numbers.
+    passes
+        Of hill climbing, by flips of one square or of two side by side; it ends where none improves.
+    flips
+        Of annealing, which follows. Lines along which no car drives take other sides now and then, where sides are
+        chosen. Plans that break fewer rules of circulation are better than others, whatever their value.
+    hottest, coldest
+        Temperature of annealing at first and at last, in stalls.
+    """
+    cells, order = board.cells, room.order
+    is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
+    value = NO_VALUE
+    if is_sized:
         sync(ground, board, sizes)
-        if measure_above(ground, board, np.inf) == NO_VALUE:
-            return NO_VALUE
-        settle(ground, board, sizes, _SETTLING_PASSES)
-    return worth(ground, board, sizes, -np.inf)
-
-
-@compiled
-def climb(ground: Ground, board: Board, sizes: Sizes, random: NDArray[np.uint64], passes: int) -> float:
-    """Raise the value of the lanes in `board.cells` by flips of one square or of two side by side; returns it."""
-    cells = board.cells
-    value = settled_worth(ground, board, sizes)
-    order = ground.squares.copy()
+    if not is_sized or measure(ground, board, np.inf) != NO_VALUE:
+        if is_sized:
+            settle(ground, board, sizes, _SETTLING_PASSES)
+        value = _worth(ground, board, sizes, -np.inf)
+    copy_row(order, ground.squares)
     for _ in range(passes):
         for index in range(len(order) - 1, 0, -1):
-            other = int(next_random(random) % np.uint64(index + 1))
+            other = np.int64(next_random(random) % np.uint64(index + 1))
             order[index], order[other] = order[other], order[index]
         improved = False
         for q in order:
@@ -159,36 +207,19 @@ def climb(ground: Ground, board: Board, sizes: Sizes, random: NDArray[np.uint64]
                 if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
                     continue
                 flip(cells, q, p)
-                tried = worth(ground, board, sizes, value)
+                tried = _worth(ground, board, sizes, value)
                 if tried > NO_VALUE and tried > value + 1e-9:
                     value, improved = tried, True
                 else:
                     flip(cells, q, p)
         if not improved:
             break
-    return worth(ground, board, sizes, -np.inf)
-
-
-@compiled
-def anneal(
-    ground: Ground,
-    board: Board,
-    sizes: Sizes,
-    random: NDArray[np.uint64],
-    flips: int,
-    hottest: float,
-    coldest: float,
-) -> float:
-    """Anneal the feasible lanes in `board.cells`; leaves the best met there and returns its value.
-
-    Lines along which no car drives take other sides now and then, where sides are chosen. Plans that break fewer rules
-    of circulation are better than others, whatever their value.
-    """
-    cells = board.cells
-    is_sized = sizes.is_chosen[0] or sizes.is_chosen[1]
-    value = settled_worth(ground, board, sizes)
-    best, best_faults, best_cells, best_kept = value, board.tally[FAULTS], cells.copy(), sizes.kept_mm.copy()
-    cooling = (coldest / hottest) ** (1.0 / max(1, flips))
+    if flips == 0:
+        return _worth(ground, board, sizes, -np.inf)
+    best, best_faults = value, board.tally[FAULTS]
+    copy_row(room.cells, cells)
+    copy_sides(room.kept_mm, sizes.kept_mm)
+    cooling = (coldest / hottest) ** (1.0 / flips)
     heat = hottest
     for _ in range(flips):
         heat *= cooling
@@ -201,33 +232,33 @@ def anneal(
             if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0:
                 continue
             kept = sizes.kept_mm[axis, line]
-            sizes.kept_mm[axis, line] = sizes.free_mm[int((draw >> np.uint64(20)) % np.uint64(len(sizes.free_mm)))]
+            sizes.kept_mm[axis, line] = sizes.free_mm[np.int64((draw >> np.uint64(20)) % np.uint64(len(sizes.free_mm)))]
             if side_now(sizes, axis, line) == sizes.actual_mm[axis, line]:
                 continue
-            tried = worth(ground, board, sizes, threshold)
+            tried = _worth(ground, board, sizes, threshold)
             if tried >= threshold:
                 value = tried
             else:
                 sizes.kept_mm[axis, line] = kept
             continue
-        q = ground.squares[int((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
-        step = (0, 0, 1, ground.stride)[int(draw & np.uint64(3))]
+        q = ground.squares[np.int64((draw >> np.uint64(8)) % np.uint64(len(ground.squares)))]
+        step = (0, 0, 1, ground.stride)[np.int64(draw & np.uint64(3))]
         p = q + step
         if cells[p] != 0 and cells[p] != 1:
             continue
         if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
             continue
         flip(cells, q, p)
-        tried = worth(ground, board, sizes, threshold)
+        tried = _worth(ground, board, sizes, threshold)
         if tried > NO_VALUE and tried >= threshold:
             value = tried
             faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and value > best + 1e-9):
                 best, best_faults = value, faults
-                copy_row(best_cells, cells)
-                copy_sides(best_kept, sizes.kept_mm)
+                copy_row(room.cells, cells)
+                copy_sides(room.kept_mm, sizes.kept_mm)
         else:
             flip(cells, q, p)
-    copy_row(cells, best_cells)
-    copy_sides(sizes.kept_mm, best_kept)
-    return worth(ground, board, sizes, -np.inf)
+    copy_row(cells, room.cells)
+    copy_sides(sizes.kept_mm, room.kept_mm)
+    return _worth(ground, board, sizes, -np.inf)

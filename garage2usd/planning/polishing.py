@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from garage2usd.planning.board import Board
+    from garage2usd.planning.polish import Room
     from garage2usd.planning.sizes import Sizes
 
 __all__ = ["polish"]
@@ -124,39 +125,46 @@ class _Polisher:
         return len(self.ground.squares)
 
     @cached_property
+    def room(self) -> "Room":
+        """Room for plans."""
+        from garage2usd.planning.polish import new_room  # noqa: PLC0415
+
+        return new_room(self.ground, self.sizes)
+
+    @cached_property
     def is_sized(self) -> bool:
         """Whether R or C is chosen with the plan."""
         return bool(self.sizes.is_chosen.any())
 
     def valued(self, ranked: list[Ranked]) -> list[Ranked]:
         """The same with their values in the sides that suit each; best first."""
-        from garage2usd.planning.polish import settled_worth  # noqa: PLC0415
 
         def value(lanes: Lanes) -> float:
             put_lanes(self.ground, self.board, lanes)
-            return settled_worth(self.ground, self.board, self.sizes)
+            return self._improve()
 
         return ranked_plans([(value(lanes), lanes) for _, lanes in ranked])
 
     def climbed(self, ranked: list[Ranked], count: int) -> list[Ranked]:
         """The best climbed by flips, as many as are affordable, and all as they were; best first."""
-        from garage2usd.planning.polish import climb  # noqa: PLC0415
-
         affordable = max(1, _CLIMB_SQUARES // (20 * self.squares**2))
-        climbing = partial(climb, self.ground, self.board, self.sizes, self.random, _CLIMB_PASSES)
+        climbing = partial(self._improve, passes=_CLIMB_PASSES)
         return self._improved(ranked, ranked[: min(count, affordable)], climbing)
 
     def annealed(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed, each flip judged by the whole plan, and all as they were; best first."""
-        from garage2usd.planning.polish import anneal  # noqa: PLC0415
-
         is_small = self.squares <= _SMALL_SQUARES
         count, work, heats = _ANNEALED if is_small else _ANNEALED_MIDDLE
         if self.is_sized:  # each flip takes longer
             count, work = count // 2, work if is_small else work // 3
-        flips = int(work * self.effort) // self.squares
-        annealing = partial(anneal, self.ground, self.board, self.sizes, self.random, flips, *heats)
+        annealing = partial(self._improve, flips=int(work * self.effort) // self.squares, heats=heats)
         return self._improved(ranked, ranked[:count] if is_small else apart(ranked, count), annealing)
+
+    def _improve(self, *, passes: int = 0, flips: int = 0, heats: tuple[float, float] = (1.0, 1.0)) -> float:
+        """Climb and anneal the lanes on the board; their value."""
+        from garage2usd.planning.polish import improve  # noqa: PLC0415
+
+        return improve(self.ground, self.board, self.sizes, self.room, self.random, passes, flips, *heats)
 
     def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed under the rules of circulation by labels, and all as they were; best first."""
@@ -176,7 +184,7 @@ class _Polisher:
                 break
             prices = _LABEL_PRICES[number % len(_LABEL_PRICES)]
             annealing = partial(
-                anneal_labels, self.ground, self.board, draft, self.sizes, self.random,
+                anneal_labels, self.ground, self.board, draft, self.sizes, self.room, self.random,
                 trials, _LABEL_HEATS, prices, refresh,
             )  # fmt: skip
             ranked = self._improved(ranked, [starts[number % len(starts)]], annealing)
@@ -188,7 +196,9 @@ class _Polisher:
 
         hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
         flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
-        drifting = partial(drift, self.ground, self.board, self.random, flips, hottest, _DRIFT_COLDEST, refresh)
+        drifting = partial(
+            drift, self.ground, self.board, self.room.cells, self.random, flips, hottest, _DRIFT_COLDEST, refresh
+        )
         return self._improved(ranked, ranked[:_DRIFTED], drifting)
 
     def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: "Callable[[], float]") -> list[Ranked]:

@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from garage2usd.config import BayConfig
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimensioned
@@ -49,7 +51,7 @@ def faults_of(ground: Ground, board: "Board", lanes: Lanes) -> int:
     from garage2usd.planning.board import FAULTS, measure  # noqa: PLC0415
 
     put_lanes(ground, board, lanes)
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     return int(board.tally[FAULTS])
 
 

@@ -6,13 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled, compiled_inner
+from garage2usd.compiled import Whole, compiled, compiled_inlined, compiled_inner
 from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, keep, next_random, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
 from garage2usd.planning.ground import Ground
 
-__all__ = ["ACTIONS", "STAY", "Memory", "grown", "learn", "new_memory", "observe"]
+__all__ = ["ACTIONS", "STAY", "Memory", "Room", "grown", "learn", "new_memory", "new_room", "observe"]
 
 STAY = 4
 ACTIONS = 5
@@ -56,18 +56,55 @@ def new_memory(parameters: SarsaParameters, *, bits: int) -> Memory:
     )
 
 
-@compiled
+class Room(NamedTuple):
+    """Room for an episode.
+
+    Attributes
+    ----------
+    moves
+        int64, shape (5,): the step of each action, from a square to the next.
+    allowed
+        bool, shape (5,): which actions a mask leaves.
+    tape
+        int8: the actions so far.
+    laid
+        int64: the lanes laid so far.
+    """
+
+    moves: NDArray[np.int64]
+    allowed: NDArray[np.bool_]
+    tape: NDArray[np.int8]
+    laid: NDArray[np.int64]
+
+
+def new_room(ground: Ground, archive: Archive) -> Room:
+    """Room for episodes on a ground, as long as an archive has room for."""
+    stride = ground.stride
+    return Room(
+        np.array([-stride, stride, -1, 1, 0]),
+        np.ones(ACTIONS, np.bool_),
+        np.zeros(archive.tapes.shape[1], np.int8),
+        np.zeros(len(ground.squares), np.int64),
+    )
+
+
 def grown(memory: Memory) -> Memory:
     """The same in a table twice the size."""
     size = 2 * len(memory.keys)
-    larger = Memory(
-        np.zeros(size, np.uint64), np.zeros((size, ACTIONS), memory.q.dtype), memory.used, memory.course, memory.last
-    )
+    larger = memory._replace(keys=np.zeros(size, np.uint64), q=np.zeros((size, ACTIONS), memory.q.dtype))
     memory.used[0] = 0
+    _carry_over(memory, larger)
+    return larger
+
+
+@compiled
+def _carry_over(memory: Memory, larger: Memory) -> None:
+    """Put all that a table holds into an empty one."""
     for row in range(len(memory.keys)):
         if memory.keys[row] != 0:
-            larger.q[_row(larger, memory.keys[row])] = memory.q[row]
-    return larger
+            place = _row(larger, memory.keys[row])
+            for action in range(ACTIONS):
+                larger.q[place, action] = memory.q[row, action]
 
 
 @compiled_inner
@@ -110,25 +147,26 @@ def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: i
     return key | np.uint64(1)
 
 
-@compiled_inner
-def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> int:
+@compiled_inlined
+def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> Whole:
     """An epsilon-greedy action: greedy with probability 1 - epsilon + epsilon / |A|."""
     count = 0
     for action in range(ACTIONS):
         count += allowed[action]
     if uniform(random) < epsilon:
-        nth = int(uniform(random) * count)
+        nth = np.int64(uniform(random) * count)
         for action in range(ACTIONS):
             if allowed[action]:
                 if nth == 0:
                     return action
                 nth -= 1
-    first = int(next_random(random) % np.uint64(ACTIONS))
-    best, top = -1, -np.inf
+    first = np.int64(next_random(random) % np.uint64(ACTIONS))
+    best: Whole = -1
+    top = -np.inf
     for offset in range(ACTIONS):
-        action = (first + offset) % ACTIONS
-        if allowed[action] and memory.q[row, action] > top:
-            best, top = action, memory.q[row, action]
+        place = (first + offset) % ACTIONS
+        if allowed[place] and memory.q[row, place] > top:
+            best, top = place, memory.q[row, place]
     return best
 
 
@@ -139,6 +177,7 @@ def learn(
     parameters: SarsaParameters,
     memory: Memory,
     archive: Archive,
+    room: Room,
     random: NDArray[np.uint64],
     curve: NDArray[np.float64],
     first: int,
@@ -157,31 +196,30 @@ def learn(
     ``E = sum_{t=1}^{T-1} R_t`` of each episode, without the R_T of a failure.
     """
     p = parameters
-    cells, stride = board.cells, ground.stride
-    moves = np.array([-stride, stride, -1, 1, 0])
-    max_steps = min(p.max_steps_per_square * len(ground.squares), archive.tapes.shape[1])
-    tape = np.zeros(max_steps, np.int8)
-    laid = np.zeros(len(ground.squares), np.int64)
-    allowed = np.ones(ACTIONS, np.bool_)
+    cells = board.cells
+    moves, allowed, tape, laid = room
+    max_steps = min(p.max_steps_per_square * len(ground.squares), len(tape))
+    action: Whole = STAY
     epsilon, unchanged, steps_taken = memory.course[0], memory.course[1], 0
     for episode in range(first, last):
         if 2 * (memory.used[0] + max_steps) > len(memory.keys):
             memory.course[0], memory.course[1] = epsilon, unchanged
             return episode, steps_taken
         clear(ground, board)
-        start = ground.entrances[int(next_random(random) % np.uint64(len(ground.entrances)))]
-        position, run, step, lanes = start, 0, 0, 0
+        start = ground.entrances[np.int64(next_random(random) % np.uint64(len(ground.entrances)))]
+        position, run, lanes = start, 0, 0
+        step: Whole = 0
         previous: Whole = np.int64(STAY)
         # go on from part of an archived episode
         if archive.in_use[0] > 0 and uniform(random) < p.revisit_rate:
-            entry = int(next_random(random) % np.uint64(archive.in_use[0]))
-            rival = int(next_random(random) % np.uint64(archive.in_use[0]))
+            entry = np.int64(next_random(random) % np.uint64(archive.in_use[0]))
+            rival = np.int64(next_random(random) % np.uint64(archive.in_use[0]))
             if archive.values[rival] > archive.values[entry]:
                 entry = rival
             start = archive.starts[entry]
             position = start
             share = uniform(random)
-            step = int(share * archive.lengths[entry])
+            step = np.int64(share * archive.lengths[entry])
             for index in range(step):
                 action = archive.tapes[entry, index]
                 tape[index] = action
@@ -192,9 +230,11 @@ def learn(
                     lanes += 1
                 run = run + 1 if action == previous else 1
                 previous = action
-        best_value, best_lanes, best_step = NO_VALUE, 0, 0
+        best_value, best_lanes = NO_VALUE, 0
+        best_step: Whole = 0
         earned, reward = float(board.tally[0]), 0.0
-        row, action, old_row, old_action = -1, STAY, -1, STAY
+        row, old_row, action = -1, -1, STAY
+        old_action: Whole = STAY
         done = False
         while step < max_steps and not done:
             if p.masks_actions:
@@ -262,7 +302,7 @@ def learn(
             best_value = value_now(ground, board) - faults_cost(ground, board)
             best_lanes, best_step = lanes, step
         if best_value > NO_VALUE:
-            keep(ground, archive, laid[:best_lanes], best_value, tape[:best_step], start)
+            keep(archive, laid, best_lanes, best_value, tape, best_step, start)
         curve[episode] = earned
         key = np.uint64(0)
         for index in range(lanes):

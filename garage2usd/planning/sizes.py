@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled_inner, copy_row
+from garage2usd.compiled import Whole, compiled_inlined, compiled_inner, copy_row
 from garage2usd.config import BayConfig
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
@@ -63,6 +63,8 @@ class Sizes(NamedTuple):
         float64, shape (2, lines): what a line is likely to gain, in stalls, if cars begin or cease to drive along it.
     price
         float64, shape (1,): what a square metre of floor costs, in stalls; 0 where no side is chosen.
+    change
+        int64, shape (3,): what another side of a line would add to stalls, time and unused squares.
     """
 
     is_chosen: NDArray[np.bool_]
@@ -77,6 +79,7 @@ class Sizes(NamedTuple):
     area_m2: NDArray[np.float64]
     hint: NDArray[np.float64]
     price: NDArray[np.float64]
+    change: NDArray[np.int64]
 
 
 def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
@@ -103,6 +106,7 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
         np.zeros(1),
         np.zeros((2, lines)),
         np.zeros(1),
+        np.zeros(3, np.int64),
     )
 
 
@@ -119,7 +123,7 @@ def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> NDArray[np.int64]
     return least
 
 
-@compiled_inner
+@compiled_inlined
 def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
     """Whether cars drive along X on a square, and along Z, as a sum of `ALONG_X` and `ALONG_Z`."""
     least = 1 if cells[q] == 1 else 2
@@ -133,7 +137,7 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
     return ways
 
 
-@compiled_inner
+@compiled_inlined
 def _fits(sizes: Sizes, depth: int, width: int, edges: Whole) -> int:
     """Stalls on a square by its sides and its edges open to lanes, as `garage2usd.structure.stalls` counts them."""
     stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
@@ -156,7 +160,7 @@ def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
         ground.capacity[q, edges] = _fits(sizes, depth, width, edges)
 
 
-@compiled_inner
+@compiled_inlined
 def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
     """First square of a line, the step along it, and the square after its last."""
     if axis == 0:
@@ -165,11 +169,11 @@ def _line(ground: Ground, axis: int, line: int) -> tuple[int, int, int]:
 
 
 @compiled_inner
-def weigh(
-    ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int, change: NDArray[np.int64]
-) -> float:
-    """What another side of a line would change: added to stalls, time and unused squares; returns the floor in m2."""
-    cells, stride = board.cells, ground.stride
+def weigh(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int) -> float:
+    """Set `change` to what another side of a line would add; returns the floor that it would add, in m2."""
+    cells, stride, change = board.cells, ground.stride, sizes.change
+    for figure in range(3):
+        change[figure] = 0
     first, step, last = _line(ground, axis, line)
     across = 0
     for index in range((last - first + step - 1) // step):
@@ -252,28 +256,26 @@ def copy_sides(target: NDArray[np.int64], source: NDArray[np.int64]) -> None:
     copy_row(target[1], source[1])
 
 
-@compiled_inner
+@compiled_inlined
 def side_now(sizes: Sizes, axis: Whole, line: Whole) -> int:
     """The side that a line is to have, by whether cars drive along it and whether a door is across its end."""
     side = sizes.aisle_mm if sizes.driven[axis, line] > 0 else sizes.kept_mm[axis, line]
     return int(max(side, sizes.least_mm[axis, line]))
 
 
-@compiled_inner
+@compiled_inlined
 def foresee(ground: Ground, board: Board, sizes: Sizes) -> None:
     """Set `hint`, from the hops of the board's lanes."""
-    change = np.zeros(3, np.int64)
     for axis in range(2):
         if not sizes.is_chosen[axis]:
             continue
         for line in range(len(board.cells) // ground.stride if axis == 0 else ground.stride):
             other = sizes.aisle_mm if sizes.driven[axis, line] == 0 else sizes.kept_mm[axis, line]
-            change[:] = 0
-            area = weigh(ground, board, sizes, axis, line, max(other, sizes.least_mm[axis, line]), change)
-            sizes.hint[axis, line] = ground.weights[0] * change[_STALLS] - sizes.price[0] * area
+            area = weigh(ground, board, sizes, axis, line, max(other, sizes.least_mm[axis, line]))
+            sizes.hint[axis, line] = ground.weights[0] * sizes.change[_STALLS] - sizes.price[0] * area
 
 
-@compiled_inner
+@compiled_inlined
 def floor_cost(sizes: Sizes) -> float:
     """What the floor costs, in stalls."""
     return float(sizes.price[0] * sizes.area_m2[0])
@@ -286,7 +288,6 @@ def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
     The hops of the board are to be those of its lanes.
     """
     sync(ground, board, sizes)
-    change = np.zeros(3, np.int64)
     for _ in range(passes):
         for axis in range(2):
             if not sizes.is_chosen[axis]:
@@ -297,9 +298,8 @@ def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
                     continue
                 best, kept = 0.0, sizes.kept_mm[axis, line]
                 for side in sizes.free_mm:
-                    change[:] = 0
-                    area = weigh(ground, board, sizes, axis, line, max(side, sizes.least_mm[axis, line]), change)
-                    gain = change[_STALLS] - sizes.price[0] * area
+                    area = weigh(ground, board, sizes, axis, line, max(side, sizes.least_mm[axis, line]))
+                    gain = sizes.change[_STALLS] - sizes.price[0] * area
                     if gain > best + 1e-9:
                         best, kept = gain, side
                 sizes.kept_mm[axis, line] = kept

@@ -17,7 +17,7 @@ def test_each_compiled_function_has_one_form(tmp_path):
         check=True,
     )
     found = json.loads(done.stdout)
-    assert found["compiled"] > 90
+    assert found["compiled"] > 60
     # one for each type of number that rows hold
     assert len(found["several"].pop("garage2usd.compiled.copy_row")) <= 4
     assert not found["several"]

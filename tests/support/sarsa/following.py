@@ -112,13 +112,14 @@ def check(sarsa, case, number):
     process = DecisionProcess(case.site, BAY, parameters)
     slow = SlowSarsa(process, case.plan, SplitMix64(case.seed), case.plan.archive_size, number)
     board, random = new_board(ground), np.array([case.seed], np.uint64)
-    archive = new_archive(case.plan.archive_size, squares=len(ground.squares), steps=process.horizon)
+    archive = new_archive(case.plan.archive_size, padded=len(ground.cells), steps=process.horizon)
+    room = sarsa.new_room(ground, archive)
     memory = sarsa.new_memory(parameters, bits=case.table_bits)
     memory = memory._replace(q=memory.q.astype(number))
     curve, steps, episode = np.zeros(case.episodes), 0, 0
     while episode < case.episodes:
         last = min(episode + case.batch, case.episodes)
-        done, more = sarsa.learn(ground, board, parameters, memory, archive, random, curve, episode, last)
+        done, more = sarsa.learn(ground, board, parameters, memory, archive, room, random, curve, episode, last)
         steps += more
         for _ in range(episode, done):
             slow.episode()
@@ -163,7 +164,7 @@ def kept(archive, ground):
     """Value, lanes, actions and start of each entry of a compiled archive."""
     entries = []
     for entry in range(archive.in_use[0]):
-        lanes = frozenset(square(place, ground) for place in ground.squares[archive.lanes[entry]])
+        lanes = frozenset(square(place, ground) for place in np.flatnonzero(archive.lanes[entry]))
         tape = tuple(archive.tapes[entry, : archive.lengths[entry]].tolist())
         entries.append((archive.values[entry], lanes, tape, square(archive.starts[entry], ground)))
     return entries

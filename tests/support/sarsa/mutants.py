@@ -89,9 +89,14 @@ MUTANTS = (
     Mutant("prefix that misses a portal", "kind == 0 and board.tally[_UNTOUCHED] == 0", "kind == 0"),
     Mutant("plan kept without the cost of its faults", ") - faults_cost(ground, board)\n", ")\n"),
     Mutant("goes on from the worse of two", "values[rival] > archive", "values[rival] < archive"),
-    Mutant("goes on from the whole", "int(share * archive.lengths[entry])", "archive.lengths[entry]"),
+    Mutant("goes on from the whole", "np.int64(share * archive.lengths[entry])", "archive.lengths[entry]"),
     Mutant("replays from its own entrance", "            start = archive.starts[entry]\n", ""),
     Mutant("keeps no better plan once full", "if full and value <= ", "if full or value <= ", "archive"),
     Mutant("keeps a plan twice", "if archive.keys[index] == key:", "if archive.keys[index] == 0:", "archive"),
-    Mutant("drops the best", "np.argmin(archive.values)", "np.argmax(archive.values)", "archive"),
+    Mutant(
+        "drops the best",
+        "archive.values[entry] < archive.values[count[1]]",
+        "archive.values[entry] > archive.values[count[1]]",
+        "archive",
+    ),
 )

@@ -51,8 +51,8 @@ def test_runs_are_all_of_the_site():
 def test_drift_stays_feasible_and_never_loses(seed):
     site, ground, board, _ = sown(seed, ALLOW)
     assert connect(ground, board)
-    before = measure(ground, board)
-    after = drift(ground, board, np.array([seed], np.uint64), 20_000, 1.0, 0.1, 50)
+    before = measure(ground, board, -np.inf)
+    after = drift(ground, board, board.cells.copy(), np.array([seed], np.uint64), 20_000, 1.0, 0.1, 50)
     structure = site.with_cells(cells_of(ground, board.cells[ground.squares] == 1))
     assert after > before
     assert feasible(structure.cells)

@@ -12,7 +12,7 @@ from garage2usd.planning.circuit import anneal_labels
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.draft import new_draft
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
-from garage2usd.planning.polish import settled_worth
+from garage2usd.planning.polish import improve, new_room
 from garage2usd.planning.sizes import sizes_of
 from garage2usd.structure.grid import Cell, Structure
 
@@ -40,7 +40,7 @@ def board_with(structure, plan=PLAN):
     board.cells[:] = ground.cells
     board.cells[ground.squares[lanes_of(structure, ground)]] = Cell.LANE
     sync(ground, board, sizes)
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     return ground, board, sizes
 
 
@@ -52,7 +52,7 @@ def structure_of(structure, ground, board, sizes):
 
 
 def assert_same_figures(found, ground, board, sizes):
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     score = evaluate(found, bay=BAY)
     assert board.tally[0] == score.stalls
     assert board.tally[2] == score.unused_squares
@@ -76,15 +76,15 @@ def test_a_line_is_weighed_as_it_is_resized(seed):
     site = ladder()
     ground, board, sizes = board_with(site)
     settle(ground, board, sizes, 2)
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     axis = int(rng.integers(2))
     line = 4 + int(rng.integers(site.shape[axis]))
     side = int(rng.choice([5300, 6700, 7800]))
     before, area = board.tally[:3].copy(), float(sizes.area_m2[0])
-    change = np.zeros(3, np.int64)
-    added = weigh(ground, board, sizes, axis, line, side, change)
+    added = weigh(ground, board, sizes, axis, line, side)
+    change = sizes.change.copy()
     resize(ground, sizes, axis, line, side)
-    measure(ground, board)
+    measure(ground, board, -np.inf)
     assert (board.tally[:3] - before == change).all()
     assert sizes.area_m2[0] - area == pytest.approx(added)
 
@@ -94,11 +94,11 @@ def test_a_line_is_weighed_as_it_is_resized(seed):
 def test_annealed_lanes_keep_the_rules_and_the_books(seed, stretch_squares):
     site = ladder()
     ground, board, sizes = board_with(site, PlanConfig(longest_stretch_cells=stretch_squares))
-    before = settled_worth(ground, board, sizes)
+    random, room = np.array([seed + 1], np.uint64), new_room(ground, sizes)
+    before = improve(ground, board, sizes, room, random, 0, 0, 1.0, 1.0)
     keeps_rules = board.tally[FAULTS] == 0
-    random = np.array([seed + 1], np.uint64)
     value = anneal_labels(
-        ground, board, new_draft(ground), sizes, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
+        ground, board, new_draft(ground), sizes, room, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
         4 * len(ground.squares),
     )  # fmt: skip
     found = structure_of(site, ground, board, sizes)
