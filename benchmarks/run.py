@@ -1,6 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [building | planning | rules | circulation | scale | stages | unity | compiled ...]
+Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, rules, circulation, scale, stages, unity
+and compiled.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -23,6 +24,7 @@ from rules import rules
 from scale import scale
 from stage import stages
 from unity import unity
+from waiting import waiting
 
 import garage2usd
 
@@ -34,6 +36,7 @@ PYTHON_EPISODES = 40
 def main() -> None:
     """Run what is asked for and write the tables."""
     measures = {
+        "waiting": waiting,
         "building": _building,
         "planning": planning,
         "rules": rules,

@@ -5,7 +5,10 @@ from typing import ParamSpec, TypeVar, cast
 
 import numba
 import numpy as np
+from numba.core.event import Event, Listener, register
 from numpy.typing import NDArray
+
+from garage2usd.progress import compiling
 
 __all__ = ["Whole", "compiled", "compiled_allocating", "compiled_inner", "copy_row"]
 
@@ -58,6 +61,20 @@ def _compiled(function: Callable[P, T], *, is_inner: bool, allocates: bool) -> C
         return jit(cache=True)
     except RuntimeError:  # no folder can be written
         return jit(cache=False)
+
+
+class _Compilations(Listener):
+    """Passes on what is compiled, which is nothing once it lies in the cache."""
+
+    def on_start(self, event: Event) -> None:
+        """Pass on which module's function it is."""
+        compiling(event.data["dispatcher"].__module__)
+
+    def on_end(self, event: Event) -> None:
+        """Pass nothing on."""
+
+
+register("numba:compile", _Compilations())  # type: ignore[no-untyped-call]
 
 
 @compiled_inner

@@ -1,11 +1,13 @@
 """``garage2usd check``."""
 
 import json
+import sys
 from collections import Counter
 from pathlib import Path
 
 import click
 
+from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, profile_option
 
 __all__ = ["check"]
@@ -32,7 +34,8 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
     from garage2usd import checks  # noqa: PLC0415 - keeps --help instant
     from garage2usd.profiles import load_profile  # noqa: PLC0415
 
-    findings, against = checks.check_file(path, profile=None if profile is None else load_profile(profile))
+    with Bars(sys.stderr):
+        findings, against = checks.check_file(path, profile=None if profile is None else load_profile(profile))
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:
         document = {

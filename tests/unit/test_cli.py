@@ -13,6 +13,7 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
+from garage2usd.compiled import compiled
 from garage2usd.config import config_schema
 from garage2usd.profiles import PROFILE_NAMES
 
@@ -203,6 +204,27 @@ def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
         with pytest.raises(SystemExit) as second:
             progress("plan", 2, 3)
     assert first.value.code == second.value.code == 128 + signal.SIGTERM
+
+
+def test_a_terminal_is_told_once_that_the_planner_is_compiled():
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    def planned(cells):
+        return cells + 1
+
+    planned.__module__ = "garage2usd.planning.made_up"
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        with bars.Bars(stream) as progress:
+            progress("plan", 0, 2)
+            compiled(planned)(1)
+            compiled(planned)(1.5)
+            progress("plan", 2, 2)
+    compiled(planned)(True)
+    assert terminal.getvalue().count("compiling the planner, once after installing") == 1
+    assert file.getvalue() == ""
 
 
 def test_the_schema_command_prints_the_schema():

@@ -1,0 +1,127 @@
+"""How long people wait: first, second and warm builds, checks and starts, beside an earlier version in the same run."""
+# ruff: noqa: S603, S607 - git and Python are run
+
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tarfile
+import tempfile
+from collections import defaultdict
+from io import BytesIO
+from pathlib import Path
+
+__all__ = ["waiting"]
+
+HERE = Path(__file__).parent
+BEFORE = "3211d42"
+"""The version from before functions were compiled once and assets were shared."""
+ROUNDS = 3
+
+CONFIGS = {
+    "7 x 9": "seed = 0\n",
+    "20 x 30": """seed = 0
+[site]
+height_cells = 20
+width_cells = 30
+entrances = 2
+exits = 2
+min_portal_distance_cells = 10
+""",
+}
+
+_WARM = """
+import json, sys, time
+from pathlib import Path
+import garage2usd
+config = garage2usd.load_config(Path(sys.argv[1]))
+folder = Path(sys.argv[2])
+garage2usd.build(config, folder / "warm.usdz")
+seconds = []
+for seed in range(1, 1 + int(sys.argv[3])):
+    start = time.process_time()
+    garage2usd.build(config, folder / f"warm_{seed}.usdz", seed=seed)
+    seconds.append(time.process_time() - start)
+print(json.dumps(seconds))
+"""
+
+
+def waiting() -> str:
+    """One row for each wait: processor seconds before and now, and their ratio."""
+    figures: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
+    with tempfile.TemporaryDirectory() as folder:
+        before = Path(folder) / "before"
+        archive = subprocess.run(
+            ["git", "-C", HERE.parent, "archive", BEFORE], stdout=subprocess.PIPE, check=True
+        ).stdout
+        with tarfile.open(fileobj=BytesIO(archive)) as files:
+            files.extractall(before, filter="data")
+        for turn in range(ROUNDS):
+            for version, root in (("before", before), ("now", HERE.parent)):
+                with tempfile.TemporaryDirectory(dir=folder) as room:
+                    for wait, seconds in _waits(root, Path(room)).items():
+                        figures[wait][version].append(seconds)
+                print(f"round {turn + 1} of {ROUNDS}, {version}", file=sys.stderr, flush=True)
+    rows = [
+        "## Waiting",
+        "",
+        (
+            f"Processor seconds, medians of {ROUNDS} rounds in turns, of this version and of {BEFORE}, from which it "
+            "departed. First: with an empty cache of machine code, as after installing; the first 20 x 30 comes after "
+            "the first 7 x 9. Second: a command that finds that cache. Warm: a build after the first of its process, "
+            "each of another seed. This version's defaults do more: plans circulate and are dimensioned, garages have "
+            "stair cores and fire equipment, and each build is checked."
+        ),
+        "",
+        "| wait | before | now | now / before |",
+        "|---|---|---|---|",
+    ]
+    for wait, seconds in figures.items():
+        old, new = (statistics.median(seconds[version]) for version in ("before", "now"))
+        rows.append(f"| {wait} | {old:.2f} s | {new:.2f} s | {new / old:.2f} |")
+    rows += ["", "### Garages a core-second", "", "| site | before | now | now / before |", "|---|---|---|---|"]
+    for size in CONFIGS:
+        seconds = figures[f"warm build of {size}"]
+        old, new = (1 / statistics.median(seconds[version]) for version in ("before", "now"))
+        rows.append(f"| {size} | {old:.2f} | {new:.2f} | {new / old:.2f} |")
+    return "\n".join(rows)
+
+
+def _waits(root: Path, room: Path) -> dict[str, float]:
+    """Processor seconds of each wait with the package that lies in a folder."""
+    configs = {}
+    for size, text in CONFIGS.items():
+        configs[size] = room / f"{size.replace(' ', '')}.toml"
+        configs[size].write_text(text)
+    environment = os.environ | {"PYTHONPATH": str(root), "NUMBA_CACHE_DIR": str(room / "cache")}
+
+    def command(*arguments: object) -> float:
+        return _seconds(["-m", "garage2usd", *map(str, arguments)], environment, room)
+
+    waits = {}
+    for when in ("first", "second"):
+        for size, config in configs.items():
+            waits[f"{when} `garage2usd build`, {size}"] = command("build", config, "-o", room / f"{config.stem}.usdz")
+    for when in ("first", "second"):
+        waits[f"{when} `garage2usd check` of a 7 x 9 .usdz"] = command("check", room / "7x9.usdz")
+    for size, config in configs.items():
+        done = subprocess.run(
+            [sys.executable, "-c", _WARM, config, room, "4"],
+            env=environment, cwd=room, stdout=subprocess.PIPE, check=True,
+        )  # fmt: skip
+        waits[f"warm build of {size}"] = statistics.mean(json.loads(done.stdout))
+    waits["`garage2usd --help`"] = statistics.median(command("--help") for _ in range(5))
+    waits["`import garage2usd`"] = statistics.median(
+        _seconds(["-c", "import garage2usd"], environment, room) for _ in range(5)
+    )
+    return waits
+
+
+def _seconds(arguments: list[str], environment: dict[str, str], room: Path) -> float:
+    """Processor seconds of a Python process and its children, those of the interpreter included."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([sys.executable, *arguments], env=environment, cwd=room, capture_output=True, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
