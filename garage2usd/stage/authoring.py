@@ -28,15 +28,21 @@ __all__ = [
 
 
 @contextmanager
-def new_layer(path: Path, *, default_prim: str, text: str = "#usda 1.0\n") -> Iterator[Sdf.Layer]:
-    """Open a change block in a layer that begins with `text` and is written to a file at the end of the block."""
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString(text)
+def new_layer(path: Path, *, default_prim: str, text: str | None = None) -> Iterator[Sdf.Layer]:
+    """Open a change block in a layer that begins with `text` and is written to a new file at the end of the block."""
+    if text is None:
+        layer = _unwritten(path)
+    else:
+        layer = Sdf.Layer.CreateAnonymous(path.suffix)
+        layer.ImportFromString(text)
     with Sdf.ChangeBlock():
         set_units(layer)
         layer.defaultPrim = default_prim
         yield layer
-    save(layer, path)
+    if text is None:
+        layer.Save()
+    else:
+        save(layer, path)
 
 
 def set_units(layer: Sdf.Layer) -> None:
@@ -128,6 +134,11 @@ def order_operations(prim: Sdf.PrimSpec, names: Iterable[str]) -> None:
 
 def save(layer: Sdf.Layer, path: Path) -> None:
     """Write an anonymous layer to a new file; as `Sdf.Layer.Export`, but without a second copy of all it holds."""
-    file = Sdf.Layer.CreateNew(str(path))
+    file = _unwritten(path)
     file.TransferContent(layer)
     file.Save()
+
+
+def _unwritten(path: Path) -> Sdf.Layer:
+    """A layer for a new file, which `Sdf.Layer.CreateNew` would write twice."""
+    return Sdf.Layer.New(Sdf.FileFormat.FindByExtension(path.suffix), str(path))

@@ -35,8 +35,6 @@ NITS_PER_INTENSITY = 27.0
 _ROOT = "Asset"
 """Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
-_NORMAL_STEPS = 10_000
-"""Of 1, to which normals are rounded: an angle of 0.003 degrees."""
 _TYPES = Sdf.ValueTypeNames
 
 
@@ -167,9 +165,8 @@ def _define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) 
     attribute(mesh, "subdivisionScheme", _TYPES.Token, UsdGeom.Tokens.none, uniform=True)
     attribute(mesh, "extent", _TYPES.Float3Array, UsdGeom.PointBased.ComputeExtent(points))
     # the attribute of the schema takes no indices, with which a car is half as large
-    normals, normal_indices = _distinct_normals(part.normals)
-    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(normals), normal_indices)
-    if MATERIALS[part.material].textures():
+    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
+    if len(part.st):
         _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(part.st), part.st_indices)
     relationship(mesh, "material:binding", [_look(looks, part.material)])
     if part.collider is None:
@@ -187,15 +184,6 @@ def _define_primvar(
     primvar = attribute(mesh, f"primvars:{name}", type_name, values)
     primvar.SetInfo("interpolation", UsdGeom.Tokens.faceVarying)
     numbers(mesh, f"primvars:{name}:indices", indices)
-
-
-def _distinct_normals(normals: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """Unit normals to four decimals in their order, each once, and which of them each corner has."""
-    steps = np.rint(normals * np.float32(_NORMAL_STEPS)).astype(np.int64)
-    # as one number each, which sorts much faster than rows do
-    codes = (steps + _NORMAL_STEPS) @ (2 * _NORMAL_STEPS + 1) ** np.arange(2, -1, -1)
-    _, first, which = np.unique(codes, return_index=True, return_inverse=True)
-    return steps[first].astype(np.float32) / np.float32(_NORMAL_STEPS), which.astype(np.int32)
 
 
 def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: RectLight) -> None:
