@@ -1,17 +1,18 @@
 """Output that is whole or absent: made elsewhere, then moved into place."""
 
+import json
 import os
 import re
 import secrets
 import shutil
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from garage2usd.errors import ConfigError, OutputError
 
-__all__ = ["check_length", "check_name", "check_writable", "publish", "staging_folder", "store"]
+__all__ = ["check_length", "check_name", "check_writable", "json_text", "publish", "staging_folder", "store"]
 
 _PREFIX = ".garage2usd-"
 _LONGEST_NAME_BYTES = 220
@@ -52,6 +53,18 @@ def check_writable(folder: Path) -> None:
             pass
     except OSError as error:
         raise OutputError(folder, f"cannot write here ({error.strerror})") from None
+
+
+def json_text(document: Mapping[str, object]) -> str:
+    """A JSON object with a line for each key, and for each object of a list."""
+    encode = json.JSONEncoder(separators=(",", ":")).encode
+    texts = (
+        "[\n" + ",\n".join(map(encode, value)) + "\n]"
+        if isinstance(value, list | tuple) and value and isinstance(value[0], dict)
+        else encode(value)
+        for value in document.values()
+    )
+    return "{\n" + ",\n".join(f"{encode(key)}:{text}" for key, text in zip(document, texts, strict=True)) + "\n}\n"
 
 
 @contextmanager

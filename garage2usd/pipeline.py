@@ -25,7 +25,7 @@ from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
-from garage2usd.view.raster import to_image
+from garage2usd.view.raster import to_image, write_png
 
 __all__ = ["Build", "Garage", "build", "generate"]
 
@@ -185,7 +185,7 @@ def build(
         pictures = _pictures(garage, learning_curve=learning_curve, best_plans=best_plans)
         drawn = [staging / f"{path.stem}_{name}.png" for name in pictures]
         for picture, image in zip(drawn, pictures.values(), strict=True):
-            image.save(picture, format="PNG")
+            write_png(image, picture)
         seconds["stage"] = time.perf_counter() - start
         report = staging / f"{path.stem}_report.json"
         write_report(

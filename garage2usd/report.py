@@ -1,6 +1,5 @@
 """The report of a build written: what was made and what reproduces it (see `garage2usd.reading.report`)."""
 
-import json
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +10,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.layout.compartments import compartment_name
+from garage2usd.output import json_text
 from garage2usd.planning import (
     Plan,
     area_per_stall_m2,
@@ -37,6 +37,9 @@ from garage2usd.structure.lane_graph import LaneGraph
 from garage2usd.version import VERSION
 
 __all__ = ["write_report"]
+
+_RETURN_DECIMALS = 6
+"""Of the returns of episodes, which are sums of hundreds of rewards and would have 16 digits each."""
 
 
 def write_report(
@@ -99,10 +102,10 @@ def write_report(
             )
             for stall in layout.stalls
         ),
-        learning_curve=tuple(plan.learning_curve.tolist()),
+        learning_curve=tuple(np.round(plan.learning_curve, _RETURN_DECIMALS).tolist()),
         seconds={step: round(value, 4) for step, value in seconds.items()},
     )
-    path.write_text(json.dumps(report.model_dump(mode="json"), indent=1) + "\n", encoding="utf-8")
+    path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8")
 
 
 def _learning(plan: Plan, config: GarageConfig) -> LearningFigures | None:

@@ -25,6 +25,8 @@ Face = NDArray[np.float64]
 _WELD_DECIMALS = 5
 _MIN_CORNERS = 3
 _MIN_AREA_M2 = 1e-9
+_NORMAL_STEPS = 10_000
+"""Of 1, to which normals are rounded: an angle of 0.003 degrees."""
 
 
 class Collider(StrEnum):
@@ -47,10 +49,11 @@ class Part:
         float32, shape (P, 3), metres, welded.
     face_counts, face_indices
         int32, shapes (F,) and (I,): corners of each face and their points, counter-clockwise from outside.
-    normals
-        float32, shape (I, 3), a unit normal for each corner.
+    normals, normal_indices
+        float32, shape (N, 3), and int32, shape (I,): unit normals to four decimals, and which of them each corner has.
     st, st_indices
-        float32, shape (T, 2), and int32, shape (I,): texture coordinates in repeats of the texture.
+        float32, shape (T, 2), and int32, shape (I,): texture coordinates in repeats of the texture; both empty where
+        the material reads none.
     material
         Key of `garage2usd.assets.materials.MATERIALS`.
     collider
@@ -62,6 +65,7 @@ class Part:
     face_counts: NDArray[np.int32]
     face_indices: NDArray[np.int32]
     normals: NDArray[np.float32]
+    normal_indices: NDArray[np.int32]
     st: NDArray[np.float32]
     st_indices: NDArray[np.int32]
     material: str
@@ -142,18 +146,21 @@ def make_part(
 
     area = _area_vectors(points[flat], counts)
     unit = area / np.linalg.norm(area, axis=1, keepdims=True)
-    normals = _corner_normals(flat, counts, area, unit, crease_deg)
-    along = project or _along_main_axis
+    normals, normal_indices = _distinct_normals(_corner_normals(flat, counts, area, unit, crease_deg))
     look = MATERIALS[material]
-    repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
-    coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
-    st, st_indices = _unique_rows(np.round(coordinates, _WELD_DECIMALS) + 0.0)
+    st, st_indices = np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    if look.textures():
+        along = project or _along_main_axis
+        repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
+        coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
+        st, st_indices = _unique_rows(np.round(coordinates, _WELD_DECIMALS) + 0.0)
     return Part(
         name=name,
         points=points.astype(np.float32),
         face_counts=counts.astype(np.int32),
         face_indices=flat.astype(np.int32),
-        normals=normals.astype(np.float32),
+        normals=normals,
+        normal_indices=normal_indices.astype(np.int32),
         st=st.astype(np.float32),
         st_indices=st_indices.astype(np.int32),
         material=material,
@@ -168,6 +175,15 @@ def _unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
     which = np.empty(len(rows), dtype=np.int64)
     which[order] = np.cumsum(is_new) - 1
     return rows[order][is_new], which
+
+
+def _distinct_normals(normals: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Unit normals to four decimals in their order, each once, and for each corner which of them it has."""
+    steps = np.rint(normals.astype(np.float32) * np.float32(_NORMAL_STEPS)).astype(np.int64)
+    # one number for each, as numbers sort much faster than rows
+    codes = (steps + _NORMAL_STEPS) @ (2 * _NORMAL_STEPS + 1) ** np.arange(2, -1, -1)
+    _, first, which = np.unique(codes, return_index=True, return_inverse=True)
+    return steps[first].astype(np.float32) / np.float32(_NORMAL_STEPS), which
 
 
 def _clean_loops(

@@ -8,6 +8,7 @@ from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
 from garage2usd.cli.drive import drive
+from garage2usd.cli.meshes import meshes
 from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
@@ -33,7 +34,7 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, drive, plan, render, schema, textures, view):
+for _command in (build, check, drive, meshes, plan, render, schema, textures, view):
     main.add_command(_command)
 
 

@@ -65,7 +65,7 @@ def plan(
     from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
     from garage2usd.output import check_length, check_writable, publish, staging_folder  # noqa: PLC0415
     from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
-    from garage2usd.view.raster import to_image  # noqa: PLC0415
+    from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
     from garage2usd.view.route import find_stall  # noqa: PLC0415
     from garage2usd.view.svg import to_svg  # noqa: PLC0415
 
@@ -91,7 +91,7 @@ def plan(
             if output.suffix == ".svg":
                 made[-1].write_text(to_svg(drawing), encoding="utf-8")
             else:
-                to_image(drawing).save(made[-1], format="PNG")
+                write_png(to_image(drawing), made[-1])
         for file, output in zip(made, outputs, strict=True):
             publish([file], output.parent)
             echo_table([("picture", str(output))])

@@ -1,6 +1,5 @@
 """The only authoring of USD: a layout becomes a stage with its assets and textures."""
 
-import json
 import os
 import shutil
 from collections.abc import Iterable, Mapping
@@ -12,7 +11,7 @@ from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
-from garage2usd.output import store
+from garage2usd.output import json_text, store
 from garage2usd.progress import Progress, silent
 from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.asset_files import AssetFile, asset_file
@@ -86,8 +85,7 @@ def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
 def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.reading.label_table`)."""
     table = label_table(layout, arrangement.paths()).model_dump(by_alias=True)
-    lists = (f' "{name}": [\n  ' + ",\n  ".join(map(json.dumps, entries)) + "\n ]" for name, entries in table.items())
-    path.write_text("{\n" + ",\n".join(lists) + "\n}\n", encoding="utf-8")
+    path.write_text(json_text(table), encoding="utf-8")
 
 
 def write_stage(

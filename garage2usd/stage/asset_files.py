@@ -1,5 +1,6 @@
 """Assets as files whose names say what they hold: authored once a process, and the same for every garage."""
 
+import secrets
 import tempfile
 from functools import lru_cache
 from pathlib import Path
@@ -41,10 +42,13 @@ def asset_file(shape: Spec, quality: TextureQuality) -> AssetFile:
     the quality alone, so that a stage is the same whatever was built before it.
     """
     asset = asset_of(shape)
-    with tempfile.TemporaryDirectory(prefix="garage2usd-") as folder:
-        path = Path(folder) / "asset.usdc"
+    # of many small files a folder for each would take a third of the time
+    path = Path(tempfile.gettempdir()) / f"garage2usd-{secrets.token_hex(8)}.usdc"
+    try:
         write_prototype(asset, path, kind=shape.kind, quality=quality)
         data = path.read_bytes()
+    finally:
+        path.unlink(missing_ok=True)
     textures = {texture for part in asset.parts for texture in MATERIALS[part.material].textures()}
     return AssetFile(
         NamedFile(content_name(pascal_case(shape.kind.name), data, ".usdc"), data),

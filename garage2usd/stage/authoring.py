@@ -11,19 +11,38 @@ from pxr import Sdf, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
-__all__ = ["attribute", "define", "new_layer", "numbers", "operation", "order_operations", "save", "set_units", "words"]
+__all__ = [
+    "apply_schemas",
+    "attribute",
+    "connect",
+    "define",
+    "new_layer",
+    "numbers",
+    "operation",
+    "order_operations",
+    "relationship",
+    "save",
+    "set_units",
+    "words",
+]
 
 
 @contextmanager
-def new_layer(path: Path, *, default_prim: str, text: str = "#usda 1.0\n") -> Iterator[Sdf.Layer]:
-    """Open a change block in a layer that begins with `text` and is written to a file at the end of the block."""
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString(text)
+def new_layer(path: Path, *, default_prim: str, text: str | None = None) -> Iterator[Sdf.Layer]:
+    """Open a change block in a layer that begins with `text` and is written to a new file at the end of the block."""
+    if text is None:
+        layer = _unwritten(path)
+    else:
+        layer = Sdf.Layer.CreateAnonymous(path.suffix)
+        layer.ImportFromString(text)
     with Sdf.ChangeBlock():
         set_units(layer)
         layer.defaultPrim = default_prim
         yield layer
-    save(layer, path)
+    if text is None:
+        layer.Save()
+    else:
+        save(layer, path)
 
 
 def set_units(layer: Sdf.Layer) -> None:
@@ -49,22 +68,42 @@ def define(
     if kind is not None:
         prim.kind = kind
     if label is not None:
-        schema = f"{LABELS_SCHEMA}:{OBJECT_TAXONOMY}"
-        prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=[schema]))
+        apply_schemas(prim, f"{LABELS_SCHEMA}:{OBJECT_TAXONOMY}")
         attribute(prim, labels_name(OBJECT_TAXONOMY), Sdf.ValueTypeNames.TokenArray, Vt.TokenArray([label]))
     return prim
 
 
+def apply_schemas(prim: Sdf.PrimSpec, *schemas: str) -> None:
+    """Apply API schemas, by their names in the order in which they count."""
+    prim.SetInfo("apiSchemas", Sdf.TokenListOp.Create(prependedItems=schemas))
+
+
 def attribute(
-    prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object, *, uniform: bool = False
+    prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, value: object = None, *, uniform: bool = False
 ) -> Sdf.AttributeSpec:
-    """An attribute with its default; in the namespace ``garage`` a custom one."""
+    """An attribute with its default, if it has one; in the namespace ``garage`` a custom one."""
     variability = Sdf.VariabilityUniform if uniform else Sdf.VariabilityVarying
     spec = Sdf.AttributeSpec(prim, name, type_name, variability)
-    spec.default = value
+    if value is not None:
+        spec.default = value
     if name.startswith("garage:"):
         spec.custom = True
     return spec
+
+
+def connect(
+    prim: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, source: Sdf.AttributeSpec
+) -> Sdf.AttributeSpec:
+    """An attribute that takes the value of another one."""
+    spec = attribute(prim, name, type_name)
+    spec.connectionPathList.explicitItems = [source.path]
+    return spec
+
+
+def relationship(prim: Sdf.PrimSpec, name: str, targets: Iterable[Sdf.Path]) -> None:
+    """A relationship to some prims."""
+    spec = Sdf.RelationshipSpec(prim, name, custom=False)
+    spec.targetPathList.explicitItems = list(targets)
 
 
 def words(prim: Sdf.PrimSpec, name: str, values: Iterable[str]) -> None:
@@ -95,6 +134,11 @@ def order_operations(prim: Sdf.PrimSpec, names: Iterable[str]) -> None:
 
 def save(layer: Sdf.Layer, path: Path) -> None:
     """Write an anonymous layer to a new file; as `Sdf.Layer.Export`, but without a second copy of all it holds."""
-    file = Sdf.Layer.CreateNew(str(path))
+    file = _unwritten(path)
     file.TransferContent(layer)
     file.Save()
+
+
+def _unwritten(path: Path) -> Sdf.Layer:
+    """A layer for a new file, which `Sdf.Layer.CreateNew` would write twice."""
+    return Sdf.Layer.New(Sdf.FileFormat.FindByExtension(path.suffix), str(path))

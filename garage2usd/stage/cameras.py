@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
 from garage2usd.layout import Layout
-from garage2usd.stage.authoring import attribute, define, operation, order_operations, set_units
+from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
@@ -23,6 +23,8 @@ _APERTURE_MM = (36.0, 20.25)
 _MARGIN = 1.05
 _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
+_STEADY = 1e-9
+"""What rounding errors make of no change of speed, in metres or degrees a frame."""
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
@@ -38,16 +40,13 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
     Notes
     -----
     It takes the shortest route from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
-    rounded corners, looking 4 m ahead; its first frame is 0.
+    rounded corners, looking 4 m ahead; its first frame is 0. Frames between which it moves or turns steadily have no
+    samples, as USD interpolates linearly.
     """
-    layer = Sdf.Layer.CreateNew(str(path))
-    with Sdf.ChangeBlock():
-        set_units(layer)
-        layer.defaultPrim = DRIVE_NAME
+    with new_layer(path, default_prim=DRIVE_NAME) as layer:
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
         last_frame = _drive(camera, layer, _way(layout, graph))
         set_frames(layer, last_frame)
-    layer.Save()
     return last_frame
 
 
@@ -106,15 +105,26 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     moves = operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*start))
     turns = operation(camera, "rotateY", Sdf.ValueTypeNames.Float, 0.0)
     order_operations(camera, ["translate", "rotateY"])
-    yaw = 0.0
-    for frame, ((x, z), (ahead_x, ahead_z)) in enumerate(zip(here, ahead, strict=True)):
+    yaw, yaws_deg = 0.0, []
+    for (x, z), (ahead_x, ahead_z) in zip(here, ahead, strict=True):
         if math.hypot(ahead_x - x, ahead_z - z) > 1e-3:  # noqa: PLR2004 - at the end it looks on as before
             target = math.degrees(math.atan2(x - ahead_x, z - ahead_z))
             yaw += math.remainder(target - yaw, 360.0)
-        if frame == 0:
-            turns.default = yaw
+        yaws_deg.append(yaw)
+    turns.default = yaws_deg[0]
+    for frame in _bends(np.array(here)):
+        x, z = here[frame]
         layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, _EYE_M, z))
-        layer.SetTimeSample(turns.path, float(frame), round(yaw, 3))
+    for frame in _bends(np.array(yaws_deg)[:, None]):
+        layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
+    return frames
+
+
+def _bends(values: NDArray[np.float64]) -> list[int]:
+    """The frames between which values, shape (frames, n), change steadily, which USD interpolates linearly."""
+    bends = np.ones(len(values), dtype=bool)
+    bends[1:-1] = (np.abs(np.diff(values, 2, axis=0)) > _STEADY).any(axis=1)
+    frames: list[int] = np.flatnonzero(bends).tolist()
     return frames
 
 

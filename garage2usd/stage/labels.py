@@ -33,7 +33,7 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
     LabelTable
         Its objects are the placements in their order, with ids from 1.
     """
-    low, high = (np.round(corners, 4).tolist() for corners in world_bounds_m(layout.placements))
+    low, high = ((np.round(corners, 4) + 0.0).tolist() for corners in world_bounds_m(layout.placements))
     return LabelTable(
         classes=tuple(SemanticClass(name=kind.label, id=kind.number, cityscapes=kind.cityscapes) for kind in KINDS),
         objects=tuple(

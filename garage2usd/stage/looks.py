@@ -1,96 +1,119 @@
 """Materials as UsdPreviewSurface networks."""
 
-from pxr import Gf, Sdf, Usd, UsdShade
+from pxr import Gf, Sdf
 
 from garage2usd.assets import Material
+from garage2usd.stage.authoring import attribute, connect, define
 
-__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "set_varying"]
+__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "set_glow", "set_varying"]
 
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
 PACKED_CHANNELS = {"r": "occlusion", "g": "roughness", "b": "metallic"}
 """What each channel of a packed texture is to the surface."""
+_TYPES = Sdf.ValueTypeNames
 
 
 def define_material(
-    stage: Usd.Stage, path: Sdf.Path, material: Material, *, varying: bool = False
-) -> UsdShade.Material:
+    layer: Sdf.Layer, path: Sdf.Path, material: Material, *, varies: bool = False, is_switched: bool = False
+) -> None:
     """Author one material at `path` with its surface, its texture readers and their shared coordinate reader.
 
-    A varying one takes what `set_varying` sets from the variants of its asset.
+    Parameters
+    ----------
+    layer, path
+        Where.
+    material
+        Its textures have the names of their files.
+    varies
+        Whether variants decide its colour and finish, by `set_varying`.
+    is_switched
+        Whether variants decide what it radiates, by `set_glow`.
     """
-    look = UsdShade.Material.Define(stage, path)
-    surface = UsdShade.Shader.Define(stage, path.AppendChild("Surface"))
-    surface.CreateIdAttr("UsdPreviewSurface")
-    surface_output = surface.CreateOutput("surface", Sdf.ValueTypeNames.Token)
-    look.CreateSurfaceOutput().ConnectToSource(surface_output)
-
-    if not varying:
-        _bind_colour(stage, path, surface, material)
-        _bind_finish(stage, path, surface, material)
+    look = define(layer, path, "Material")
+    surface = _shader(layer, path.AppendChild("Surface"), "UsdPreviewSurface")
+    connect(look, "outputs:surface", _TYPES.Token, attribute(surface, "outputs:surface", _TYPES.Token))
+    if not varies:
+        _author_colour(surface, path, material)
+        _author_finish(surface, path, material)
     if material.normal_texture is not None:
-        reader = _texture(stage, path, "NormalTexture", material.normal_texture, "raw")
+        reader = _reader(layer, path, "NormalTexture", material.normal_texture, "raw")
         # an 8-bit normal map holds (n + 1) / 2
-        reader.CreateInput("scale", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(2, 2, 2, 1))
-        reader.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1, -1, -1, 0))
-        output = reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
-        surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).ConnectToSource(output)
+        attribute(reader, "inputs:scale", _TYPES.Float4, Gf.Vec4f(2, 2, 2, 1))
+        attribute(reader, "inputs:bias", _TYPES.Float4, Gf.Vec4f(-1, -1, -1, 0))
+        connect(surface, "inputs:normal", _TYPES.Normal3f, attribute(reader, "outputs:rgb", _TYPES.Float3))
     if not material.has_alpha:
-        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).Set(material.opacity)
-    surface.CreateInput("clearcoat", Sdf.ValueTypeNames.Float).Set(material.clearcoat)
+        attribute(surface, "inputs:opacity", _TYPES.Float, material.opacity)
+    attribute(surface, "inputs:clearcoat", _TYPES.Float, material.clearcoat)
     if material.ior is not None:
-        surface.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(material.ior)
+        attribute(surface, "inputs:ior", _TYPES.Float, material.ior)
     if any(material.emissive_rgb):
-        surface.CreateInput("emissiveColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*material.emissive_rgb))
-    return look
+        # what is authored beside variants is stronger than what they say
+        set_glow(surface, None if is_switched else material.emissive_rgb)
 
 
-def set_varying(stage: Usd.Stage, path: Sdf.Path, material: Material) -> None:
-    """Author what a variant decides of the material at `path`, at the stage's edit target."""
-    surface = UsdShade.Shader(stage.OverridePrim(path.AppendChild("Surface")))
-    surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(*material.colour_rgb))
-    surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(material.roughness)
-    surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
+def set_varying(surface: Sdf.PrimSpec, material: Material) -> None:
+    """Author what a variant decides of a surface."""
+    attribute(surface, "inputs:diffuseColor", _TYPES.Color3f, Gf.Vec3f(*material.colour_rgb))
+    _author_plain_finish(surface, material)
 
 
-def _bind_colour(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:
-    colour = surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
+def set_glow(surface: Sdf.PrimSpec, radiance_rgb: tuple[float, float, float] | None) -> None:
+    """Author what a surface radiates; None leaves it to variants."""
+    value = None if radiance_rgb is None else Gf.Vec3f(*radiance_rgb)
+    attribute(surface, "inputs:emissiveColor", _TYPES.Color3f, value)
+
+
+def _author_colour(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) -> None:
     if material.colour_texture is None:
-        colour.Set(Gf.Vec3f(*material.colour_rgb))
+        attribute(surface, "inputs:diffuseColor", _TYPES.Color3f, Gf.Vec3f(*material.colour_rgb))
         return
-    reader = _texture(stage, path, "ColourTexture", material.colour_texture, "sRGB")
-    colour.ConnectToSource(reader.CreateOutput("rgb", Sdf.ValueTypeNames.Float3))
+    colour = attribute(surface, "inputs:diffuseColor", _TYPES.Color3f)
+    reader = _reader(surface.layer, path, "ColourTexture", material.colour_texture, "sRGB")
+    colour.connectionPathList.explicitItems = [attribute(reader, "outputs:rgb", _TYPES.Float3).path]
     if material.has_alpha:
-        alpha = reader.CreateOutput("a", Sdf.ValueTypeNames.Float)
-        surface.CreateInput("opacity", Sdf.ValueTypeNames.Float).ConnectToSource(alpha)
+        connect(surface, "inputs:opacity", _TYPES.Float, attribute(reader, "outputs:a", _TYPES.Float))
         # where there is nothing, nothing shines either
-        surface.CreateInput("opacityMode", Sdf.ValueTypeNames.Token).Set("presence")
+        attribute(surface, "inputs:opacityMode", _TYPES.Token, "presence")
 
 
-def _bind_finish(stage: Usd.Stage, path: Sdf.Path, surface: UsdShade.Shader, material: Material) -> None:
+def _author_finish(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) -> None:
     if material.packed_texture is None:
-        surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(material.roughness)
-        surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(material.metallic)
+        _author_plain_finish(surface, material)
         return
-    reader = _texture(stage, path, "PackedTexture", material.packed_texture, "raw")
+    reader = _reader(surface.layer, path, "PackedTexture", material.packed_texture, "raw")
     for channel, name in PACKED_CHANNELS.items():
-        output = reader.CreateOutput(channel, Sdf.ValueTypeNames.Float)
-        surface.CreateInput(name, Sdf.ValueTypeNames.Float).ConnectToSource(output)
+        output = attribute(reader, f"outputs:{channel}", _TYPES.Float)
+        connect(surface, f"inputs:{name}", _TYPES.Float, output)
 
 
-def _texture(stage: Usd.Stage, path: Sdf.Path, name: str, file: str, colour_space: str) -> UsdShade.Shader:
-    reader = UsdShade.Shader.Define(stage, path.AppendChild(name))
-    reader.CreateIdAttr("UsdUVTexture")
-    reader.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(Sdf.AssetPath(f"./{TEXTURE_FOLDER}/{file}"))
-    reader.CreateInput("sourceColorSpace", Sdf.ValueTypeNames.Token).Set(colour_space)
+def _author_plain_finish(surface: Sdf.PrimSpec, material: Material) -> None:
+    attribute(surface, "inputs:roughness", _TYPES.Float, material.roughness)
+    attribute(surface, "inputs:metallic", _TYPES.Float, material.metallic)
+
+
+def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: str, colour_space: str) -> Sdf.PrimSpec:
+    """A reader of a texture."""
+    reader = _shader(layer, path.AppendChild(name), "UsdUVTexture")
+    attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(f"./{TEXTURE_FOLDER}/{file}"))
+    attribute(reader, "inputs:sourceColorSpace", _TYPES.Token, colour_space)
     for axis in ("wrapS", "wrapT"):
-        reader.CreateInput(axis, Sdf.ValueTypeNames.Token).Set("repeat")
-    reader.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(_coordinates(stage, path))
+        attribute(reader, f"inputs:{axis}", _TYPES.Token, "repeat")
+    connect(reader, "inputs:st", _TYPES.Float2, _coordinates(layer, path.AppendChild("Coordinates")))
     return reader
 
 
-def _coordinates(stage: Usd.Stage, path: Sdf.Path) -> UsdShade.Output:
-    reader = UsdShade.Shader.Define(stage, path.AppendChild("Coordinates"))
-    reader.CreateIdAttr("UsdPrimvarReader_float2")
-    reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
-    return reader.CreateOutput("result", Sdf.ValueTypeNames.Float2)
+def _coordinates(layer: Sdf.Layer, path: Sdf.Path) -> Sdf.AttributeSpec:
+    """What the reader of a material's coordinates gives; all readers of textures share it."""
+    result = layer.GetAttributeAtPath(path.AppendProperty("outputs:result"))
+    if result:
+        return result
+    reader = _shader(layer, path, "UsdPrimvarReader_float2")
+    attribute(reader, "inputs:varname", _TYPES.String, "st")
+    return attribute(reader, "outputs:result", _TYPES.Float2)
+
+
+def _shader(layer: Sdf.Layer, path: Sdf.Path, identifier: str) -> Sdf.PrimSpec:
+    shader = define(layer, path, "Shader")
+    attribute(shader, "info:id", _TYPES.Token, identifier, uniform=True)
+    return shader

@@ -1,19 +1,29 @@
 """One asset as a layer of its own: ``/Asset`` with its meshes, materials and light."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade, Vt
+from numpy.typing import NDArray
+from pxr import Gf, Sdf, UsdGeom, Vt
 from pxr import Kind as ModelKind
 
-from garage2usd.assets import MATERIALS, VARYING, Asset, Collider, Part, RectLight, Touch, pascal_case
+from garage2usd.assets import MATERIALS, VARYING, Asset, Part, RectLight, Touch, pascal_case
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
-from garage2usd.reading.taxonomy import OBJECT_TAXONOMY
-from garage2usd.stage.looks import define_material, set_varying
+from garage2usd.stage.authoring import (
+    apply_schemas,
+    attribute,
+    define,
+    new_layer,
+    numbers,
+    operation,
+    order_operations,
+    relationship,
+)
+from garage2usd.stage.looks import define_material, set_glow, set_varying
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
@@ -25,6 +35,7 @@ NITS_PER_INTENSITY = 27.0
 _ROOT = "Asset"
 """Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
 _TUBE_COLOUR = (1.0, 0.97, 0.92)
+_TYPES = Sdf.ValueTypeNames
 
 
 class _Friction(NamedTuple):
@@ -58,39 +69,38 @@ def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQua
     quality
         Of the textures that it refers to, in the folder ``textures`` beside the file.
     """
-    stage = Usd.Stage.CreateNew(str(path))
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
-    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
-    UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
-    root = UsdGeom.Xform.Define(stage, Sdf.Path.absoluteRootPath.AppendChild(_ROOT)).GetPrim()
-    stage.SetDefaultPrim(root)
-    model = Usd.ModelAPI(root)
-    model.SetKind(ModelKind.Tokens.component)
-    model.SetAssetName(pascal_case(kind.name))
-    UsdSemantics.LabelsAPI.Apply(root, OBJECT_TAXONOMY).CreateLabelsAttr([kind.label])
-
-    geometry = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Geom")).GetPath()
-    looks = UsdGeom.Scope.Define(stage, root.GetPath().AppendChild("Looks")).GetPath()
-    materials = {
-        key: define_material(
-            stage,
-            looks.AppendChild(pascal_case(key)),
-            named_textures(MATERIALS[key], quality),
-            varying=key in VARYING,
+    with new_layer(path, default_prim=_ROOT) as layer:
+        root = define(
+            layer,
+            Sdf.Path.absoluteRootPath.AppendChild(_ROOT),
+            "Xform",
+            kind=ModelKind.Tokens.component,
+            label=kind.label,
         )
-        for key in sorted({part.material for part in asset.parts})
-    }
-    frictions = {touch: _define_friction(stage, looks, touch) for touch in sorted(_touched(asset))}
-    for part in asset.parts:
-        mesh = _define_mesh(stage, geometry.AppendChild(part.name), part, materials[part.material])
-        if part.collider is not None:
-            _define_collider(mesh, part.collider, frictions[MATERIALS[part.material].touch])
-    if asset.paints:
-        _define_paints(stage, root, looks, asset.paints)
-    if asset.light is not None:
-        light = _define_light(stage, root.GetPath().AppendChild("Light"), asset.light)
-        _define_power(root, light, asset.light, [materials[key] for key in sorted(_glowing(asset))])
-    stage.GetRootLayer().Save()
+        root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
+        geometry = define(layer, root.path.AppendChild("Geom"), "Scope").path
+        looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
+        switched = _glowing(asset) if asset.light is not None else set()
+        for key in sorted({part.material for part in asset.parts}):
+            material = named_textures(MATERIALS[key], quality)
+            define_material(layer, _look(looks, key), material, varies=key in VARYING, is_switched=key in switched)
+        for touch in sorted(_touched(asset)):
+            _define_friction(layer, looks, touch)
+        for part in asset.parts:
+            _define_mesh(layer, geometry.AppendChild(part.name), part, looks)
+        if asset.paints:
+            _define_paints(root, asset.paints)
+        if asset.light is not None:
+            _define_light(layer, root.path.AppendChild("Light"), asset.light)
+            _define_power(root, asset.light, sorted(switched))
+
+
+def _look(looks: Sdf.Path, key: str) -> Sdf.Path:
+    return looks.AppendChild(pascal_case(key))
+
+
+def _friction(looks: Sdf.Path, touch: Touch) -> Sdf.Path:
+    return looks.AppendChild(f"Friction{touch.capitalize()}")
 
 
 def _touched(asset: Asset) -> set[Touch]:
@@ -101,85 +111,92 @@ def _glowing(asset: Asset) -> set[str]:
     return {part.material for part in asset.parts if any(MATERIALS[part.material].emissive_rgb)}
 
 
-def _define_friction(stage: Usd.Stage, looks: Sdf.Path, touch: Touch) -> UsdShade.Material:
+def _define_friction(layer: Sdf.Layer, looks: Sdf.Path, touch: Touch) -> None:
     """A physics material with the friction of dry surfaces."""
     friction = _FRICTION[touch]
-    material = UsdShade.Material.Define(stage, looks.AppendChild(f"Friction{touch.capitalize()}"))
-    physics = UsdPhysics.MaterialAPI.Apply(material.GetPrim())
-    physics.CreateStaticFrictionAttr(friction.static)
-    physics.CreateDynamicFrictionAttr(friction.dynamic)
-    physics.CreateRestitutionAttr(friction.restitution)
-    return material
+    material = define(layer, _friction(looks, touch), "Material")
+    apply_schemas(material, "PhysicsMaterialAPI")
+    attribute(material, "physics:staticFriction", _TYPES.Float, friction.static)
+    attribute(material, "physics:dynamicFriction", _TYPES.Float, friction.dynamic)
+    attribute(material, "physics:restitution", _TYPES.Float, friction.restitution)
 
 
-def _define_paints(stage: Usd.Stage, root: Usd.Prim, looks: Sdf.Path, paints: Mapping[str, str]) -> None:
+def _define_paints(root: Sdf.PrimSpec, paints: Mapping[str, str]) -> None:
     """A variant for each paint; the first is selected where an instance selects none."""
-    choices = root.GetVariantSets().AddVariantSet(PAINT_SET)
-    for name, key in paints.items():
-        choices.AddVariant(name)
-        choices.SetVariantSelection(name)
-        with choices.GetVariantEditContext():
-            set_varying(stage, looks.AppendChild(pascal_case("car_paint")), MATERIALS[key])
-    choices.SetVariantSelection(next(iter(paints)))
+    for name, variant in _define_variants(root, PAINT_SET, paints):
+        surface = _over(variant, "Looks", pascal_case("car_paint"), "Surface")
+        set_varying(surface, MATERIALS[paints[name]])
 
 
-def _define_power(root: Usd.Prim, rect: UsdLux.RectLight, light: RectLight, glowing: list[UsdShade.Material]) -> None:
+def _define_power(root: Sdf.PrimSpec, light: RectLight, glowing: Iterable[str]) -> None:
     """Light and glow as the variants on and off, on being selected."""
-    choices = root.GetVariantSets().AddVariantSet(POWER_SET)
-    glows = [UsdShade.Shader(material.GetPrim().GetChild("Surface")).GetInput("emissiveColor") for material in glowing]
-    colours = [glow.Get() for glow in glows]
-    for name, share in (("on", 1.0), ("off", 0.0)):
-        choices.AddVariant(name)
-        choices.SetVariantSelection(name)
-        with choices.GetVariantEditContext():
-            rect.CreateIntensityAttr(share * light.luminance_nit / NITS_PER_INTENSITY)
-            for glow, colour in zip(glows, colours, strict=True):
-                glow.Set(share * colour)
-    # opinions of variants are weaker than those beside them
-    for glow in glows:
-        glow.GetAttr().Clear()
-    choices.SetVariantSelection("on")
+    shares = {"on": 1.0, "off": 0.0}
+    for name, variant in _define_variants(root, POWER_SET, shares):
+        intensity = shares[name] * light.luminance_nit / NITS_PER_INTENSITY
+        attribute(_over(variant, "Light"), "inputs:intensity", _TYPES.Float, intensity)
+        for key in glowing:
+            red, green, blue = (shares[name] * channel for channel in MATERIALS[key].emissive_rgb)
+            set_glow(_over(variant, "Looks", pascal_case(key), "Surface"), (red, green, blue))
 
 
-def _define_mesh(stage: Usd.Stage, path: Sdf.Path, part: Part, material: UsdShade.Material) -> Usd.Prim:
-    mesh = UsdGeom.Mesh.Define(stage, path)
+def _define_variants(root: Sdf.PrimSpec, name: str, variants: Iterable[str]) -> Iterator[tuple[str, Sdf.PrimSpec]]:
+    """A variant set with some variants, the first of them selected; gives the name and the prim of each."""
+    root.SetInfo("variantSetNames", Sdf.StringListOp.Create(prependedItems=[name]))
+    root.SetInfo("variantSelection", {name: next(iter(variants))})
+    choices = Sdf.VariantSetSpec(root, name)
+    for variant in variants:
+        yield variant, Sdf.VariantSpec(choices, variant).primSpec
+
+
+def _over(variant: Sdf.PrimSpec, *names: str) -> Sdf.PrimSpec:
+    """What a variant says of a prim, by the names of its ancestors and its own."""
+    path = variant.path
+    for name in names:
+        path = path.AppendChild(name)
+    return Sdf.CreatePrimInLayer(variant.layer, path)
+
+
+def _define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) -> None:
+    mesh = define(layer, path, "Mesh")
     points = Vt.Vec3fArray.FromNumpy(part.points)
-    mesh.CreatePointsAttr(points)
-    mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(part.face_counts))
-    mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(part.face_indices))
-    mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-    mesh.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(points))
-    primvars = UsdGeom.PrimvarsAPI(mesh)
+    attribute(mesh, "points", _TYPES.Point3fArray, points)
+    numbers(mesh, "faceVertexCounts", part.face_counts)
+    numbers(mesh, "faceVertexIndices", part.face_indices)
+    attribute(mesh, "subdivisionScheme", _TYPES.Token, UsdGeom.Tokens.none, uniform=True)
+    attribute(mesh, "extent", _TYPES.Float3Array, UsdGeom.PointBased.ComputeExtent(points))
     # the attribute of the schema takes no indices, with which a car is half as large
-    normals, normal_indices = np.unique(np.round(part.normals, 4) + 0.0, axis=0, return_inverse=True)
-    shading = primvars.CreatePrimvar("normals", Sdf.ValueTypeNames.Normal3fArray, UsdGeom.Tokens.faceVarying)
-    shading.Set(Vt.Vec3fArray.FromNumpy(normals.astype(np.float32)))
-    shading.SetIndices(Vt.IntArray.FromNumpy(normal_indices.ravel().astype(np.int32)))
-    if MATERIALS[part.material].textures():
-        coordinates = primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.faceVarying)
-        coordinates.Set(Vt.Vec2fArray.FromNumpy(part.st))
-        coordinates.SetIndices(Vt.IntArray.FromNumpy(part.st_indices))
-    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
-    return mesh.GetPrim()
+    _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
+    if len(part.st):
+        _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(part.st), part.st_indices)
+    relationship(mesh, "material:binding", [_look(looks, part.material)])
+    if part.collider is None:
+        apply_schemas(mesh, "MaterialBindingAPI")
+        return
+    apply_schemas(mesh, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI")
+    attribute(mesh, "physics:approximation", _TYPES.Token, part.collider.value, uniform=True)
+    relationship(mesh, "material:binding:physics", [_friction(looks, MATERIALS[part.material].touch)])
 
 
-def _define_collider(prim: Usd.Prim, collider: Collider, friction: UsdShade.Material) -> None:
-    UsdPhysics.CollisionAPI.Apply(prim)
-    UsdPhysics.MeshCollisionAPI.Apply(prim).CreateApproximationAttr(collider.value)
-    UsdShade.MaterialBindingAPI(prim).Bind(friction, materialPurpose="physics")
+def _define_primvar(
+    mesh: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, values: object, indices: NDArray[np.int32]
+) -> None:
+    """Values for the corners of the faces."""
+    primvar = attribute(mesh, f"primvars:{name}", type_name, values)
+    primvar.SetInfo("interpolation", UsdGeom.Tokens.faceVarying)
+    numbers(mesh, f"primvars:{name}:indices", indices)
 
 
-def _define_light(stage: Usd.Stage, path: Sdf.Path, light: RectLight) -> UsdLux.RectLight:
-    rect = UsdLux.RectLight.Define(stage, path)
-    rect.CreateWidthAttr(light.width_m)
-    rect.CreateHeightAttr(light.depth_m)
-    rect.CreateColorAttr(Gf.Vec3f(*_TUBE_COLOUR))
-    rect.CreateNormalizeAttr(False)
-    luminance = rect.GetPrim().CreateAttribute("garage:light:luminance", Sdf.ValueTypeNames.Float)
-    luminance.Set(light.luminance_nit)
-    extent = [Gf.Vec3f(-light.width_m / 2, -light.depth_m / 2, 0), Gf.Vec3f(light.width_m / 2, light.depth_m / 2, 0)]
-    rect.CreateExtentAttr(extent)
+def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: RectLight) -> None:
+    rect = define(layer, path, "RectLight")
+    attribute(rect, "inputs:width", _TYPES.Float, light.width_m)
+    attribute(rect, "inputs:height", _TYPES.Float, light.depth_m)
+    attribute(rect, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*_TUBE_COLOUR))
+    attribute(rect, "inputs:normalize", _TYPES.Bool, value=False)
+    attribute(rect, "garage:light:luminance", _TYPES.Float, light.luminance_nit)
+    corner_m = np.array([light.width_m, light.depth_m]) / 2
+    extent = np.array([[*-corner_m, 0.0], [*corner_m, 0.0]], dtype=np.float32)
+    attribute(rect, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))
     # a rect light shines along its -Z; turned by -90 degrees about X it shines down
-    rect.AddTranslateOp(UsdGeom.XformOp.PrecisionFloat).Set(Gf.Vec3f(0, light.height_m, 0))
-    rect.AddRotateXOp().Set(-90.0)
-    return rect
+    operation(rect, "translate", _TYPES.Float3, Gf.Vec3f(0, light.height_m, 0))
+    operation(rect, "rotateX", _TYPES.Float, -90.0)
+    order_operations(rect, ["translate", "rotateX"])

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from garage2usd.assets import Asset, pascal_case
 from garage2usd.layout import Layout
 from garage2usd.objects.kind import Look, Spec
+from garage2usd.stage.baked_meshes import baked_asset
 
 __all__ = ["Prototype", "asset_of", "name_prototypes"]
 
@@ -60,5 +61,5 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
 
 @lru_cache(maxsize=4096)
 def asset_of(spec: Spec) -> Asset:
-    """The meshes of one spec's shape; made once a process."""
-    return spec.asset()
+    """The meshes of one spec's shape; made once a process, or ahead."""
+    return baked_asset(spec) or spec.asset()

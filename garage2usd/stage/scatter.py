@@ -10,7 +10,7 @@ from pxr import Gf, Kind, Sdf, Vt
 
 from garage2usd.layout import ObjectTable
 from garage2usd.objects import KINDS, Spec
-from garage2usd.stage.authoring import attribute, define, new_layer, numbers
+from garage2usd.stage.authoring import attribute, define, new_layer, numbers, relationship
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.stage.prototypes import Prototype
 
@@ -52,8 +52,7 @@ def _author_prototypes(instancer: Sdf.PrimSpec, prototypes: Sequence[Prototype],
         reference = Sdf.Reference(f"{asset_folder}/{prototype.file}")
         child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
         targets.append(child.path)
-    relationship = Sdf.RelationshipSpec(instancer, "prototypes", custom=False)
-    relationship.targetPathList.explicitItems = targets
+    relationship(instancer, "prototypes", targets)
 
 
 def _author_points(prim: Sdf.PrimSpec, objects: ObjectTable, rows: NDArray[np.intp], indices: NDArray[np.intp]) -> None:

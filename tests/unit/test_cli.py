@@ -16,6 +16,7 @@ from garage2usd.cli.termination import Termination
 from garage2usd.compiled import compiled
 from garage2usd.config import config_schema
 from garage2usd.profiles import PROFILE_NAMES
+from garage2usd.stage.baked_meshes import MESH_FILE
 
 QUICK = "[plan]\nepisodes = 200\n"
 
@@ -158,6 +159,7 @@ def test_an_unwritable_output_is_named_before_the_work(config, output):
         ["build", "--output", "n" * 300 + ".usda"],
         ["build", "--output", "n" * 300 + "/g.usda"],
         ["textures", "n" * 300],
+        ["meshes", "n" * 300],
         ["check", "n" * 300 + ".usda"],
         ["plan", "n" * 300 + ".usda"],
         ["drive", "--output", "n" * 300 + ".json"],
@@ -241,9 +243,15 @@ def test_the_textures_are_baked_again_byte_for_byte(tmp_path):
     assert baked == kept
 
 
+def test_the_meshes_are_baked_again_byte_for_byte(tmp_path):
+    result = run("meshes", tmp_path / "baked")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "baked" / "meshes.npz").read_bytes() == MESH_FILE.read_bytes()
+
+
 def test_version_and_help():
     assert "garage2usd" in run("--version").output
-    for command in ("build", "plan", "render", "schema", "textures"):
+    for command in ("build", "meshes", "plan", "render", "schema", "textures"):
         assert run(command, "--help").exit_code == 0
 
 

@@ -25,7 +25,7 @@ from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.plan_picture import Mark, draw_plan
 from garage2usd.view.plan_sheet import MARK_COLOUR
-from garage2usd.view.raster import to_image
+from garage2usd.view.raster import to_image, write_png
 from garage2usd.view.route import find_stall, route_of
 from garage2usd.view.svg import CM_PER_M, to_svg
 
@@ -363,6 +363,18 @@ def test_doors_of_stair_cores_are_drawn_where_they_open():
     assert "door of a stair core" in [element.text for element in texts(svg, "legend")]
 
 
+def test_a_png_of_few_colours_looks_the_same(drawn, tmp_path):
+    image = to_image(drawn[1])
+    for name in ("one.png", "other.png"):
+        write_png(image, tmp_path / name)
+    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
+    with Image.open(tmp_path / "one.png") as written:
+        assert written.mode == "P"
+        off = np.abs(np.asarray(written.convert("RGB")).astype(int) - np.asarray(image).astype(int)).max(axis=2)
+    assert off.max() < 24  # rims of letters
+    assert (off > 1).mean() < 0.03
+
+
 def test_the_same_drawing_gives_the_same_bytes(garage):
     one, other = (draw_plan(garage.layout, garage.graph, marks=MARKS) for _ in range(2))
     assert to_svg(one) == to_svg(other)
@@ -425,7 +437,7 @@ def test_what_cannot_be_drawn_ends_in_one_line_and_no_file(tmp_path, monkeypatch
 def test_pictures_open_as_such(tmp_path):
     run(HAND_DRAWN, "-o", tmp_path / "p.png", "-o", tmp_path / "p.svg")
     with Image.open(tmp_path / "p.png") as image:
-        assert image.mode == "RGB"
+        assert image.mode == "P"
         svg = ET.parse(tmp_path / "p.svg").getroot()
         assert (round(float(svg.get("width"))), round(float(svg.get("height")))) == image.size
 

@@ -247,6 +247,8 @@ def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
     assert squares[0] == Cell.ENTRANCE
     assert squares[-1] == Cell.EXIT
     assert set(squares) == {Cell.ENTRANCE, Cell.LANE, Cell.EXIT}
+    samples = [camera.GetPrim().GetAttribute(f"xformOp:{name}").GetTimeSamples() for name in ("translate", "rotateY")]
+    assert all(times[0] == 0 and times[-1] == last and len(times) < 0.9 * (last + 1) for times in samples)
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
     assert steps.max() < 2.7 / stage.GetFramesPerSecond() + 1e-3
     forward = camera.ComputeLocalToWorldTransform(0).TransformDir((0, 0, -1))

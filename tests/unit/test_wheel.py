@@ -54,9 +54,14 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     package, textures = REPOSITORY / "garage2usd", REPOSITORY / "textures"
     code = {path.relative_to(package) for path in package.rglob("*.py") if "web" not in path.parts}
     pictures = {Path("textures") / path.relative_to(textures) for path in textures.rglob("*") if path.is_file()}
-    data = {path.relative_to(package) for part in ("profiles/*.toml", "view/page/*") for path in package.glob(part)}
+    data = {
+        path.relative_to(package)
+        for part in ("profiles/*.toml", "stage/*.npz", "view/page/*")
+        for path in package.glob(part)
+    }
     assert len(pictures) > 10
-    assert {Path("profiles/cn-jgj100.toml"), Path("view/page/index.html"), Path("view/page/viewer.js")} <= data
+    expected = ("profiles/cn-jgj100.toml", "stage/meshes.npz", "view/page/index.html", "view/page/viewer.js")
+    assert set(map(Path, expected)) <= data
     assert held == {path.as_posix() for path in code | pictures | data | {Path("py.typed")}}
 
 

@@ -146,10 +146,12 @@ def profile(corpus: Corpus, draw: Random) -> Case:
 def arguments(corpus: Corpus, draw: Random) -> Case:
     """Options that make no sense, in any order."""
     words = [word for _ in range(draw.randrange(1, 4)) for word in draw.choice(ARGUMENTS)]
-    command = draw.choice(["build", "check", "drive", "plan", "view", "render", "schema", "textures", "nothing", ""])
+    command = draw.choice(
+        ["build", "check", "drive", "meshes", "plan", "view", "render", "schema", "textures", "nothing", ""]
+    )
     if command == "build":  # which writes beside its configuration if it is told nothing else
         words = ["--output", "out/garage.usdz", *words]
-    if command == "textures":  # which takes its time
+    if command in {"meshes", "textures"}:  # which take their time
         words.append("--nonsense")
     return Case(
         "arguments", (command, draw.choice(["config.toml", "none.toml", ""]), *words), {"config.toml": CONFIG.encode()}

@@ -10,6 +10,7 @@ from support.sample_files import SAMPLES
 from garage2usd.checks import check_file
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError, ReportError, StageError
+from garage2usd.output import json_text
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.report import read_report
 from garage2usd.render.labels import read_labels
@@ -23,7 +24,7 @@ def build(builds):
 
 def test_a_report_that_was_read_is_written_as_it_was(build):
     report = read_report(build.report)
-    assert json.dumps(report.model_dump(mode="json"), indent=1) + "\n" == build.report.read_text()
+    assert json_text(report.model_dump(mode="json")) == build.report.read_text()
     assert report.config == build.garage.config
     assert report.garage_config().site.structure == str(build.garage.plan.structure)
     assert [stall.centre_m for stall in report.stalls] == [stall.centre_m for stall in build.garage.layout.stalls]

@@ -1,0 +1,53 @@
+"""``garage2usd meshes``."""
+
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garage2usd.cli.bars import Bars
+
+if TYPE_CHECKING:
+    from garage2usd.objects import Spec
+
+__all__ = ["meshes"]
+
+_GARAGES: tuple[tuple[int, dict[str, int]], ...] = ((20, {}), (6, {"width_cells": 30, "height_cells": 20}))
+"""How many seeds from 0 on, and the site: the usual garage, and a large one."""
+_LEAST_GARAGES = 2
+"""A shape of one garage alone is likely to be in no other."""
+
+
+@click.command(short_help="Bake the meshes that the package ships.")
+@click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
+@click.option("--choose", is_flag=True, help="Choose the shapes anew: those that usual garages have in common.")
+def meshes(folder: Path, *, choose: bool) -> None:
+    """Bake the meshes of usual shapes into a file in FOLDER, those that the package ships unless others are chosen."""
+    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_shapes  # noqa: PLC0415
+
+    check_writable(folder)
+    shapes = _usual_shapes() if choose else list(baked_shapes())
+    with staging_folder() as staging:
+        made = staging / MESH_FILE.name
+        bake_meshes(shapes, made)
+        (place,) = publish([made], folder)
+    click.echo(f"{len(shapes)} shapes in {place}")
+
+
+def _usual_shapes() -> list["Spec"]:
+    """Shapes that some garages have in common and that give no light, of which almost every garage has another."""
+    from garage2usd.config import GarageConfig  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+
+    asked = [(site, seed) for seeds, site in _GARAGES for seed in range(seeds)]
+    garages: Counter[Spec] = Counter()
+    with Bars(sys.stderr) as progress:
+        for done, (site, seed) in enumerate(asked):
+            progress("garages", done, len(asked))
+            config = GarageConfig.model_validate({"site": site, "seed": seed})
+            specs = generate(config).layout.placements.specs
+            garages.update({spec.shape for spec in specs})
+    return [shape for shape, count in garages.items() if count >= _LEAST_GARAGES and shape.asset().light is None]

@@ -1,0 +1,112 @@
+"""The meshes that are made ahead: that they are what would be made, of the shapes that garages have."""
+
+import json
+from functools import lru_cache
+from importlib import import_module
+
+import numpy as np
+import pytest
+from support.object_specs import SPECS
+
+from garage2usd.config import GarageConfig
+from garage2usd.errors import StageError
+from garage2usd.pipeline import generate
+from garage2usd.stage import baked_meshes
+from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_asset, baked_shapes
+from garage2usd.stage.prototypes import asset_of
+
+AGAIN = "bake the meshes again: garage2usd meshes garage2usd/stage (--choose where shapes have other measures)"
+ARRAYS = ("points", "face_counts", "face_indices", "normals", "normal_indices", "st", "st_indices")
+
+
+def described(asset):
+    parts = [(part.name, part.material, part.collider, type(part.collider)) for part in asset.parts]
+    return parts, asset.light, list(asset.paints.items())
+
+
+def arrays(asset):
+    return [(getattr(part, name).dtype, getattr(part, name).tobytes()) for part in asset.parts for name in ARRAYS]
+
+
+def test_what_is_made_ahead_is_what_would_be_made():
+    shapes = list(baked_shapes())
+    stale = [
+        shape
+        for shape in shapes
+        if described(shape.asset()) != described(baked_asset(shape))
+        or arrays(shape.asset()) != arrays(baked_asset(shape))
+    ]
+    assert not stale, AGAIN
+    assert len(shapes) > 200
+    assert len({shape.kind for shape in shapes}) > 20
+    assert MESH_FILE.stat().st_size < 1_000_000
+
+
+def test_a_change_of_one_number_is_found(tmp_path, monkeypatch):
+    with np.load(MESH_FILE) as file:
+        kept = {name: file[name] for name in file.files}
+    kept["points"][1234, 1] += np.float32(1e-5)
+    np.savez_compressed(tmp_path / "meshes.npz", **kept)
+    use(tmp_path / "meshes.npz", monkeypatch)
+    with pytest.raises(AssertionError, match="garage2usd meshes"):
+        test_what_is_made_ahead_is_what_would_be_made()
+
+
+def use(path, monkeypatch):
+    monkeypatch.setattr(baked_meshes, "MESH_FILE", path)
+    monkeypatch.setattr(baked_meshes, "_baked", lru_cache(maxsize=1)(baked_meshes._baked.__wrapped__))
+
+
+def test_usual_garages_find_almost_all_of_their_shapes():
+    layout = generate(GarageConfig(plan={"episodes": 100}), seed=101).layout
+    shapes = {spec.shape for spec in layout.placements.specs}
+    assert sum(baked_asset(shape) is None for shape in shapes) < 0.15 * len(shapes)
+
+
+def test_any_other_shape_is_made(tmp_path, monkeypatch):
+    bake_meshes([SPECS["column"], SPECS["cone"]], tmp_path / "two.npz")
+    use(tmp_path / "two.npz", monkeypatch)
+    assert [baked_asset(spec) is not None for spec in (SPECS["column"], SPECS["cone"], SPECS["floor"])] == [1, 1, 0]
+    assert described(asset_of.__wrapped__(SPECS["floor"])) == described(SPECS["floor"].asset())
+    assert set(baked_shapes()) == {SPECS["column"], SPECS["cone"]}
+
+
+@pytest.mark.parametrize("spec", SPECS.values(), ids=SPECS.keys())
+def test_a_shape_is_found_by_all_its_measures(tmp_path, monkeypatch, spec):
+    if spec.asset().light is not None:
+        return
+    bake_meshes([spec], tmp_path / "one.npz")
+    use(tmp_path / "one.npz", monkeypatch)
+    assert [other for other in SPECS.values() if baked_asset(other) is not None] == [spec]
+    assert list(baked_shapes()) == [spec]
+    assert arrays(baked_asset(spec)) == arrays(spec.asset())
+
+
+def test_nobody_changes_what_is_made_ahead():
+    with pytest.raises(ValueError, match="read-only"):
+        baked_asset(next(baked_shapes())).parts[0].points[0] = 0
+
+
+@pytest.mark.parametrize("key", ['["Marquee", {}]', '["ColumnSpec", {"girth_m": 2.0}]'])
+def test_a_shape_that_is_none_any_longer_is_named(tmp_path, monkeypatch, key):
+    with np.load(MESH_FILE) as file:
+        kept = {name: file[name] for name in file.files}
+    index = json.loads(kept["index"].tobytes())
+    kept["index"] = np.frombuffer(json.dumps({key: next(iter(index.values()))}).encode(), dtype=np.uint8)
+    np.savez_compressed(tmp_path / "old.npz", **kept)
+    use(tmp_path / "old.npz", monkeypatch)
+    with pytest.raises(StageError, match="no such shape any longer"):
+        list(baked_shapes())
+
+
+def test_shapes_of_two_garages_are_chosen(monkeypatch):
+    command = import_module("garage2usd.cli.meshes")
+    monkeypatch.setattr(command, "_GARAGES", ((2, {"width_cells": 5, "height_cells": 4, "obstacles": 0}),))
+    sites = [{"width_cells": 5, "height_cells": 4, "obstacles": 0}] * 2
+    garages = [
+        {spec.shape for spec in generate(GarageConfig(site=site), seed=seed).layout.placements.specs}
+        for seed, site in enumerate(sites)
+    ]
+    chosen = command._usual_shapes()
+    assert chosen
+    assert set(chosen) == {shape for shape in garages[0] & garages[1] if shape.asset().light is None}
