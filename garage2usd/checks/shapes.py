@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+
+from garage2usd.structure.pieces import joined
 
 __all__ = ["Body", "MeshShape", "Piece", "Thing", "box_shape", "turned_about_y"]
 
@@ -80,13 +80,11 @@ class MeshShape:
         """The connected pieces."""
         if not len(self.indices):
             return ()
-        size = len(self.points)
-        ones = np.ones(len(self.edges), dtype=np.int8)
-        count, label = connected_components(coo_array((ones, self.edges.T), (size, size)), directed=False)
-        used = np.zeros(size, dtype=bool)
-        used[self.indices] = True
-        found = (self.points[used & (label == number)] for number in range(count))
-        return tuple(_piece(points) for points in found if len(points))
+        used = np.unique(self.indices)
+        first = joined(len(self.points), *self.edges.T)[used]
+        order = np.argsort(first, kind="stable")
+        starts = np.unique(first[order], return_index=True)[1]
+        return tuple(_piece(points) for points in np.split(self.points[used[order]], starts[1:]))
 
 
 def _piece(points: Array) -> Piece:

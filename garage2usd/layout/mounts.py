@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from garage2usd.assets import pascal_case
 from garage2usd.config import GarageConfig
 from garage2usd.layout.cores import Core
+from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, of_spec, placed, rounded, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects import MOUNTED, Mounted
@@ -152,10 +152,10 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
     """As few faces as a greedy choice needs to serve all places that can be; places are (x, z), shape (n, 2)."""
     if not faces or not len(places):
         return []
-    at = np.array([face.place for face in faces])
-    beside = KDTree(at)
-    served = [np.array(found) for found in KDTree(places).query_ball_point(at, reach_m, p=mounted.norm)]
-    within = beside.query_ball_point(places, reach_m, p=mounted.norm, return_sorted=True)
+    beside = Points([face.place for face in faces])
+    place_near, face_near, _ = beside.within(reach_m, places, norm=mounted.norm)
+    within = _grouped(place_near, face_near, len(places))
+    served = _grouped(face_near, place_near, len(faces))
     needed = np.full(len(places), mounted.count)
     feet = shapely.STRtree([face.foot for face in faces])
     chosen: dict[int, _Face] = {}
@@ -167,15 +167,21 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
 
     for place in range(len(places)):
         while needed[place] > 0:
-            open_faces = [face for face in within[place] if face not in covered]
+            open_faces = [face for face in within[place].tolist() if face not in covered]
             if not open_faces:
                 break
             best = max(open_faces, key=worth)
             chosen[best] = faces[best]
             covered.update(feet.query(faces[best].foot, predicate="intersects").tolist())
-            near.update(beside.query_ball_point(at[best], _APART * reach_m))
+            near.update(beside.within(_APART * reach_m, beside.at_m[[best]])[1].tolist())
             needed[served[best]] -= 1
     return list(chosen.values())
+
+
+def _grouped(owners: NDArray[np.int64], members: NDArray[np.int64], count: int) -> list[NDArray[np.int64]]:
+    """For each of so many owners its members in ascending order."""
+    order = np.lexsort((members, owners))
+    return np.split(members[order], np.searchsorted(owners[order], np.arange(1, count)))
 
 
 def _hung(mounted: Mounted, face: _Face) -> Placement:
