@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
+from garage2usd.assets.monotone_curve import MonotoneCurve
 from garage2usd.config.vehicles import CarBody
 
 __all__ = ["SHAPES", "Contour", "Shell", "SideView", "both_sides", "grid_quads", "needed"]
@@ -238,12 +238,10 @@ class Shell:
     def __init__(self, body: CarBody, shape: SideView) -> None:
         self.body, self.shape = body, shape
         length, height = body.length_m, body.height_m
-        self._shoulder = PchipInterpolator(
-            [s * length for s, _ in shape.shoulder], [h * height for _, h in shape.shoulder]
-        )
+        self._shoulder = MonotoneCurve([s * length for s, _ in shape.shoulder], [h * height for _, h in shape.shoulder])
         self.cowl, self.roof_front, self.roof_rear, self.deck = (share * length for share, _ in shape.roof)
         middle = (self.roof_front + self.roof_rear) / 2
-        self._roof = PchipInterpolator(
+        self._roof = MonotoneCurve(
             [self.cowl, self.roof_front - 0.12, self.roof_front + 0.12, middle, self.roof_rear, self.deck],
             [
                 self.shoulder(self.cowl) + _BONNET_CROWN_M,
@@ -259,7 +257,7 @@ class Shell:
         nose = [(self._first + away, shape.nose + way * (1 - shape.nose)) for away, way in _NOSE_WIDTH]
         tail = [(self._last - away, shape.tail + way * (1 - shape.tail)) for away, way in _TAIL_WIDTH]
         stations, shares = zip(*nose, *tail[::-1], strict=True)
-        self._half_width = PchipInterpolator(stations, np.array(shares) * body.width_m / 2)
+        self._half_width = MonotoneCurve(stations, np.array(shares) * body.width_m / 2)
         self.stations = self._make_stations()
         self.points = self._make_rings()
         """Shape (stations, points of a half ring, 3)."""

@@ -1,5 +1,6 @@
 """Rules of the room around a parked car: the design car in the middle of each stall, its nose at the mouth."""
 
+import math
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.solids import Solid
 from garage2usd.checks.subject import Subject
-from garage2usd.profiles import Length, Profile
+from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.profiles import Profile
 from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK"]
@@ -24,25 +26,25 @@ _FOOT_M = 0.5
 
 
 @dataclass(frozen=True)
-class _ParkedCar:
-    """The design car in a stall."""
+class _ParkedCars:
+    """The design car in each stall that cars park in."""
 
-    stall: StallOutline
+    subject: Subject
     length_m: float
     width_m: float
 
     @property
-    def polygon(self) -> shapely.Polygon:
-        """Its ground."""
-        return self.ground()
+    def stalls(self) -> tuple[StallOutline, ...]:
+        """The stalls."""
+        return self.subject.parking_stalls
 
-    def ground(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> shapely.Polygon:
-        """Its ground, and as much more on both sides and behind."""
-        outwards = np.array(self.stall.outwards)
-        across = np.array([-outwards[1], outwards[0]]) * (self.width_m / 2 + beside_m)
-        nose = np.array(self.stall.mouth)
+    def grounds(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> Grounds:
+        """The ground of each car, and as much more on both sides and behind; shape (stalls,)."""
+        outwards = np.array([stall.outwards for stall in self.stalls]).reshape(-1, 2)
+        nose = np.array([stall.mouth for stall in self.stalls]).reshape(-1, 2)
+        across = np.stack([-outwards[:, 1], outwards[:, 0]], axis=1) * (self.width_m / 2 + beside_m)
         rear = nose - outwards * (self.length_m + behind_m)
-        return shapely.Polygon([nose + across, nose - across, rear - across, rear + across])
+        return grounds_of(np.stack([nose + across, nose - across, rear - across, rear + across], axis=1))
 
 
 @BOOK.rule(
@@ -53,9 +55,10 @@ class _ParkedCar:
     asks="the design car in a stall keeps away from columns",
 )
 def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    for car, required in _parked(subject, profile, profile.column_clearance):
-        near = subject.solids.at(car.polygon, within_m=required)
-        yield from _closest(car, near, {"column"}, required, "a column", subject)
+    cars, clause = _parked(subject, profile), profile.column_clearance
+    if cars and clause:
+        near = subject.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
+        yield from _closest(cars, near, {"column"}, clause.amount, "a column")
 
 
 @BOOK.rule(
@@ -66,9 +69,10 @@ def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from the walls beside it",
 )
 def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    for car, required in _parked(subject, profile, profile.wall_clearance):
-        near = subject.solids.at(car.ground(beside_m=required))
-        yield from _closest(car, near, _WALLS, required, "the wall beside", subject)
+    cars, clause = _parked(subject, profile), profile.wall_clearance
+    if cars and clause:
+        near = subject.solids.standing_at_each(cars.grounds(beside_m=clause.amount))
+        yield from _closest(cars, near, _WALLS, clause.amount, "the wall beside")
 
 
 @BOOK.rule(
@@ -79,9 +83,10 @@ def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from what stands behind it",
 )
 def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    for car, required in _parked(subject, profile, profile.end_clearance):
-        near = subject.solids.at(car.ground(behind_m=required))
-        yield from _closest(car, near, _WALLS, required, "the wall behind", subject)
+    cars, clause = _parked(subject, profile), profile.end_clearance
+    if cars and clause:
+        near = subject.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
+        yield from _closest(cars, near, _WALLS, clause.amount, "the wall behind")
 
 
 @BOOK.rule(
@@ -118,27 +123,27 @@ def _between_columns(stall: StallOutline, places: NDArray[np.float64]) -> float 
     return float(right.min() - left.max()) if len(left) and len(right) else None
 
 
-def _parked(subject: Subject, profile: Profile, clause: Length | None) -> Iterator[tuple[_ParkedCar, float]]:
-    """A car in each stall, and the room around it that a clause asks for in metres; none without a clause."""
+def _parked(subject: Subject, profile: Profile) -> _ParkedCars | None:
+    """A car in each stall; None where a profile has no design car."""
     length, width = profile.design_car_length, profile.design_car_width
-    if clause is None or length is None or width is None:
-        return
-    for stall in subject.parking_stalls:
-        yield _ParkedCar(stall, length.amount, width.amount), clause.amount
+    return _ParkedCars(subject, length.amount, width.amount) if length and width else None
 
 
 def _closest(
-    car: _ParkedCar, near: Iterable[Solid], labels: Container[str], required: float, what: str, subject: Subject
+    cars: _ParkedCars, near: Iterable[list[Solid]], labels: Container[str], required: float, what: str
 ) -> Iterator[Miss]:
-    """The least distance of a car to pieces of some labels; those that stand in its stall have rules of their own."""
-    inside = {solid.name for solid in subject.standing_in_stalls[car.stall]}
-    distances = [
-        (car.polygon.distance(solid.footprint), solid.name)
-        for solid in near
-        if solid.label in labels and solid.name not in inside
-    ]
-    if distances:
-        measured, name = min(distances)
+    """Each car whose least distance to pieces of some labels is too small, apart from those that stand in its stall."""
+    rows: list[tuple[int, Solid]] = []
+    for number, (stall, solids) in enumerate(zip(cars.stalls, near, strict=True)):
+        inside = {solid.name for solid in cars.subject.standing_in_stalls[stall]}
+        rows += [(number, solid) for solid in solids if solid.label in labels and solid.name not in inside]
+    beside = cars.grounds()[np.array([number for number, _ in rows], dtype=np.intp)]
+    distances = shapely.distance(beside, [solid.footprint for _, solid in rows]).tolist()
+    closest: dict[int, tuple[float, str]] = {}
+    for (number, solid), distance in zip(rows, distances, strict=True):
+        closest[number] = min(closest.get(number, (math.inf, "")), (distance, solid.name))
+    for number, (measured, name) in closest.items():
         if measured < required - ROUNDING_M:
+            stall = cars.stalls[number]
             message = f"a car in the stall comes too close to {what}: {name}"
-            yield Miss(car.stall.name, car.stall.centre, message, measured, required, (name,))
+            yield Miss(stall.name, stall.centre, message, measured, required, (name,))

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.checks.subject import Subject
+from garage2usd.layout.nearness import Points, distances_m
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.profiles import Length, Profile
 
@@ -34,13 +34,16 @@ def _out_of_reach(mounted: Mounted, subject: Subject, profile: Profile) -> Itera
     if len(hung) < mounted.count:
         yield Miss("", None, f"{len(hung)} objects of the class {what} are too few")
         return
-    distances, _ = KDTree(hung).query([place for _, place in places], k=[mounted.count], p=mounted.norm)
-    farthest = int(np.argmax(distances[:, 0].round(6)))
-    measured = float(distances[farthest, 0])
-    if measured > clause.amount + ROUNDING_M:
-        name, position = places[farthest]
+    at = np.array([position for _, position in places])
+    served, _, _ = Points(hung).within(clause.amount + ROUNDING_M, at, norm=mounted.norm)
+    short = np.flatnonzero(np.bincount(served, minlength=len(at)) < mounted.count)
+    if len(short):
+        needed = (np.sort(distances_m(at[index], hung, norm=mounted.norm))[mounted.count - 1] for index in short)
+        distances = np.fromiter(needed, dtype=np.float64, count=len(short))
+        farthest = int(np.argmax(distances.round(6)))
+        name, position = places[short[farthest]]
         which = "the second nearest" if mounted.count > 1 else "the nearest"
-        yield Miss(name, position, f"{which} {what} is too far", measured, clause.amount)
+        yield Miss(name, position, f"{which} {what} is too far", float(distances[farthest]), clause.amount)
 
 
 for _mounted in MOUNTED:
@@ -57,9 +60,9 @@ def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
     hydrants = _places_of(subject, _HYDRANT)
     if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
         return
-    distances, _ = KDTree(hydrants).query(hydrants, k=[2])
-    farthest = int(np.argmax(distances[:, 0].round(6)))
-    measured, required = float(distances[farthest, 0]), profile.hydrant_spacing.amount
+    apart = np.array([np.sort(distances_m(hydrant, hydrants))[1] for hydrant in hydrants])
+    farthest = int(np.argmax(apart.round(6)))
+    measured, required = float(apart[farthest]), profile.hydrant_spacing.amount
     if measured > required + ROUNDING_M:
         place: Point = (float(hydrants[farthest, 0]), float(hydrants[farthest, 1]))
         yield Miss("", place, "the next fire hydrant is too far", measured, required)

@@ -9,7 +9,6 @@ from garage2usd.checks.subject import Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
-from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.layout import Layout, Stall, lay_out
 from garage2usd.planning import dimensioned
@@ -140,12 +139,15 @@ def _laid_out(
         return None, "no square beside a lane takes a stall"
     try:
         layout = lay_out(structure, graph, config, unreachable=unreachable or ())
-        must_prove = unreachable is None and config.plan.unreachable_stalls.are_proven
-        return without_unreachable(layout, graph, config) if must_prove else layout, None
+        if unreachable is None and config.plan.unreachable_stalls.are_proven:
+            from garage2usd.driving import without_unreachable  # noqa: PLC0415 - brings compiled code
+
+            layout = without_unreachable(layout, graph, config)
     except ConfigError as error:
         if error.field.startswith("bay."):
             return None, str(error)
         raise
+    return layout, None
 
 
 def _differences(layout: Layout, listed: Sequence[Any]) -> list[Fault]:

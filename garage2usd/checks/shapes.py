@@ -7,14 +7,16 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+
+from garage2usd.structure.pieces import joined
 
 __all__ = ["Body", "MeshShape", "Piece", "Thing", "box_shape", "turned_about_y"]
 
 Array = NDArray[np.float64]
 
 _LEVEL = 1e-6
+_ALL_IN_ONE = np.zeros(1, dtype=np.int64)
+"""Where pieces start if there is one."""
 
 
 class Piece(NamedTuple):
@@ -73,33 +75,31 @@ class MeshShape:
     @cached_property
     def whole(self) -> Piece:
         """All of it as one piece."""
-        return _piece(self.points)
+        return _pieces(self.points, _ALL_IN_ONE)[0]
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """The connected pieces."""
         if not len(self.indices):
             return ()
-        size = len(self.points)
-        ones = np.ones(len(self.edges), dtype=np.int8)
-        count, label = connected_components(coo_array((ones, self.edges.T), (size, size)), directed=False)
-        used = np.zeros(size, dtype=bool)
-        used[self.indices] = True
-        found = (self.points[used & (label == number)] for number in range(count))
-        return tuple(_piece(points) for points in found if len(points))
+        used = np.unique(self.indices)
+        first = joined(len(self.points), *self.edges.T)[used]
+        order = np.argsort(first, kind="stable")
+        starts = np.unique(first[order], return_index=True)[1]
+        return _pieces(self.points[used[order]], starts)
 
 
-def _piece(points: Array) -> Piece:
-    heights = points[:, 1]
-    return Piece(points, _outline(points[:, [0, 2]]), float(heights.min()), float(heights.max()))
-
-
-def _outline(points: Array) -> Array:
-    """The convex outline; of what has none, as a line or a point, all points."""
-    hull = shapely.MultiPoint(points).convex_hull
-    if isinstance(hull, shapely.Polygon):
-        return np.asarray(hull.exterior.coords)[:-1]
-    return points
+def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
+    """Pieces of points, each from its start on; the outline of what has none, as a line or a point, is all of it."""
+    owner = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(points)))
+    hulls = shapely.convex_hull(shapely.multipoints(points[:, [0, 2]], indices=owner))
+    corners, hull = shapely.get_coordinates(hulls, return_index=True)
+    outlines = np.split(corners, np.searchsorted(hull, np.arange(1, len(starts))))
+    are_flat = shapely.get_type_id(hulls) != shapely.GeometryType.POLYGON
+    return tuple(
+        Piece(own, own[:, [0, 2]] if is_flat else outline[:-1], float(own[:, 1].min()), float(own[:, 1].max()))
+        for own, outline, is_flat in zip(np.split(points, starts[1:]), outlines, are_flat.tolist(), strict=True)
+    )
 
 
 def box_shape(low: Array, high: Array) -> MeshShape:
@@ -149,14 +149,14 @@ class Body(NamedTuple):
 
     def pieces(self, *, whole: bool = False) -> list[tuple[Array, float, float]]:
         """Outline (x, z), least and greatest height in the world of each connected piece, or of all in one."""
-        return [self._placed(piece) for piece in ((self.shape.whole,) if whole else self.shape.pieces)]
-
-    def _placed(self, piece: Piece) -> tuple[Array, float, float]:
+        pieces = (self.shape.whole,) if whole else self.shape.pieces
         turn, move = self.matrix[:3, :3], self.matrix[3, :3]
-        if self._is_upright:
-            flat, rise = turn[::2, ::2], float(turn[1, 1])
-            return piece.outline @ flat + move[::2], piece.low_m * rise + move[1], piece.high_m * rise + move[1]
-        return _piece(piece.points @ turn + move)[1:]
+        if not self._is_upright:
+            return [_pieces(piece.points @ turn + move, _ALL_IN_ONE)[0][1:] for piece in pieces]
+        flat, shift, rise, lift = turn[::2, ::2], move[::2], float(turn[1, 1]), float(move[1])
+        return [
+            (piece.outline @ flat + shift, piece.low_m * rise + lift, piece.high_m * rise + lift) for piece in pieces
+        ]
 
     @property
     def _is_upright(self) -> bool:

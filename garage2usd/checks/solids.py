@@ -1,6 +1,6 @@
 """What a car can touch or people can bump into: pieces of all objects, found by place."""
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from typing import NamedTuple
 
@@ -9,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.checks.shapes import Thing
+from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.objects import KINDS
 
 __all__ = ["HANGS_FROM_M", "Solid", "Solids"]
@@ -78,7 +79,7 @@ class Solids:
         self._owner = np.array(owners, dtype=np.int64)
         self._low, self._high = np.array(lows), np.array(highs)
         self._hangs = np.array(hangs, dtype=bool)
-        self._footprints = _polygons(corners)
+        self._footprints = grounds_of(corners)
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -113,9 +114,9 @@ class Solids:
         found = self._tree.query(area, predicate="dwithin", distance=within_m)
         return [self._solid(index) for index in sorted(found[self._hangs[found] == hanging].tolist())]
 
-    def standing_at_each(self, areas: Sequence[shapely.Polygon]) -> list[list[Solid]]:
-        """For each of many areas, the pieces of what stands that meet it."""
-        area, found = self._tree.query(np.array(areas, dtype=object), predicate="intersects")
+    def standing_at_each(self, areas: Grounds, *, within_m: float = 0.0) -> list[list[Solid]]:
+        """For each of many areas, the pieces of what stands that meet it or lie within a distance of it."""
+        area, found = self._tree.query(areas, predicate="dwithin", distance=within_m)
         stands = ~self._hangs[found]
         pieces: list[list[Solid]] = [[] for _ in areas]
         for number, index in sorted(zip(area[stands].tolist(), found[stands].tolist(), strict=True)):
@@ -135,13 +136,3 @@ class Solids:
             float(self._low[index]),
             float(self._high[index]),
         )
-
-
-def _polygons(corners: list[NDArray[np.float64]]) -> NDArray[np.object_]:
-    """Polygons of corners (x, z), made all at once."""
-    if not corners:
-        return np.empty(0, dtype=object)
-    sizes = [len(outline) for outline in corners]
-    owner = np.repeat(np.arange(len(corners)), sizes)
-    polygons: NDArray[np.object_] = shapely.polygons(shapely.linearrings(np.concatenate(corners), indices=owner))
-    return polygons

@@ -12,6 +12,7 @@ from pxr import Usd
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
+from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
@@ -89,24 +90,32 @@ class Subject:
         return tuple(stall for stall in self.stalls if stall.takes_cars)
 
     @cached_property
+    def stall_grounds(self) -> Grounds:
+        """The ground of each stall; shape (stalls,)."""
+        return grounds_of([stall.corners for stall in self.stalls])
+
+    @cached_property
     def stall_tree(self) -> shapely.STRtree:
         """The ground of all stalls, by place."""
-        return shapely.STRtree([stall.polygon for stall in self.stalls])
+        return shapely.STRtree(self.stall_grounds)
 
     @cached_property
     def standing_in_stalls(self) -> dict[StallOutline, list[Solid]]:
         """For each stall, the pieces of what stands in it, not only on its lines."""
-        inside = shapely.buffer(np.array([stall.polygon for stall in self.stalls], dtype=object), -_LINE_M)
-        return dict(zip(self.stalls, self.solids.standing_at_each(inside.tolist()), strict=True))
+        inside = shapely.buffer(self.stall_grounds, -_LINE_M)
+        return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
 
     @cached_property
     def cars(self) -> dict[str, tuple[shapely.Polygon, StallOutline | None]]:
         """The convex ground of each car, and the stall that more than half of it stands in."""
-        pieces: dict[str, list[shapely.Polygon]] = {}
-        for solid in self.solids.standing("car"):
-            pieces.setdefault(solid.name, []).append(solid.footprint)
-        grounds = {name: shapely.union_all(parts).convex_hull for name, parts in pieces.items()}
-        return {name: (ground, self.home_of(ground)) for name, ground in grounds.items()}
+        pieces = list(self.solids.standing("car"))
+        names = list(dict.fromkeys(solid.name for solid in pieces))
+        number_of = {name: number for number, name in enumerate(names)}
+        owner = np.array([number_of[solid.name] for solid in pieces], dtype=np.int64)
+        order = np.argsort(owner, kind="stable")
+        parts = np.array([solid.footprint for solid in pieces], dtype=object)[order]
+        grounds = shapely.convex_hull(shapely.multipolygons(parts, indices=owner[order])) if pieces else ()
+        return {name: (ground, self.home_of(ground)) for name, ground in zip(names, grounds, strict=True)}
 
     def home_of(self, ground: shapely.Polygon) -> StallOutline | None:
         """The stall that more than half of a ground lies in."""

@@ -1,5 +1,6 @@
 """The command line: arguments, progress, exit codes. A module is a command."""
 
+import gc
 import sys
 
 import click
@@ -20,6 +21,8 @@ from garage2usd.version import VERSION
 __all__ = ["main", "run"]
 
 
+_KEPT_OBJECTS = 50_000
+"""How many objects are made before Python looks for dead cycles: by default 700, though nearly all live to the end."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
 refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
 
@@ -40,6 +43,7 @@ for _command in (build, check, drive, meshes, plan, render, schema, textures, vi
 
 def run() -> None:
     """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
+    gc.set_threshold(_KEPT_OBJECTS)
     name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     if name in SUPERVISED:
         supervise(main, name=name)

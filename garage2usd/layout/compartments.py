@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from garage2usd.profiles import Area
 from garage2usd.structure.grid import Cell, Mask, Structure
+from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["compartment_name", "compartments_of"]
 
@@ -59,7 +59,8 @@ def _parts(part: Mask, areas: NDArray[np.float64], limit: float) -> Iterator[Mas
 
 def _best_cut(part: Mask, areas: NDArray[np.float64], limit: float) -> Mask:
     """What lies before the best line to cut a part along."""
-    box = ndimage.find_objects(part.astype(np.int8))[0]
+    spans = (np.flatnonzero(part.any(axis=axis)) for axis in (1, 0))
+    box = tuple(slice(int(span[0]), int(span[-1]) + 1) for span in spans)
     cropped, floor = part[box], areas[box]
     best: tuple[tuple[float, ...], Mask] | None = None
     for axis in (0, 1):
@@ -91,8 +92,8 @@ def _lines(areas: NDArray[np.float64]) -> list[int]:
 
 def _pieces(mask: Mask) -> list[Mask]:
     """The 4-connected pieces of a part."""
-    labels, count = ndimage.label(mask)
-    return [labels == label for label in range(1, count + 1)]
+    numbers, count = pieces_of(mask)
+    return [numbers == number for number in range(1, count + 1)]
 
 
 def _stretch(piece: Mask) -> float:

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from garage2usd.config import FittingsConfig
+from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import Placement, Stall, of_spec
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.tube_light import TubeLightSpec
@@ -98,15 +98,14 @@ def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArr
     if not len(points) or not tubes:
         return np.zeros(len(points))
     pieces, areas, heights = _pieces(tubes)
-    sources = KDTree(pieces)
+    sources = Points(pieces)
     total = np.zeros(len(points))
     for start in range(0, len(points), _POINTS_AT_ONCE):
-        near = KDTree(points[start : start + _POINTS_AT_ONCE])
-        pairs = near.sparse_distance_matrix(sources, _REACH_M, output_type="ndarray")
-        source = pairs["j"]
-        squared_m2 = pairs["v"] ** 2 + heights[source] ** 2
+        some = points[start : start + _POINTS_AT_ONCE]
+        point, source, far_m = sources.within(_REACH_M, some)
+        squared_m2 = far_m**2 + heights[source] ** 2
         lux = MAINTENANCE * areas[source] * heights[source] ** 2 / squared_m2**2
-        total[start : start + near.n] = np.bincount(pairs["i"], weights=lux, minlength=near.n)
+        total[start : start + len(some)] = np.bincount(point, weights=lux, minlength=len(some))
     return total
 
 

@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from garage2usd.assets import pascal_case
 from garage2usd.config import GarageConfig
 from garage2usd.layout.cores import Core
-from garage2usd.layout.placement import Placement, Stall, edge_yaw_rad, of_spec, placed, rounded, to_world
+from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.layout.nearness import Points
+from garage2usd.layout.placement import Placement, Stall, cos_sin, edge_yaw_rad, of_spec, placed, rounded, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
@@ -80,9 +81,9 @@ def mounted_objects(
     pillars, walls = tuple(pillars), tuple(walls)
     faces = [*_column_faces(pillars), *_wall_faces(walls)]
     driven = [_carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
-    used = [shapely.Polygon(stall.corners_m()).buffer(-_LINE_M, join_style="mitre") for stall in stalls]
-    used += [_ground(_core_and_landing(core), core.centre_m, edge_yaw_rad(core.edge)) for core in cores]
-    used += _outlines((*pillars, *walls, *standing))
+    parked = shapely.buffer(grounds_of([stall.corners_m() for stall in stalls]), -_LINE_M, join_style="mitre")
+    taken = [_core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *standing))
+    used = np.concatenate([parked, grounds_of(taken)])
     lanes = [tile.middle_m for tile in grid if tile.cell is Cell.LANE]
     places = np.array([stall.centre_m for stall in stalls] + lanes)
     objects: list[Placement] = []
@@ -92,7 +93,7 @@ def mounted_objects(
             clause = getattr(config.standard, mounted.clause)
             reach_m = (clause.amount if clause else mounted.reach_m) - _SLACK_M
             hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, free, places)]
-            used += _outlines(hung)
+            used = np.concatenate([used, grounds_of(_outlines(hung))])
             objects += hung
     return objects
 
@@ -130,14 +131,10 @@ def _free_faces(
     """The faces that are wide enough, with ground before them on which nobody drives, parks or stands in the way."""
     left, right, depth = _extent_m(mounted)
     wide = [face for face in faces if face.width_m >= right - left]
-    foot = rectangle(left, _TOUCH_M, right, depth)
-    before = rectangle(left, _TOUCH_M, right, depth + _APPROACH_M)
-    feet, approaches = (
-        np.array([_ground(outline, face.place, face.yaw_rad) for face in wide], dtype=object)
-        for outline in (foot, before)
-    )
+    feet = _before(wide, rectangle(left, _TOUCH_M, right, depth))
+    approaches = _before(wide, rectangle(left, _TOUCH_M, right, depth + _APPROACH_M))
 
-    def met(grounds: NDArray[np.object_], tree: shapely.STRtree) -> set[int]:
+    def met(grounds: Grounds, tree: shapely.STRtree) -> set[int]:
         return set(tree.query(grounds, predicate="intersects")[0].tolist())
 
     taken, on_lanes = met(feet, driven) | met(approaches, used), met(approaches, driven)
@@ -152,10 +149,10 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
     """As few faces as a greedy choice needs to serve all places that can be; places are (x, z), shape (n, 2)."""
     if not faces or not len(places):
         return []
-    at = np.array([face.place for face in faces])
-    beside = KDTree(at)
-    served = [np.array(found) for found in KDTree(places).query_ball_point(at, reach_m, p=mounted.norm)]
-    within = beside.query_ball_point(places, reach_m, p=mounted.norm, return_sorted=True)
+    beside = Points([face.place for face in faces])
+    place_near, face_near, _ = beside.within(reach_m, places, norm=mounted.norm)
+    within = _grouped(place_near, face_near, len(places))
+    served = _grouped(face_near, place_near, len(faces))
     needed = np.full(len(places), mounted.count)
     feet = shapely.STRtree([face.foot for face in faces])
     chosen: dict[int, _Face] = {}
@@ -167,15 +164,21 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
 
     for place in range(len(places)):
         while needed[place] > 0:
-            open_faces = [face for face in within[place] if face not in covered]
+            open_faces = [face for face in within[place].tolist() if face not in covered]
             if not open_faces:
                 break
             best = max(open_faces, key=worth)
             chosen[best] = faces[best]
             covered.update(feet.query(faces[best].foot, predicate="intersects").tolist())
-            near.update(beside.query_ball_point(at[best], _APART * reach_m))
+            near.update(beside.within(_APART * reach_m, beside.at_m[[best]])[1].tolist())
             needed[served[best]] -= 1
     return list(chosen.values())
+
+
+def _grouped(owners: NDArray[np.int64], members: NDArray[np.int64], count: int) -> list[NDArray[np.int64]]:
+    """For each of so many owners its members in ascending order."""
+    order = np.lexsort((members, owners))
+    return np.split(members[order], np.searchsorted(owners[order], np.arange(1, count)))
 
 
 def _hung(mounted: Mounted, face: _Face) -> Placement:
@@ -189,17 +192,24 @@ def _extent_m(mounted: Mounted) -> tuple[float, float, float]:
 
 
 def _core_and_landing(core: Core) -> Polygon:
-    """A core with the floor before its door, in its own coordinates."""
+    """A core with the floor before its door."""
     x, z = core.width_m / 2, core.depth_m / 2
-    return rectangle(-x, -z, x, z + core.recess_m)
+    outline = rectangle(-x, -z, x, z + core.recess_m)
+    return tuple(to_world(corner, core.centre_m, edge_yaw_rad(core.edge)) for corner in outline)
 
 
-def _outlines(placements: Iterable[Placement]) -> list[shapely.Polygon]:
-    return [shapely.Polygon(outline) for place in placements for outline in place.outlines()]
+def _outlines(placements: Iterable[Placement]) -> list[Polygon]:
+    return [outline for place in placements for outline in place.outlines()]
 
 
-def _ground(outline: Polygon, origin: Point, yaw_rad: float) -> shapely.Polygon:
-    return shapely.Polygon([to_world(corner, origin, yaw_rad) for corner in outline])
+def _before(faces: Sequence[_Face], outline: Polygon) -> Grounds:
+    """The ground of an outline before each face; as `to_world` moves it, all at once."""
+    x, z = np.array(outline).T
+    cos, sin = np.array([cos_sin(face.yaw_rad) for face in faces]).reshape(-1, 2, 1).swapaxes(0, 1)
+    origin_x, origin_z = np.array([face.place for face in faces]).reshape(-1, 2, 1).swapaxes(0, 1)
+    corners = np.stack([origin_x + x * cos + z * sin, origin_z - x * sin + z * cos], axis=2)
+    grounds: Grounds = shapely.polygons(corners)
+    return grounds
 
 
 def _carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:

@@ -1,12 +1,11 @@
 """Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
@@ -63,13 +62,16 @@ def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, 
     )
 
 
-def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterable[DeadEnd]) -> tuple[Stall, ...]:
+def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequence[DeadEnd]) -> tuple[Stall, ...]:
     """The same with a stall of each dead-end aisle kept free for turning.
 
     It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
     aisle, the nearest of all. A stall that cars drive straight on into helps nobody to turn, and is only taken where
     the aisle has no other.
     """
+    if not ends:
+        return stalls
+    from scipy.spatial import KDTree  # noqa: PLC0415 - few garages have such ends, all wait for imports
 
     def is_straight_on(stall: Stall) -> bool:
         return grid.tiles[stall.access_square].drivable[stall.edge]
@@ -78,7 +80,7 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Iterabl
     opening_on: dict[Square, list[int]] = {}
     for index, stall in enumerate(stalls):
         opening_on.setdefault(stall.access_square, []).append(index)
-    places = KDTree(np.array([stall.centre_m for stall in stalls]))
+    places = KDTree([stall.centre_m for stall in stalls])
     for end in ends:
         tile = grid.tiles[end.tip]
         _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))

@@ -16,6 +16,7 @@ __all__ = [
     "Stall",
     "StallUse",
     "box_inside",
+    "cos_sin",
     "edge_yaw_rad",
     "of_spec",
     "placed",
@@ -244,8 +245,13 @@ _EDGE_YAWS_RAD = {Edge.UP: math.pi, Edge.DOWN: 0.0, Edge.LEFT: -math.pi / 2, Edg
 _EXACT_QUARTER = {math.pi: (-1.0, 0.0), 0.0: (1.0, 0.0), -math.pi / 2: (0.0, -1.0), math.pi / 2: (0.0, 1.0)}
 
 
+def cos_sin(yaw_rad: float) -> tuple[float, float]:
+    """Cosine and sine of a yaw; those of quarter turns are exact."""
+    return _EXACT_QUARTER.get(yaw_rad) or (math.cos(yaw_rad), math.sin(yaw_rad))
+
+
 def to_world(point: Point, origin: Point, yaw_rad: float) -> Point:
     """Turn a local (x, z) by a yaw about +Y and move it to `origin`; quarter turns are exact."""
-    cos, sin = _EXACT_QUARTER.get(yaw_rad) or (math.cos(yaw_rad), math.sin(yaw_rad))
+    cos, sin = cos_sin(yaw_rad)
     x, z = point
     return origin[0] + x * cos + z * sin, origin[1] - x * sin + z * cos

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from garage2usd.config import PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.structure.grid import Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
 
@@ -181,7 +181,7 @@ def circulation(structure: Structure) -> Circulation:
     state, queue = np.zeros(len(cells), np.int32), np.zeros(len(cells), np.int64)
     figures = survey(np.flatnonzero(cells == Cell.LANE), padded.shape[1], cells, state, queue, 0, 1)
     states = np.where(lane, state.reshape(padded.shape)[1:-1, 1:-1], 0)
-    pieces = int(ndimage.label(lane)[1])
+    _, pieces = pieces_of(lane)
     blocks = lane[:-1, :-1] & lane[1:, :-1] & lane[:-1, 1:] & lane[1:, 1:]
     return Circulation(
         loops=figures.loops - 1 + pieces,

@@ -6,12 +6,12 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from garage2usd.config import BayConfig
 from garage2usd.planning.circulation import Circulation, circulation
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.pieces import pieces_of
 from garage2usd.structure.stalls import square_capacity
 
 __all__ = ["MeasuredCirculation", "Run", "measured_circulation", "neither_share"]
@@ -135,10 +135,10 @@ def _stretches(structure: Structure, found: Circulation) -> Iterator[Run]:
         (up.astype(np.int64) + down) * structure.row_depths_mm[:, None]
         + (left.astype(np.int64) + right) * structure.column_widths_mm
     ) // 2
-    labels, count = ndimage.label(found.stretches > 0)
+    numbers, count = pieces_of(found.stretches > 0)
     squares: list[list[Square]] = [[] for _ in range(count)]
-    for row, col in np.argwhere(labels).tolist():
-        squares[labels[row, col] - 1].append((row, col))
+    for row, col in np.argwhere(numbers).tolist():
+        squares[numbers[row, col] - 1].append((row, col))
     for run in squares:
         length_mm = sum(int(along_mm[square]) for square in run)
         yield Run(tuple(run), length_mm / _MM_PER_M, len(run))

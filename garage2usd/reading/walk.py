@@ -5,7 +5,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from pxr import Kind, Usd, UsdGeom, UsdLux
+from pxr import Kind, Usd, UsdGeom, UsdLux, UsdShade
 
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
 from garage2usd.reading.taxonomy import SQUARE_TAXONOMY, label_of
@@ -40,7 +40,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
     An object is a prim with a label of the taxonomy ``class``, less what is labelled below it; a point of an
     instancer, with the nearest label; and where there is no label, a component, an instance, or a single prim. Places,
     visibility and purpose are those that UsdGeom computes at `READ_AT`: what is invisible is left out with all below
-    it, and so are guides and proxies. A transform that is not finite counts as the identity.
+    it, and so are materials, guides and proxies. A transform that is not finite counts as the identity.
     """
     walk = _Walk(stage)
     at = _At("", "", to_world, to_world)
@@ -105,7 +105,8 @@ class _Walk:
 
     def visit(self, prim: Usd.Prim, above: _At) -> None:
         """Find what is at and below a prim; `above` is its parent."""
-        if not _is_visible(prim):
+        # nearly half of a garage's prims; UsdImaging looks for nothing to draw below them either
+        if prim.IsA(UsdShade.Material) or not _is_visible(prim):
             return
         place, is_reset = self._place(prim)
         matrix = place @ (above.stage_matrix if is_reset else above.matrix)

@@ -1,7 +1,6 @@
 """Static objects that the user gives instead of having them drawn."""
 
 import numpy as np
-from scipy import ndimage
 
 from garage2usd.config import SiteConfig
 from garage2usd.errors import ConfigError
@@ -15,6 +14,7 @@ from garage2usd.structure.grid import (
     cells_to_text,
     edge_neighbour_count,
 )
+from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["check_structure", "given_contour", "place_obstacles", "place_portals"]
 
@@ -111,7 +111,7 @@ def check_structure(cells: CellArray) -> None:
 
 def _check_ways(cells: CellArray) -> None:
     """Refuse lanes on which a car that comes in cannot get out, or an exit that no car gets to."""
-    pieces, _ = ndimage.label(cells == Cell.LANE)
+    pieces, _ = pieces_of(cells == Cell.LANE)
     around = np.pad(pieces, 1)
     touched = {
         (row, col): {int(around[row + 1 + dr, col + 1 + dc]) for dr, dc in NEIGHBOUR_STEPS} - {0}

@@ -2,13 +2,13 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from garage2usd.config import SiteConfig
 from garage2usd.errors import GenerationError
 from garage2usd.randomness import Step, generator
 from garage2usd.site.ramps import are_apart, with_room_for_ramps
 from garage2usd.structure.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
+from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["draw_portals", "free_squares_connected", "outer_squares", "straight_frontier"]
 
@@ -68,10 +68,9 @@ def outer_squares(cells: CellArray) -> Mask:
 def free_squares_connected(cells: CellArray) -> bool:
     """Whether the free squares form one 4-connected piece and every portal touches it."""
     free = cells == Cell.FREE
-    if ndimage.label(free)[1] != 1:
-        return False
+    _, count = pieces_of(free)
     portal = (cells == Cell.ENTRANCE) | (cells == Cell.EXIT)
-    return bool((~portal | ndimage.binary_dilation(free)).all())
+    return count == 1 and bool((edge_neighbour_count(free)[portal] > 0).all())
 
 
 def draw_portals(

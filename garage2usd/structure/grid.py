@@ -11,9 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage
 
 from garage2usd.errors import ConfigError
+from garage2usd.structure.pieces import pieces_of
 
 __all__ = [
     "NEIGHBOUR_STEPS",
@@ -102,8 +102,8 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
 def outside_squares(cells: CellArray) -> Mask:
     """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
     blocked = np.pad(cells == Cell.OBSTACLE, 1, constant_values=True)
-    labels, _ = ndimage.label(blocked)
-    outside: Mask = (labels == labels[0, 0])[1:-1, 1:-1]
+    numbers, _ = pieces_of(blocked)
+    outside: Mask = (numbers == numbers[0, 0])[1:-1, 1:-1]
     return outside
 
 

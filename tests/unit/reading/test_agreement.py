@@ -5,7 +5,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from pxr import Usd, UsdGeom
+from pxr import Usd, UsdGeom, UsdShade
 from support.foreign_stages import TRAPS, installed_stages
 
 from garage2usd.checks.contents import read_contents as scene_of_checks
@@ -120,3 +120,11 @@ def test_an_instancer_that_is_its_own_prototype_ends():
     points.CreatePositionsAttr([(1, 0, 0), (2, 0, 0)])
     found = placed_objects(stage, np.eye(4))
     assert [placed.path for placed in found][:2] == ["/World/Cube", "/World/Points[0]"]
+
+
+def test_what_is_below_a_material_is_not_drawn():
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.Cube.Define(stage, "/Drawn")
+    UsdShade.Material.Define(stage, "/Paint")
+    UsdGeom.Cube.Define(stage, "/Paint/Cube")
+    assert [found.path for found in placed_objects(stage, np.eye(4))] == ["/Drawn"]
