@@ -96,6 +96,9 @@ def _waits(root: Path, room: Path) -> dict[str, float]:
         configs[size] = room / f"{size.replace(' ', '')}.toml"
         configs[size].write_text(text)
     environment = os.environ | {"PYTHONPATH": str(root), "NUMBA_CACHE_DIR": str(room / "cache")}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
+    # as installing does
+    subprocess.run([sys.executable, "-m", "compileall", "-q", root / "garage2usd"], env=environment, check=True)
 
     def command(*arguments: object) -> float:
         return _seconds(["-m", "garage2usd", *map(str, arguments)], environment, room)

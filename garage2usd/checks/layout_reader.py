@@ -76,7 +76,7 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
     things = []
     for row, placement in zip(rows.tolist(), objects.at(rows), strict=True):
         matrix = turned_about_y(placement.yaw_rad, placement.position_m)
-        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(placement.spec))
+        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(placement.spec.shape))
         things.append(Thing(paths[row], placement.spec.kind.label, bodies))
     return tuple(things)
 

@@ -31,7 +31,7 @@ def world_bounds_m(
     yaws, yaw = np.unique(yaw_rad, return_inverse=True)
     turns, turn = np.unique(spec.astype(np.int64) * len(yaws) + yaw, return_inverse=True)
     corners = [
-        _turned_bounds_m(points_of(objects.specs[shape]), yaws[number])
+        _turned_bounds_m(points_of(objects.specs[shape].shape), yaws[number])
         for shape, number in zip(*(part.tolist() for part in np.divmod(turns, len(yaws))), strict=True)
     ]
     local = np.array(corners).reshape(-1, 2, 3)[turn]

@@ -62,4 +62,5 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
 @lru_cache(maxsize=4096)
 def asset_of(spec: Spec) -> Asset:
     """The meshes of one spec's shape; made once a process, or ahead."""
-    return baked_asset(spec) or spec.asset()
+    shape = spec.shape
+    return asset_of(shape) if shape != spec else baked_asset(spec) or spec.asset()
