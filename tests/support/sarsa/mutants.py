@@ -79,7 +79,7 @@ MUTANTS = (
     Mutant("distances unseen", "if parameters.sees_distances:", "if parameters.alpha < 0:"),
     # how it chooses
     Mutant("epsilon as worded", "if uniform(random) < epsilon:", "if uniform(random) >= epsilon:"),
-    Mutant("least of the values", "memory.q[row, action] > top", "-memory.q[row, action] > top"),
+    Mutant("least of the values", "memory.q[row, place] > top", "-memory.q[row, place] > top"),
     Mutant("ties to the first action", "(first + offset) % ACTIONS", "offset"),
     Mutant("epsilon below its least", "max(epsilon * p.epsilon_decay, p.epsilon_min)", "epsilon * p.epsilon_decay"),
     Mutant("patience one episode longer", "unchanged >= p.patience_episodes", "unchanged > p.patience_episodes"),
