@@ -24,7 +24,6 @@ from garage2usd.stage.prim_text import (
     anchored,
     group_pieces,
     group_text,
-    inherits_text,
     moved_text,
     place_text,
     reference_text,
@@ -32,16 +31,14 @@ from garage2usd.stage.prim_text import (
 )
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
-from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
+from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
 from garage2usd.stage.variants import SWITCHES, variant_texts
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["write_garage_layer"]
 
 _CLASSES = "Classes"
-"""Scope of the classes that all objects of a variant set inherit from."""
-_TILE_CLASSES = "TilePrototypes"
-"""Scope of the classes that equal tiles inherit from."""
+"""Scope of the classes that all objects of a variant set, and all tiles that share a prototype, inherit from."""
 
 
 def write_garage_layer(
@@ -68,7 +65,7 @@ def write_garage_layer(
         Asset and look of every spec in the layout.
     own_folder
         Folder beside `path` of the layers that belong to this garage alone: the lane graph goes there, and the
-        scattered objects where tiles share prototypes.
+        prototypes of tiles and the scattered objects where tiles share prototypes.
     asset_folder
         Folder of the assets, relative to that of `path`, with slashes.
     metadata
@@ -79,7 +76,8 @@ def write_garage_layer(
         The file; ``.usda`` or ``.usdc``.
     """
     folder = path.parent / own_folder
-    text = _garage_text(layout, graph, arrangement, prototypes, own_folder, anchored(asset_folder))
+    beside = anchored(posixpath.relpath(asset_folder, own_folder))
+    text = _garage_text(layout, graph, arrangement, prototypes, folder, (anchored(asset_folder), beside))
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.ImportFromString(text)
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
@@ -95,7 +93,6 @@ def write_garage_layer(
     # of a large garage each layer is a hundred megabytes while it is written
     del layer
     write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph)
-    beside = anchored(posixpath.relpath(asset_folder, own_folder))
     for name, rows in arrangement.scattered.items():
         write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes, asset_folder=beside)
 
@@ -105,35 +102,43 @@ def _garage_text(
     graph: LaneGraph,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
-    own_folder: str,
-    asset_folder: str,
+    folder: Path,
+    asset_folders: tuple[str, str],
 ) -> str:
-    """The garage but for cameras and metadata, with the folders as its layer refers to them."""
+    """The garage but for cameras and metadata; prototypes of tiles are written into `folder`.
+
+    The folder of the assets is given as the garage's layer and as a layer in `folder` refers to it.
+    """
+    outer_folder, inner_folder = asset_folders
     writer = InstanceWriter(
         layout,
         arrangement,
         prototypes,
-        asset_folder,
+        outer_folder,
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
         describe_stalls=not arrangement.nested,
     )
     labels = _tile_labels(graph, arrangement.squares)
-    tile_classes: Iterable[str] = ()
+    class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
     if arrangement.nested:
-        shared = share_tiles(layout, arrangement, labels, writer)
-        tiles, tile_classes = _shared_tiles(arrangement, shared), _tile_classes(shared)
+        inner = InstanceWriter(layout, arrangement, prototypes, inner_folder, classes={}, describe_stalls=False)
+        shared = share_tiles(layout, arrangement, labels, inner)
+        write_tile_prototypes(shared, folder / TILES_FILE)
+        tiles = _shared_tiles(arrangement, shared, folder.name)
+        shared_followers = shared.followers
     else:
-        tiles = _tiles(arrangement, labels, writer)
-    variants = variant_texts(_CLASSES, selected=not arrangement.nested)
-    classes = "".join(f'class "{switch.class_name}"\n{{\n}}\n' for switch in dict.fromkeys(SWITCHES.values()))
+        tiles, shared_followers = _tiles(arrangement, labels, writer), {}
+    variants = variant_texts(class_names, shared_followers, within=_CLASSES, selected=not arrangement.nested)
     groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
+    names = (*(switch.class_name for switch in class_names), *shared_followers)
+    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
     head = (
         f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
         f'class "{_CLASSES}"\n{{\n{classes}}}\n'
     )
     files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = (_part_text(own_folder, file) for file in files)
-    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"], tile_classes))
+    parts = (_part_text(folder.name, file) for file in files)
+    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"]))
 
 
 def _tile_labels(graph: LaneGraph, squares: NDArray[np.intp]) -> list[str]:
@@ -156,12 +161,15 @@ def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWrit
     return _rows(arrangement, texts)
 
 
-def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[str]:
-    """Row groups, and an instance of its prototype for each tile.
+def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, own_folder: str) -> Iterator[str]:
+    """Row groups, and an instance of a prototype for each tile, which inherits what variants say of it from its class.
 
-    A tile inherits its prototype, which is faster to open than a reference to another layer.
+    What all instances have in common stands in the prototypes, whose layer is so much smaller.
     """
-    headers = {name: inherits_text(f"/{_TILE_CLASSES}/{name}") for name in shared.texts}
+    asset = f"./{own_folder}/{TILES_FILE}"
+    headers = {
+        name: reference_text(asset, prim=f"/{name}", base=f"/{ROOT_NAME}/{_CLASSES}/{name}") for name in shared.texts
+    }
     texts = (
         f'def "{tile_name((row, col))}" (\n{headers[name]})\n{{\n{moved_text(x)}}}\n'
         for (row, col), x, name in zip(
@@ -169,16 +177,6 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[
         )
     )
     return _rows(arrangement, texts)
-
-
-def _tile_classes(shared: TilePrototypes) -> Iterator[str]:
-    """The prototypes of tiles, beside the garage, whose variant sets would be looked up for each tile below it.
-
-    They are composed with the tiles alone: where they stand, they are inactive.
-    """
-    yield f'class "{_TILE_CLASSES}" (\nactive = false\n)\n{{\n'
-    yield from shared.texts.values()
-    yield "}\n"
 
 
 def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
