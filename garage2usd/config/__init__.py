@@ -11,6 +11,7 @@ from pydantic import BaseModel, Field, ValidationError, field_validator
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
+from garage2usd.config.maps import DriveConfig, GridConfig, MapsConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
@@ -23,6 +24,7 @@ __all__ = [
     "BayConfig",
     "FittingsConfig",
     "GarageConfig",
+    "MapsConfig",
     "ParkingConfig",
     "PlanConfig",
     "SiteConfig",
@@ -33,7 +35,17 @@ __all__ = [
     "profile_setting",
 ]
 
-_SECTIONS = (SiteConfig, BayConfig, PlanConfig, FittingsConfig, ParkingConfig, StageConfig)
+_SECTIONS = (
+    SiteConfig,
+    BayConfig,
+    PlanConfig,
+    FittingsConfig,
+    ParkingConfig,
+    StageConfig,
+    MapsConfig,
+    GridConfig,
+    DriveConfig,
+)
 
 
 class GarageConfig(Settings):
@@ -53,6 +65,8 @@ class GarageConfig(Settings):
     """Parked cars."""
     stage: StageConfig = StageConfig()
     """The stage's files."""
+    maps: MapsConfig = MapsConfig()
+    """Maps and scenarios."""
     profile: str | Profile = DEFAULT_PROFILE
     """The standard that the garage is designed to: 'cn-jgj100', 'de-garvo', 'uk-istructe', 'us-ada', a TOML file with a
     profile of one's own, whose relative path starts at the configuration file, or its contents. What it asks for takes
@@ -94,8 +108,8 @@ class GarageConfig(Settings):
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
 
     def digest(self) -> str:
-        """SHA-256 of the canonical JSON of all settings."""
-        canonical = json.dumps(self.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+        """SHA-256 of the canonical JSON of all settings but ``maps``, which decides nothing of the garage."""
+        canonical = json.dumps(self.model_dump(mode="json", exclude={"maps"}), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
 
 
