@@ -201,9 +201,14 @@ def test_every_paint_is_a_variant(stage, made):
 
 
 @pytest.mark.parametrize("form", ["made", "nested"])
-def test_occupancy_lights_and_ceiling_are_variants(form, request):
+@pytest.mark.parametrize("root", ["/Garage", "/City/Garage_7"])
+def test_occupancy_lights_and_ceiling_are_variants(form, root, request):
+    """Of the stage, and of another one that refers to it."""
     built = request.getfixturevalue(form)
     stage, layout = Usd.Stage.Open(str(built.stage)), built.garage.layout
+    if root != "/Garage":
+        stage = Usd.Stage.CreateInMemory()
+        stage.DefinePrim(root).GetReferences().AddReference(str(built.stage))
 
     def state():
         prims = everything(stage)
@@ -217,7 +222,7 @@ def test_occupancy_lights_and_ceiling_are_variants(form, request):
 
     cars, lights, ceilings = (len(layout.of_kind(kind)) for kind in ("car", "light", "ceiling"))
     assert state() == (cars, lights, ceilings)
-    sets = stage.GetPrimAtPath("/Garage").GetVariantSets()
+    sets = stage.GetPrimAtPath(root).GetVariantSets()
     for name, usual, other, expected in (
         ("occupancy", "parked", "empty", (0, lights, ceilings)),
         ("lights", "on", "off", (cars, 0, ceilings)),
