@@ -18,7 +18,7 @@ class Settings(BaseModel):
 class Record(BaseModel):
     """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
 
-    model_config = ConfigDict(frozen=True, allow_inf_nan=False, populate_by_name=True)
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
 
 def first_fault(error: ValidationError) -> str:

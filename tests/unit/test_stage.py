@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
@@ -140,7 +141,7 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
     assert len(tiles) == (layout.structure.cells != Cell.OBSTACLE).sum()
     assert all(tile.IsInstance() for tile in tiles)
     assert len({tile.GetPrototype() for tile in tiles}) < len(tiles)
-    table = json.loads(nested.labels.read_text())["objects"]
+    table = labelled_objects(nested.labels)
     assert len(table) == len(layout.placements)
     assert len({entry["path"] for entry in table}) == len(table)
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
@@ -164,9 +165,9 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
 
 
 def test_the_label_table_agrees_with_the_stage(stage, made):
-    table = json.loads(made.labels.read_text())
-    assert [entry["id"] for entry in table["objects"]] == list(range(1, len(made.garage.layout.placements) + 1))
-    names = {entry["name"] for entry in table["classes"]}
+    objects = labelled_objects(made.labels)
+    assert [entry["id"] for entry in objects] == list(range(1, len(made.garage.layout.placements) + 1))
+    names = {entry["name"] for entry in json.loads(made.labels.read_text())["classes"]}
     assert names == set(OBJECT_LABELS.values()) == set(CITYSCAPES)
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
     labelled = {
@@ -174,8 +175,8 @@ def test_the_label_table_agrees_with_the_stage(stage, made):
         for prim in stage.Traverse()
         if prim.IsInstance()
     }
-    assert {entry["path"]: [entry["class"]] for entry in table["objects"]} == labelled
-    for entry in table["objects"]:
+    assert {entry["path"]: [entry["class"]] for entry in objects} == labelled
+    for entry in objects:
         box = world_box(stage, entry["path"], cache)
         if entry["class"] in {"car", "floor_stain", "mirror"}:  # turned: the cache bounds a turned box
             assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
