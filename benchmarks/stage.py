@@ -26,7 +26,6 @@ from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
 from garage2usd.stage.prototypes import Prototype, name_prototypes
-from garage2usd.stage.tile_prototypes import TILES_FILE
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
 
@@ -176,7 +175,7 @@ def _prototypes(layout: Layout, config: GarageConfig) -> dict[Spec, Prototype]:
 
 def _own_layers(path: Path) -> list[Path]:
     """The layers that are authored for one garage alone."""
-    names = (TILES_FILE, LANE_GRAPH_FILE, *(f"{kind.scattered}.usdc" for kind in KINDS if kind.scattered))
+    names = (LANE_GRAPH_FILE, *(f"{kind.scattered}.usdc" for kind in KINDS if kind.scattered))
     return [file for file in (path, *(path.parent / ASSETS / name for name in names)) if file.exists()]
 
 

@@ -56,15 +56,18 @@ def check_writable(folder: Path) -> None:
 
 
 def json_text(document: Mapping[str, object]) -> str:
-    """A JSON object with a line for each key, and for each object of a list."""
+    """A JSON object with a line for each key, for each object of a list, and for each list of an object."""
     encode = json.JSONEncoder(separators=(",", ":")).encode
-    texts = (
-        "[\n" + ",\n".join(map(encode, value)) + "\n]"
-        if isinstance(value, list | tuple) and value and isinstance(value[0], dict)
-        else encode(value)
-        for value in document.values()
-    )
-    return "{\n" + ",\n".join(f"{encode(key)}:{text}" for key, text in zip(document, texts, strict=True)) + "\n}\n"
+
+    def text(value: object) -> str:
+        match value:
+            case [{}, *_]:
+                return "[\n" + ",\n".join(map(encode, value)) + "\n]"
+            case dict() if any(isinstance(entry, list | tuple) for entry in value.values()):
+                return "{\n" + ",\n".join(f"{encode(key)}:{encode(entry)}" for key, entry in value.items()) + "\n}"
+        return encode(value)
+
+    return "{\n" + ",\n".join(f"{encode(key)}:{text(value)}" for key, value in document.items()) + "\n}\n"
 
 
 @contextmanager

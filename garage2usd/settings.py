@@ -1,10 +1,13 @@
 """What all models of files share."""
 
+from collections.abc import Iterator
+from typing import Any, get_args
+
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["Record", "Settings", "first_fault"]
+__all__ = ["Record", "Settings", "config_error", "first_fault"]
 
 
 class Settings(BaseModel):
@@ -18,14 +21,63 @@ class Settings(BaseModel):
 class Record(BaseModel):
     """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
 
-    model_config = ConfigDict(frozen=True, allow_inf_nan=False, populate_by_name=True)
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+
+
+def config_error(error: ValidationError, model: type[Settings], *, within: str = "") -> ConfigError:
+    """The error of the first setting that is wrong.
+
+    Parameters
+    ----------
+    error
+        What pydantic found.
+    model
+        The settings that it read.
+    within
+        Name of the setting that holds them, if one does.
+    """
+    finding = error.errors(include_url=False)[0]
+    keys = [within] if within else []
+    holders: list[type[BaseModel]] = []
+    models: list[type[BaseModel]] = [model]
+    for part in finding["loc"]:
+        fields = [group.model_fields[part] for group in models if part in group.model_fields]
+        if fields:
+            holders, models = models, [group for field in fields for group in _models(field.annotation)]
+        # else it names a branch of a union, which is no key of the user's
+        if fields or isinstance(part, int):
+            keys.append(str(part))
+    if finding["type"] == "extra_forbidden":
+        known = dict.fromkeys(key for group in models for key in group.model_fields)
+        place = ".".join([*keys, str(finding["loc"][-1])])
+        return ConfigError(place, finding["input"], f"one of the keys {', '.join(known)}")
+    place = ".".join(keys) or "configuration"
+    if finding["type"] == "missing":
+        needed = [key for group in holders for key, field in group.model_fields.items() if field.is_required()]
+        is_key = keys[-1] in needed  # and not a number that a row lacks
+        return ConfigError(
+            place, "nothing", f"a value; {'.'.join(keys[:-1])} needs {', '.join(needed)}" if is_key else "a value"
+        )
+    return ConfigError(place, finding["input"], _allowed(finding["msg"]))
 
 
 def first_fault(error: ValidationError) -> str:
     """The first thing that is wrong with a file: the key and, where it has one, its value and what is allowed."""
     fault = error.errors(include_url=False)[0]
     place = ".".join(map(str, fault["loc"]))
-    said = fault["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
+    said = _allowed(fault["msg"])
     if not place:
         return said
     return f"{place}: {said}" if fault["type"] == "missing" else str(ConfigError(place, fault["input"], said))
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any type
+    """All models that a value of a type may be or hold."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
+
+
+def _allowed(message: str) -> str:
+    return message.removeprefix("Value error, ").removeprefix("Input should be ")

@@ -323,7 +323,8 @@ def _handles(shell: Shell) -> Faces:
     return both_sides(np.concatenate(faces))
 
 
-# a letter or digit as strokes: three level ones, left and right ones above and below the middle
+# a letter or digit as strokes: three level ones, left and right ones above and below the middle; not the letters of
+# `glyphs`, as a plate takes 28 to 32 of these rectangles and would take 75 to 130 triangles, and a car at most 150 KB
 _STROKES = {
     "top": (0.0, 1.76, 1.0, 2.0),
     "middle": (0.26, 0.88, 0.74, 1.12),

@@ -6,19 +6,19 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, Field, ValidationError, field_validator
+from pydantic import Field, ValidationError, field_validator
 
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
-from garage2usd.config.maps import DriveConfig, GridConfig, MapsConfig
+from garage2usd.config.maps import MapsConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
-from garage2usd.settings import Settings
+from garage2usd.settings import Settings, config_error
 
 __all__ = [
     "BayConfig",
@@ -34,18 +34,6 @@ __all__ = [
     "load_config",
     "profile_setting",
 ]
-
-_SECTIONS = (
-    SiteConfig,
-    BayConfig,
-    PlanConfig,
-    FittingsConfig,
-    ParkingConfig,
-    StageConfig,
-    MapsConfig,
-    GridConfig,
-    DriveConfig,
-)
 
 
 class GarageConfig(Settings):
@@ -83,7 +71,7 @@ class GarageConfig(Settings):
         try:
             super().__init__(**designed_settings(_standard(settings), settings))
         except ValidationError as error:
-            raise _config_error(error) from None
+            raise config_error(error, GarageConfig) from None
 
     @field_validator("profile")
     @classmethod
@@ -182,27 +170,3 @@ def config_schema() -> dict[str, Any]:
     schema = GarageConfig.model_json_schema()
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
     return schema
-
-
-def _config_error(error: ValidationError) -> ConfigError:
-    """Turn pydantic's first finding into one line of field, value, allowed."""
-    finding = error.errors(include_url=False)[0]
-    # the branches of a union are named in the location too; they are not keys of the user's
-    known = set().union(*(model.model_fields for model in (GarageConfig, *_SECTIONS)))
-    extra = finding["type"] == "extra_forbidden"
-    keys = [part for part in finding["loc"] if extra or isinstance(part, int) or part in known]
-    field = ".".join(str(key) for key in keys) or "configuration"
-    if extra:
-        return ConfigError(field, finding["input"], f"one of the keys {_known_keys(finding['loc'][:-1])}")
-    message = finding["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
-    return ConfigError(field, finding["input"], message)
-
-
-def _known_keys(location: tuple[int | str, ...]) -> str:
-    model: type[BaseModel] = GarageConfig
-    for key in location:
-        annotation = model.model_fields[str(key)].annotation
-        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
-            break
-        model = annotation
-    return ", ".join(model.model_fields)

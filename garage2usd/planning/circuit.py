@@ -1,6 +1,6 @@
 """Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. Compiled."""
 # Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
-# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - moves are judged in loops over shared counters
+# ruff: noqa: C901, PLR0915, PLR2004 - moves are judged in loops over shared counters
 
 import numpy as np
 from numpy.typing import NDArray
@@ -204,6 +204,13 @@ def _hope(ground: Ground, draft: Draft, sizes: Sizes) -> float:
     return hope
 
 
+@compiled_inner
+def _book(draft: Draft) -> None:
+    """Add what a move that is made changes to the draft's tally."""
+    for figure in range(3):
+        draft.tally[figure] += draft.change[figure]
+
+
 @compiled
 def anneal_labels(
     ground: Ground,
@@ -346,8 +353,7 @@ def _try_move(
             gain = _gain(ground, draft, price, stretch_price) - sizes.price[0] * (sizes.area_m2[0] - floor)
             if gain >= threshold:
                 copy_row(draft.hops, board.hops)
-                for figure in range(3):
-                    tally[figure] += change[figure]
+                _book(draft)
                 return True
         copy_row(board.hops, draft.hops)
     if is_sized:
@@ -369,7 +375,7 @@ def _try_side(
     side = sizes.free_mm[below(random, len(sizes.free_mm))]
     if not sizes.is_chosen[axis] or sizes.driven[axis, line] > 0 or side == sizes.kept_mm[axis, line]:
         return
-    change, tally = draft.change, draft.tally
+    change = draft.change
     fitted = max(side, sizes.least_mm[axis, line])
     area = weigh(ground, board, sizes, axis, line, fitted)
     for figure in range(len(change)):
@@ -377,5 +383,4 @@ def _try_side(
     if _gain(ground, draft, 0.0, 0.0) - sizes.price[0] * area >= heat * np.log(max(uniform(random), 1e-300)):
         sizes.kept_mm[axis, line] = side
         resize(ground, sizes, axis, line, fitted)
-        for figure in range(3):
-            tally[figure] += change[figure]
+        _book(draft)

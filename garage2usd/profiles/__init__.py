@@ -12,6 +12,7 @@ from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
 from garage2usd.profiles.profile import Profile
+from garage2usd.settings import config_error
 
 __all__ = [
     "DEFAULT_PROFILE",
@@ -73,27 +74,10 @@ def read_profile(settings: dict[str, Any]) -> Profile:
     try:
         return Profile(**settings)
     except ValidationError as error:
-        raise _config_error(error) from None
+        raise config_error(error, Profile, within="profile") from None
 
 
 @cache
 def _shipped(name: str) -> Profile:
     text = (resources.files("garage2usd.profiles") / f"{name}.toml").read_text(encoding="utf-8")
     return read_profile(tomllib.loads(text))
-
-
-def _config_error(error: ValidationError) -> ConfigError:
-    finding = error.errors(include_url=False)[0]
-    location = [str(part) for part in finding["loc"]]
-    field = ".".join(["profile", *location])
-    if finding["type"] == "extra_forbidden":
-        keys = list(Profile.model_fields)
-        if len(location) > 1:
-            clause = Profile.model_fields[location[0]].annotation
-            models = [model for model in getattr(clause, "__args__", ()) if hasattr(model, "model_fields")]
-            keys = list(models[0].model_fields) if models else keys
-        return ConfigError(field, finding["input"], f"one of the keys {', '.join(keys)}")
-    if finding["type"] == "missing":
-        return ConfigError(field, "nothing", "a value; each clause has a value, unit, source and confidence")
-    message = finding["msg"].removeprefix("Value error, ").removeprefix("Input should be ")
-    return ConfigError(field, finding["input"], message)

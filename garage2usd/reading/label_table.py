@@ -1,9 +1,10 @@
 """The table of labels beside a stage, JSON: the model that its writer and all who read it share."""
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Literal, NamedTuple, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
 from garage2usd.documents import is_file, read_bytes
 from garage2usd.errors import StageError
@@ -26,42 +27,66 @@ class SemanticClass(Record):
     cityscapes: str | None = None
 
 
-class LabelledObject(Record):
-    """An object of a stage.
+class LabelledObject(NamedTuple):
+    """An object of a stage: a row of the table.
 
     Attributes
     ----------
-    path
-        Of its prim; a point of an instancer has its number in brackets after the instancer's path.
+    name
+        Of its prim; a point of an instancer has its number in brackets after the instancer's name.
     id
         Instance id from 1.
-    class_name
-        Name of its class, ``class`` in the file.
+    class_id
+        Id of its class.
     min_m, max_m
         (x, y, z) of the corners of its bounds in the world, for people and programs of their own.
     """
 
-    path: str
+    name: str
     id: Annotated[int, Field(ge=1, le=LARGEST_ID)]
-    class_name: Annotated[str, Field(alias="class")]
-    min_m: tuple[float, float, float] | None = None
-    max_m: tuple[float, float, float] | None = None
+    class_id: int
+    min_m: tuple[FiniteFloat, FiniteFloat, FiniteFloat] | None = None
+    max_m: tuple[FiniteFloat, FiniteFloat, FiniteFloat] | None = None
 
 
 class LabelTable(Record):
-    """All classes, and all objects with a path and an id of their own."""
+    """All classes, and all objects with a path and an id of their own.
+
+    Attributes
+    ----------
+    classes
+        The classes.
+    columns
+        What the columns of the rows are called.
+    objects
+        The rows of objects by the path of the prim that is their parent, which thousands of them have in common.
+    """
 
     classes: tuple[SemanticClass, ...]
-    objects: tuple[LabelledObject, ...]
+    columns: tuple[Literal["name"], Literal["id"], Literal["class_id"], Literal["min_m"], Literal["max_m"]] = (
+        "name",
+        "id",
+        "class_id",
+        "min_m",
+        "max_m",
+    )
+    objects: dict[str, tuple[LabelledObject, ...]]
+
+    def by_path(self) -> Iterator[tuple[str, LabelledObject]]:
+        """Path of each object's prim, and the object."""
+        return ((f"{parent}/{row.name}", row) for parent, rows in self.objects.items() for row in rows)
 
     @model_validator(mode="after")
     def _agrees_with_itself(self) -> Self:
-        names = {entry.name for entry in self.classes}
-        for entry in self.objects:
-            if entry.class_name not in names:
-                raise ValueError(f"{entry.path} is of the class {entry.class_name!r}, which is not listed")
-        for values in ({entry.path for entry in self.objects}, {entry.id for entry in self.objects}):
-            if len(values) < len(self.objects):
+        classes = {entry.id for entry in self.classes}
+        paths, ids = [], []
+        for path, row in self.by_path():
+            if row.class_id not in classes:
+                raise ValueError(f"{path} is of the class {row.class_id}, which is not listed")
+            paths.append(path)
+            ids.append(row.id)
+        for values in (paths, ids):
+            if len(set(values)) < len(values):
                 raise ValueError("a path or an id occurs twice")
         return self
 

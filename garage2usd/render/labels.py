@@ -60,11 +60,10 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     table = read_label_table(path)
     if table is None:
         return _labels_of(stage)
-    class_of_name = {entry.name: entry.id for entry in table.classes}
     return Labels(
         classes={entry.id: entry for entry in table.classes},
-        ids={entry.path: entry.id for entry in table.objects},
-        class_ids={entry.id: class_of_name[entry.class_name] for entry in table.objects},
+        ids={path: entry.id for path, entry in table.by_path()},
+        class_ids={entry.id: entry.class_id for _, entry in table.by_path()},
     )
 
 

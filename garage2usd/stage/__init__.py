@@ -84,7 +84,7 @@ def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
 
 def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.reading.label_table`)."""
-    table = label_table(layout, arrangement.paths()).model_dump(by_alias=True)
+    table = label_table(layout, arrangement.paths()).model_dump()
     path.write_text(json_text(table), encoding="utf-8")
 
 

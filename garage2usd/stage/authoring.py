@@ -28,21 +28,14 @@ __all__ = [
 
 
 @contextmanager
-def new_layer(path: Path, *, default_prim: str, text: str | None = None) -> Iterator[Sdf.Layer]:
-    """Open a change block in a layer that begins with `text` and is written to a new file at the end of the block."""
-    if text is None:
-        layer = _unwritten(path)
-    else:
-        layer = Sdf.Layer.CreateAnonymous(path.suffix)
-        layer.ImportFromString(text)
+def new_layer(path: Path, *, default_prim: str) -> Iterator[Sdf.Layer]:
+    """Open a change block in a layer that is written to a new file at the end of the block."""
+    layer = _unwritten(path)
     with Sdf.ChangeBlock():
         set_units(layer)
         layer.defaultPrim = default_prim
         yield layer
-    if text is None:
-        layer.Save()
-    else:
-        save(layer, path)
+    layer.Save()
 
 
 def set_units(layer: Sdf.Layer) -> None:

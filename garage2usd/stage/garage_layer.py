@@ -24,6 +24,7 @@ from garage2usd.stage.prim_text import (
     anchored,
     group_pieces,
     group_text,
+    inherits_text,
     moved_text,
     place_text,
     reference_text,
@@ -31,14 +32,16 @@ from garage2usd.stage.prim_text import (
 )
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
-from garage2usd.stage.tile_prototypes import TILES_FILE, TilePrototypes, share_tiles, write_tile_prototypes
+from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
 from garage2usd.stage.variants import SWITCHES, variant_texts
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["write_garage_layer"]
 
 _CLASSES = "Classes"
-"""Scope of the classes that all objects of a variant set, and all tiles that share a prototype, inherit from."""
+"""Scope of the classes that all objects of a variant set inherit from."""
+_TILE_CLASSES = "TilePrototypes"
+"""Scope of the classes that equal tiles inherit from."""
 
 
 def write_garage_layer(
@@ -65,7 +68,7 @@ def write_garage_layer(
         Asset and look of every spec in the layout.
     own_folder
         Folder beside `path` of the layers that belong to this garage alone: the lane graph goes there, and the
-        prototypes of tiles and the scattered objects where tiles share prototypes.
+        scattered objects where tiles share prototypes.
     asset_folder
         Folder of the assets, relative to that of `path`, with slashes.
     metadata
@@ -76,8 +79,7 @@ def write_garage_layer(
         The file; ``.usda`` or ``.usdc``.
     """
     folder = path.parent / own_folder
-    beside = anchored(posixpath.relpath(asset_folder, own_folder))
-    text = _garage_text(layout, graph, arrangement, prototypes, folder, (anchored(asset_folder), beside))
+    text = _garage_text(layout, graph, arrangement, prototypes, own_folder, anchored(asset_folder))
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.ImportFromString(text)
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
@@ -93,6 +95,7 @@ def write_garage_layer(
     # of a large garage each layer is a hundred megabytes while it is written
     del layer
     write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph)
+    beside = anchored(posixpath.relpath(asset_folder, own_folder))
     for name, rows in arrangement.scattered.items():
         write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes, asset_folder=beside)
 
@@ -102,43 +105,35 @@ def _garage_text(
     graph: LaneGraph,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
-    folder: Path,
-    asset_folders: tuple[str, str],
+    own_folder: str,
+    asset_folder: str,
 ) -> str:
-    """The garage but for cameras and metadata; prototypes of tiles are written into `folder`.
-
-    The folder of the assets is given as the garage's layer and as a layer in `folder` refers to it.
-    """
-    outer_folder, inner_folder = asset_folders
+    """The garage but for cameras and metadata, with the folders as its layer refers to them."""
     writer = InstanceWriter(
         layout,
         arrangement,
         prototypes,
-        outer_folder,
+        asset_folder,
         classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
         describe_stalls=not arrangement.nested,
     )
     labels = _tile_labels(graph, arrangement.squares)
-    class_names = {switch: [switch.class_name] for switch in SWITCHES.values()}
+    tile_classes: Iterable[str] = ()
     if arrangement.nested:
-        inner = InstanceWriter(layout, arrangement, prototypes, inner_folder, classes={}, describe_stalls=False)
-        shared = share_tiles(layout, arrangement, labels, inner)
-        write_tile_prototypes(shared, folder / TILES_FILE)
-        tiles = _shared_tiles(arrangement, shared, folder.name)
-        shared_followers = shared.followers
+        shared = share_tiles(layout, arrangement, labels, writer)
+        tiles, tile_classes = _shared_tiles(arrangement, shared), _tile_classes(shared)
     else:
-        tiles, shared_followers = _tiles(arrangement, labels, writer), {}
-    variants = variant_texts(class_names, shared_followers, within=_CLASSES, selected=not arrangement.nested)
+        tiles = _tiles(arrangement, labels, writer)
+    variants = variant_texts(_CLASSES, selected=not arrangement.nested)
+    classes = "".join(f'class "{switch.class_name}"\n{{\n}}\n' for switch in dict.fromkeys(SWITCHES.values()))
     groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
-    names = (*(switch.class_name for switch in class_names), *shared_followers)
-    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in names)
     head = (
         f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
         f'class "{_CLASSES}"\n{{\n{classes}}}\n'
     )
     files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = (_part_text(folder.name, file) for file in files)
-    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"]))
+    parts = (_part_text(own_folder, file) for file in files)
+    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"], tile_classes))
 
 
 def _tile_labels(graph: LaneGraph, squares: NDArray[np.intp]) -> list[str]:
@@ -161,15 +156,12 @@ def _tiles(arrangement: Arrangement, labels: Iterable[str], writer: InstanceWrit
     return _rows(arrangement, texts)
 
 
-def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, own_folder: str) -> Iterator[str]:
-    """Row groups, and an instance of a prototype for each tile, which inherits what variants say of it from its class.
+def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes) -> Iterator[str]:
+    """Row groups, and an instance of its prototype for each tile.
 
-    What all instances have in common stands in the prototypes, whose layer is so much smaller.
+    A tile inherits its prototype, which is faster to open than a reference to another layer.
     """
-    asset = f"./{own_folder}/{TILES_FILE}"
-    headers = {
-        name: reference_text(asset, prim=f"/{name}", base=f"/{ROOT_NAME}/{_CLASSES}/{name}") for name in shared.texts
-    }
+    headers = {name: inherits_text(f"/{_TILE_CLASSES}/{name}") for name in shared.texts}
     texts = (
         f'def "{tile_name((row, col))}" (\n{headers[name]})\n{{\n{moved_text(x)}}}\n'
         for (row, col), x, name in zip(
@@ -177,6 +169,16 @@ def _shared_tiles(arrangement: Arrangement, shared: TilePrototypes, own_folder: 
         )
     )
     return _rows(arrangement, texts)
+
+
+def _tile_classes(shared: TilePrototypes) -> Iterator[str]:
+    """The prototypes of tiles, beside the garage, whose variant sets would be looked up for each tile below it.
+
+    They are composed with the tiles alone: where they stand, they are inactive.
+    """
+    yield f'class "{_TILE_CLASSES}" (\nactive = false\n)\n{{\n'
+    yield from shared.texts.values()
+    yield "}\n"
 
 
 def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:

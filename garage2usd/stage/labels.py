@@ -1,5 +1,6 @@
 """Semantic classes, and the table of every labelled object: prim path, instance id, class, world bounds."""
 
+from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
@@ -31,15 +32,16 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
     Returns
     -------
     LabelTable
-        Its objects are the placements in their order, with ids from 1.
+        The placements have ids from 1 in their order.
     """
     low, high = ((np.round(corners, 4) + 0.0).tolist() for corners in world_bounds_m(layout.placements))
+    objects: dict[str, list[LabelledObject]] = defaultdict(list)
+    for number, (path, kind, least, most) in enumerate(
+        zip(paths, layout.placements.kind.tolist(), low, high, strict=True), 1
+    ):
+        parent, _, name = path.rpartition("/")
+        objects[parent].append(LabelledObject(name, number, KINDS[kind].number, least, most))
     return LabelTable(
         classes=tuple(SemanticClass(name=kind.label, id=kind.number, cityscapes=kind.cityscapes) for kind in KINDS),
-        objects=tuple(
-            LabelledObject(path=path, id=number, class_name=KINDS[kind].label, min_m=least, max_m=most)
-            for number, (path, kind, least, most) in enumerate(
-                zip(paths, layout.placements.kind.tolist(), low, high, strict=True), 1
-            )
-        ),
+        objects={parent: tuple(rows) for parent, rows in objects.items()},
     )

@@ -13,6 +13,7 @@ __all__ = [
     "group_pieces",
     "group_text",
     "header_text",
+    "inherits_text",
     "instance_text",
     "moved_text",
     "place_text",
@@ -32,11 +33,14 @@ def anchored(path: str) -> str:
     return path if path.partition("/")[0] in {".", ".."} else f"./{path}"
 
 
-def reference_text(asset: str, *, prim: str = "", base: str | None = None) -> str:
-    """The metadata of a prim that refers to a prim of a layer, or its default prim, and may inherit from a class."""
-    inherits = "" if base is None else f"prepend inherits = <{base}>\n"
-    target = f"<{prim}>" if prim else ""
-    return f"{inherits}prepend references = @{asset}@{target}\n"
+def inherits_text(base: str) -> str:
+    """The metadata of a prim that inherits from a class."""
+    return f"prepend inherits = <{base}>\n"
+
+
+def reference_text(asset: str, *, base: str | None = None) -> str:
+    """The metadata of a prim that refers to the default prim of a layer, and may inherit from a class."""
+    return f"{inherits_text(base) if base else ''}prepend references = @{asset}@\n"
 
 
 def header_text(asset: str, *, look: Iterable[tuple[str, str]] = (), base: str | None = None) -> str:
@@ -52,21 +56,34 @@ def instance_text(name: str, header: str, place: str, attributes: str = "") -> s
 
 
 def group_text(
-    name: str, children: Iterable[str], *, label: str | None = None, metadata: str = "", place: str = ""
+    name: str,
+    children: Iterable[str],
+    *,
+    specifier: str = "def",
+    label: str | None = None,
+    metadata: str = "",
+    place: str = "",
 ) -> str:
     """A group with its children, and its label in the taxonomy of squares."""
-    return "".join(group_pieces(name, children, label=label, metadata=metadata, place=place))
+    pieces = group_pieces(name, children, specifier=specifier, label=label, metadata=metadata, place=place)
+    return "".join(pieces)
 
 
 def group_pieces(
-    name: str, children: Iterable[str], *, label: str | None = None, metadata: str = "", place: str = ""
+    name: str,
+    children: Iterable[str],
+    *,
+    specifier: str = "def",
+    label: str | None = None,
+    metadata: str = "",
+    place: str = "",
 ) -> Iterator[str]:
     """The text of a group piece by piece, so that a large one is put together once."""
     schemas, labels = "", ""
     if label is not None:
         schemas = f'prepend apiSchemas = ["{LABELS_SCHEMA}:{SQUARE_TAXONOMY}"]\n'
         labels = f'token[] {labels_name(SQUARE_TAXONOMY)} = ["{label}"]\n'
-    yield f'def Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}'
+    yield f'{specifier} Xform "{name}" (\n{schemas}kind = "group"\n{metadata})\n{{\n{labels}{place}'
     yield from children
     yield "}\n"
 

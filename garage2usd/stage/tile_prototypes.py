@@ -1,26 +1,18 @@
-"""Prototypes of whole tiles: in a large garage equal tiles share one, in a layer of their own."""
+"""Prototypes of whole tiles: in a large garage equal tiles share one, a class that they inherit."""
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
-from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.layout import Layout
-from garage2usd.objects import KINDS
 from garage2usd.stage.arrangement import Arrangement
-from garage2usd.stage.authoring import new_layer
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.prim_text import group_text, place_text
-from garage2usd.stage.variants import SWITCHES, Switch
 
-__all__ = ["TILES_FILE", "TilePrototypes", "share_tiles", "write_tile_prototypes"]
+__all__ = ["TilePrototypes", "share_tiles"]
 
-TILES_FILE = "Tiles.usdc"
-"""Layer of the tile prototypes."""
 _SAME_PLACE_M = 1e-5
 _SAME_YAW_RAD = 1e-6
 _TILES_AT_ONCE = 4096
@@ -36,14 +28,11 @@ class TilePrototypes:
     name_of
         Name of the prototype of each tile, in the arrangement's order.
     texts
-        USDA text of each prototype by its name.
-    followers
-        Names of the objects on each prototype that follow each variant set.
+        USDA text of each prototype, a class, by its name.
     """
 
     name_of: list[str]
     texts: dict[str, str]
-    followers: dict[str, dict[Switch, list[str]]]
 
 
 def share_tiles(
@@ -58,7 +47,7 @@ def share_tiles(
     labels
         What a label says of each tile.
     writer
-        Of instances for the layer of the prototypes, without classes.
+        Of instances.
     """
     names: dict[tuple[str, bytes], str] = {}
     first: list[int] = []
@@ -74,13 +63,12 @@ def share_tiles(
     objects_of_all = writer.texts(np.concatenate(rows_of), origins)
     metadata, place = "instanceable = true\n", place_text(0, 0, 0)
     texts = {
-        name: group_text(name, islice(objects_of_all, len(rows)), label=label, metadata=metadata, place=place)
+        name: group_text(
+            name, islice(objects_of_all, len(rows)), specifier="class", label=label, metadata=metadata, place=place
+        )
         for (label, _), name, rows in zip(names, names.values(), rows_of, strict=True)
     }
-    followers = {
-        name: _followers(layout, arrangement, rows) for name, rows in zip(names.values(), rows_of, strict=True)
-    }
-    return TilePrototypes(name_of, texts, followers)
+    return TilePrototypes(name_of, texts)
 
 
 def _contents(layout: Layout, arrangement: Arrangement) -> Iterator[bytes]:
@@ -103,20 +91,3 @@ def _contents(layout: Layout, arrangement: Arrangement) -> Iterator[bytes]:
         )
         for start, end in pairwise((spans - spans[0]).tolist()):
             yield content[start:end].tobytes()
-
-
-def _followers(layout: Layout, arrangement: Arrangement, rows: NDArray[np.intp]) -> dict[Switch, list[str]]:
-    """Names of the objects in some rows that follow each variant set."""
-    followers: dict[Switch, list[str]] = defaultdict(list)
-    for row in rows.tolist():
-        switch = SWITCHES.get(KINDS[layout.placements.kind[row]].name)
-        if switch is not None:
-            followers[switch].append(arrangement.names[arrangement.name[row]].decode("ascii"))
-    return dict(followers)
-
-
-def write_tile_prototypes(shared: TilePrototypes, path: Path) -> None:
-    """Write the layer of the prototypes, each a root prim."""
-    text = "#usda 1.0\n" + "".join(shared.texts.values())
-    with new_layer(path, default_prim=next(iter(shared.texts)), text=text):
-        pass

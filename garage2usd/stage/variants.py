@@ -1,6 +1,6 @@
 """Variant sets of a garage: parked cars, lights, and what hangs overhead."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from garage2usd.objects import KINDS
@@ -53,23 +53,13 @@ class VariantTexts(NamedTuple):
     body: str
 
 
-def variant_texts(
-    followers: Mapping[Switch, Iterable[str]],
-    groups: Mapping[str, Mapping[Switch, Iterable[str]]],
-    *,
-    within: str,
-    selected: bool,
-) -> VariantTexts:
+def variant_texts(classes: str, *, selected: bool) -> VariantTexts:
     """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
     Parameters
     ----------
-    followers
-        Names of the prims that follow each.
-    groups
-        The same for the children of prims beside those.
-    within
-        Name of the child that holds all these prims.
+    classes
+        Name of the child that holds the class of each.
     selected
         Whether the first choice of each is selected. It says nothing of the objects, so that none is the same; but
         each prim below takes longer to compose, which of tens of thousands is a fifth of the time to open them.
@@ -77,9 +67,8 @@ def variant_texts(
     switches = _SWITCHES.values()
     bodies = []
     for switch in switches:
-        inner = _overs(switch, followers)
-        inner += "".join(_over(name, "", _overs(switch, group)) for name, group in groups.items() if group.get(switch))
-        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{_over(within, "", inner)}}}\n'
+        inner = _over(switch.class_name, switch.metadata, switch.attribute)
+        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{_over(classes, "", inner)}}}\n'
         bodies.append(f'variantSet "{switch.variant_set}" = {{\n{choices}}}\n')
     names = ", ".join(f'"{switch.variant_set}"' for switch in switches)
     metadata = f"prepend variantSets = [{names}]\n"
@@ -87,10 +76,6 @@ def variant_texts(
         selections = "".join(f'string {switch.variant_set} = "{switch.usual}"\n' for switch in switches)
         metadata = f"variants = {{\n{selections}}}\n{metadata}"
     return VariantTexts(metadata, "".join(bodies))
-
-
-def _overs(switch: Switch, followers: Mapping[Switch, Iterable[str]]) -> str:
-    return "".join(_over(name, switch.metadata, switch.attribute) for name in followers.get(switch, ()))
 
 
 def _over(name: str, metadata: str, body: str) -> str:

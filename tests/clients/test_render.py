@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd
+from support.label_tables import labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 
@@ -38,7 +39,8 @@ def data_set(builds, tmp_path_factory):
 
     def frames(form):
         if form not in made:
-            stage = builds(HAND_DRAWN, "usdc", form).stage
+            built = builds(HAND_DRAWN, "usdc", form)
+            stage = built.stage
             folder = tmp_path_factory.mktemp(f"render_{form}")
             kinds = tuple(Picture) if form == "instanced" else tuple(set(Picture) - {Picture.COLOUR})
             cameras = {"cameras": ("Inside", "Drive"), "frames": "96"}
@@ -49,7 +51,8 @@ def data_set(builds, tmp_path_factory):
             made[form] = SimpleNamespace(
                 table=table,
                 frames=[read_frame(folder, frame) for frame in table["frames"]],
-                labels=json.loads(stage.with_name(f"{stage.stem}_labels.json").read_text()),
+                labels=json.loads(built.labels.read_text()),
+                objects=labelled_objects(built.labels),
                 stage=stage,
                 folder=folder,
             )
@@ -89,7 +92,7 @@ def read_frame(folder, frame):
 @pytest.mark.parametrize("form", ["instanced", "nested"])
 def test_each_pixel_lies_in_the_box_of_its_instance(data_set, form):
     made = data_set(form)
-    boxes = {entry["id"]: (entry["min_m"], entry["max_m"]) for entry in made.labels["objects"]}
+    boxes = {entry["id"]: (entry["min_m"], entry["max_m"]) for entry in made.objects}
     assert len(made.frames) == {"instanced": 3, "nested": 2}[form]
     for frame in made.frames:
         seen = frame.instance > 0
@@ -105,7 +108,7 @@ def test_each_pixel_lies_in_the_box_of_its_instance(data_set, form):
 def test_classes_are_those_of_the_table(data_set, form):
     made = data_set(form)
     class_ids = {entry["name"]: entry["id"] for entry in made.labels["classes"]}
-    class_of = {entry["id"]: class_ids[entry["class"]] for entry in made.labels["objects"]} | {0: 0}
+    class_of = {entry["id"]: class_ids[entry["class"]] for entry in made.objects} | {0: 0}
     colours = {entry["id"]: entry["colour"] for entry in made.table["classes"]} | {0: [0, 0, 0]}
     assert {entry["name"]: entry["id"] for entry in made.table["classes"]} == class_ids
     assert len({tuple(colour) for colour in colours.values()}) == len(colours)
@@ -126,7 +129,7 @@ def test_normals_face_the_camera(data_set):
 
 def test_frames_list_what_can_be_seen(data_set):
     made = data_set("instanced")
-    objects = {entry["id"]: entry for entry in made.labels["objects"]}
+    objects = {entry["id"]: entry for entry in made.objects}
     for frame in made.frames:
         listed = {entry["id"]: entry for entry in frame.about["instances"]}
         assert listed.keys() == set(np.unique(frame.instance).tolist()) - {0}
@@ -144,14 +147,14 @@ def test_frames_list_what_can_be_seen(data_set):
     assert set(above.about["hidden_classes"]) == hidden
     assert not hidden & {entry["class"] for entry in above.about["instances"]}
     assert inside.about["hidden_classes"] == []
-    parked = sum(entry["class"] == "car" for entry in made.labels["objects"])
+    parked = sum(entry["class"] == "car" for entry in made.objects)
     assert sum(entry["class"] == "car" for entry in above.about["instances"]) == parked
 
 
 def test_rays_through_the_meshes_meet_the_same(data_set):
     """Depth to a tenth of a millimetre and 1e-5 of it, the instance, and of what is flat the normal."""
     made = data_set("instanced")
-    classes = {entry["id"]: entry["class"] for entry in made.labels["objects"]}
+    classes = {entry["id"]: entry["class"] for entry in made.objects}
     stage = Usd.Stage.Open(str(made.stage))
     stains = next(entry["id"] for entry in made.table["classes"] if entry["name"] == "floor_stain")
     flat = {"floor", "ceiling", "wall", "beam", "column", "parking_stall", "duct", "zone_plate", "obstacle", "ramp"}
@@ -159,7 +162,7 @@ def test_rays_through_the_meshes_meet_the_same(data_set):
     for frame in made.frames:
         hidden = frozenset({"floor_stain", *frame.about["hidden_classes"]})
         if hidden not in rays:
-            rays[hidden] = Rays(stage, {e["path"]: e["id"] for e in made.labels["objects"] if e["class"] not in hidden})
+            rays[hidden] = Rays(stage, {e["path"]: e["id"] for e in made.objects if e["class"] not in hidden})
         whole = frame.semantic != stains  # whose texture says where they are
         directions = frame.direction[whole]
         owner, place, normal = rays[hidden].cast(np.broadcast_to(frame.eye, directions.shape), directions)
@@ -200,9 +203,13 @@ def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(da
     made = data_set("instanced")
     shutil.copytree(made.stage.parent, tmp_path / "stage")
     stage = tmp_path / "stage" / made.stage.name
-    table = {**made.labels, "objects": [{**entry, "id": entry["id"] * 8191} for entry in made.labels["objects"]]}
+    objects = {
+        parent: [[name, number * 8191, *rest] for name, number, *rest in rows]
+        for parent, rows in made.labels["objects"].items()
+    }
+    table = {**made.labels, "objects": objects}
     stage.with_name(f"{stage.stem}_labels.json").write_text(json.dumps(table))
-    assert 2**15 < max(entry["id"] for entry in table["objects"]) < 2**24
+    assert 2**15 < max(row[1] for rows in objects.values() for row in rows) < 2**24
     kinds = [Picture.COLOUR, Picture.DEPTH, Picture.INSTANCE]
     render_stage(stage, tmp_path / "out", size_px=SIZE, cameras=("Inside",), samples=4, pictures=kinds)
     digits = np.asarray(Image.open(tmp_path / "out" / "instance" / "Inside.png")).astype(int)

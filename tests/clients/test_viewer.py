@@ -1,12 +1,12 @@
 """The viewer in a browser: it shows what the layout holds, and one can click, switch, walk and find in it."""
 
 import io
-import json
 
 import numpy as np
 import pytest
 from PIL import Image
 from support.browser import find_browser
+from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 from support.viewer_page import viewed
 
@@ -165,7 +165,7 @@ def test_one_walks_at_eye_height_and_through_no_wall(opened):
     # a long way in every direction, by the walker's own steps: never out of the garage, into a car or off the floor
     structure = build.garage.layout.structure
     floors = [(0.0, structure.column_edges_m[-1], 0.0, structure.row_edges_m[-1])]
-    for entry in json.loads(build.labels.read_text())["objects"]:
+    for entry in labelled_objects(build.labels):
         if entry["class"] == "ramp":
             (x0, _, z0), (x1, _, z1) = entry["min_m"], entry["max_m"]
             floors.append((x0, x1, z0, z1))

@@ -28,7 +28,7 @@ def test_the_page_of_a_builds_files_names_every_key_in_them(tmp_path):
         *report["stalls"][0],
         *labels,
         *labels["classes"][0],
-        *labels["objects"][0],
+        *labels["columns"],
     }
     told = set(re.findall(r"`(\w+)`", (REPOSITORY / "docs" / "files.md").read_text()))
     assert keys <= told

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Gf, Usd, UsdGeom
+from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
@@ -48,7 +49,7 @@ def test_every_object_is_drawn_once_with_all_of_its_parts(builds, form):
     labels = read_labels(stage, made.stage)
     scene = read_drawn_prims(stage, labels.ids)
     assert set(scene.instance.tolist()) == set(labels.ids.values())
-    table = json.loads(made.labels.read_text())["objects"]
+    table = labelled_objects(made.labels)
     low, high = (np.array([entry[end] for entry in table]) for end in ("min_m", "max_m"))
     found = np.full((len(table), 3), np.inf), np.full((len(table), 3), -np.inf)
     for shape, instance, place in zip(scene.shape.tolist(), scene.instance.tolist(), scene.to_world, strict=True):
@@ -146,13 +147,21 @@ def test_a_camera_that_is_not_there_is_named_with_those_that_are(build):
         find_views(Usd.Stage.Open(str(build.stage)), cameras=["Wrong"])
 
 
+def change_object(table, **values):
+    """The fourth object of the first tile."""
+    row = next(iter(table["objects"].values()))[3]
+    for column, value in values.items():
+        row[table["columns"].index(column)] = value
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda table: table["objects"][3].update(id=0), "greater than or equal to 1"),
-        (lambda table: table["objects"][3].update(id=2**24), "less than or equal"),
-        (lambda table: table["objects"][3].update(id=table["objects"][4]["id"]), "occurs twice"),
-        (lambda table: table["objects"][3].update({"class": "tree"}), "'tree'"),
+        (lambda table: change_object(table, id=0), "greater than or equal to 1"),
+        (lambda table: change_object(table, id=2**24), "less than or equal"),
+        (lambda table: change_object(table, id=5), "occurs twice"),
+        (lambda table: change_object(table, name="Floor"), "occurs twice"),
+        (lambda table: change_object(table, class_id=200), "of the class 200, which is not listed"),
         (lambda table: table.pop("classes"), "classes"),
     ],
 )

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
 from garage2usd.config import GarageConfig, load_config
@@ -140,7 +141,7 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
     assert len(tiles) == (layout.structure.cells != Cell.OBSTACLE).sum()
     assert all(tile.IsInstance() for tile in tiles)
     assert len({tile.GetPrototype() for tile in tiles}) < len(tiles)
-    table = json.loads(nested.labels.read_text())["objects"]
+    table = labelled_objects(nested.labels)
     assert len(table) == len(layout.placements)
     assert len({entry["path"] for entry in table}) == len(table)
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
@@ -164,9 +165,9 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
 
 
 def test_the_label_table_agrees_with_the_stage(stage, made):
-    table = json.loads(made.labels.read_text())
-    assert [entry["id"] for entry in table["objects"]] == list(range(1, len(made.garage.layout.placements) + 1))
-    names = {entry["name"] for entry in table["classes"]}
+    objects = labelled_objects(made.labels)
+    assert [entry["id"] for entry in objects] == list(range(1, len(made.garage.layout.placements) + 1))
+    names = {entry["name"] for entry in json.loads(made.labels.read_text())["classes"]}
     assert names == set(OBJECT_LABELS.values()) == set(CITYSCAPES)
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
     labelled = {
@@ -174,8 +175,8 @@ def test_the_label_table_agrees_with_the_stage(stage, made):
         for prim in stage.Traverse()
         if prim.IsInstance()
     }
-    assert {entry["path"]: [entry["class"]] for entry in table["objects"]} == labelled
-    for entry in table["objects"]:
+    assert {entry["path"]: [entry["class"]] for entry in objects} == labelled
+    for entry in objects:
         box = world_box(stage, entry["path"], cache)
         if entry["class"] in {"car", "floor_stain", "mirror"}:  # turned: the cache bounds a turned box
             assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
@@ -201,9 +202,14 @@ def test_every_paint_is_a_variant(stage, made):
 
 
 @pytest.mark.parametrize("form", ["made", "nested"])
-def test_occupancy_lights_and_ceiling_are_variants(form, request):
+@pytest.mark.parametrize("root", ["/Garage", "/City/Garage_7"])
+def test_occupancy_lights_and_ceiling_are_variants(form, root, request):
+    """Of the stage, and of another one that refers to it."""
     built = request.getfixturevalue(form)
     stage, layout = Usd.Stage.Open(str(built.stage)), built.garage.layout
+    if root != "/Garage":
+        stage = Usd.Stage.CreateInMemory()
+        stage.DefinePrim(root).GetReferences().AddReference(str(built.stage))
 
     def state():
         prims = everything(stage)
@@ -217,7 +223,7 @@ def test_occupancy_lights_and_ceiling_are_variants(form, request):
 
     cars, lights, ceilings = (len(layout.of_kind(kind)) for kind in ("car", "light", "ceiling"))
     assert state() == (cars, lights, ceilings)
-    sets = stage.GetPrimAtPath("/Garage").GetVariantSets()
+    sets = stage.GetPrimAtPath(root).GetVariantSets()
     for name, usual, other, expected in (
         ("occupancy", "parked", "empty", (0, lights, ceilings)),
         ("lights", "on", "off", (cars, 0, ceilings)),

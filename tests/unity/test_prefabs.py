@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
+from support.label_tables import labelled_objects
 from support.places import assert_same_places
 from support.sample_files import SAMPLES
 from support.unity.layer import axes_of, from_usd, place_of, world_vertices
@@ -242,7 +243,7 @@ def test_lights_shine_down_from_the_tubes_as_strongly_as_the_formula_says(import
 @pytest.mark.parametrize(("extension", "form"), [("usda", None), ("usdc", "nested"), ("usdc", "flat")])
 def test_labelled_objects_have_the_ids_of_the_table_beside_the_stage(imported, extension, form):
     build, prefab = imported(SAMPLE["irregular"], extension, form)
-    expected = {item["path"]: (item["id"], item["class"]) for item in json.loads(build.labels.read_text())["objects"]}
+    expected = {item["path"]: (item["id"], item["class"]) for item in labelled_objects(build.labels)}
     found = {}
     for item in prefab.objects:
         if "labels" in item:
@@ -264,9 +265,11 @@ def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, pre
     assert sorted(labelled) == list(range(1, len(labelled) + 1))
     table = alone.with_name("alone_labels.json")
     for text in (
-        '{"objects": [{"id": 1}]}',
-        '{"objects": [{"path": "/A", "id": "x"}]}',
-        '{"objects": [',
+        '{"objects": [["A", 1]]}',
+        '{"objects": {"": [["A"]]}}',
+        '{"objects": {"": [["A", 0]]}}',
+        '{"objects": {"": [["A", "x"]]}}',
+        '{"objects": {"": [["A", 1',
         "[" * 300,
         "",
     ):
@@ -274,9 +277,8 @@ def test_labels_without_a_table_are_numbered_and_bad_tables_refused(prefabs, pre
         (error,) = prefab_dump.ask("prefab", alone)["errors"]
         assert "alone_labels.json" in error
     name = json.dumps('\u00e9\\/\n"')
-    table.write_text(
-        f'{{"a": [[1.5e3, null, {{"b": {name}}}]], "objects": [{{"x": {name}, "path": {name}, "id": 7}}]}}'
-    )
+    values = f'[1.5e3, null, {{"b": {name}}}]'
+    table.write_text(f'{{"a": {values}, "objects": {{{name}: [], "/A": [[{name}, 1], ["B", 7, {values}]]}}}}')
     assert len([item for item in prefabs(alone).objects if item.get("instance") == 7]) == 1
 
 

@@ -33,32 +33,37 @@ namespace Garage.Unity
             return ids.TryGetValue(path, out id);
         }
 
-        /// <summary>Reads "path" and "id" of all "objects" of a JSON file. Throws FormatException.</summary>
+        /// <summary>Reads the "objects" of a JSON file: by the path of the prim above them, rows that begin with name
+        /// and id. Throws FormatException.</summary>
         public static LabelTable Read(byte[] json)
         {
             var table = new LabelTable(json);
             table.Each('{', '}', () =>
             {
                 bool isObjects = table.Key() == "objects";
-                if (isObjects) { table.Each('[', ']', table.Object); }
+                if (isObjects) { table.Each('{', '}', table.Objects); }
                 else { table.Skip(0); }
             });
             return table;
         }
 
-        void Object()
+        void Objects()
         {
-            string path = null;
-            int id = 0;
-            Each('{', '}', () =>
+            string above = Key();
+            Each('[', ']', () =>
             {
-                string key = Key();
-                if (key == "path") { path = Text(); }
-                else if (key == "id") { id = Number(); }
-                else { Skip(0); }
+                string name = null;
+                int id = 0, column = 0;
+                Each('[', ']', () =>
+                {
+                    if (column == 0) { name = Text(); }
+                    else if (column == 1) { id = Number(); }
+                    else { Skip(0); }
+                    column++;
+                });
+                if (id <= 0) { throw Wrong("an object needs a name and an id"); }
+                ids[above + "/" + name] = id;
             });
-            if (path == null || id <= 0) { throw Wrong("an object needs a path and an id"); }
-            ids[path] = id;
         }
 
         FormatException Wrong(string what)

@@ -62,7 +62,7 @@ def _facts(stage: Usd.Stage) -> dict[str, str]:
 def _ids(path: Path) -> dict[str, int]:
     """Instance id of each object by its path; empty without a table."""
     table = read_label_table(path)
-    return {entry.path: entry.id for entry in table.objects} if table else {}
+    return {path: entry.id for path, entry in table.by_path()} if table else {}
 
 
 def _bounds_m(objects: list[Placed], shapes: list[Shape]) -> NDArray[np.float64]:

@@ -95,7 +95,11 @@ def test_a_profile_of_ones_own_is_read_from_a_file(tmp_path):
         ({"name": "a", "stall_width": {**STALL, "unit": "lx"}}, "profile.stall_width.unit", "'m'"),
         ({"name": "a", "stall_width": {**STALL, "value": -1}}, "profile.stall_width.value", "greater than 0"),
         ({"name": "a", "stall_width": {**STALL, "value": float("nan")}}, "profile.stall_width.value", "finite"),
-        ({"name": "a", "stall_width": {"value": 2.5}}, "profile.stall_width", "unit, source and confidence"),
+        (
+            {"name": "a", "stall_width": {"value": 2.5}},
+            "profile.stall_width",
+            "profile.stall_width needs source, confidence, value, unit",
+        ),
         ({"name": "a", "stall_width": {**STALL, "confidence": "sure"}}, "profile.stall_width.confidence", "'high'"),
         ({"name": "a", "stall_width": 2.5}, "profile.stall_width", "dictionary"),
         ({"name": "../a"}, "profile.name", "match pattern"),

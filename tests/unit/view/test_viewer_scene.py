@@ -7,6 +7,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
+from support.label_tables import labelled_objects
 
 import garage2usd
 from garage2usd.errors import StageError
@@ -54,7 +55,7 @@ def drawn_points(scene, placed):
 def test_every_object_of_the_layout_is_there_once_with_its_class_id_and_place(garage):
     build, scene = garage
     layout = build.garage.layout
-    table = json.loads(build.labels.read_text())["objects"]
+    table = labelled_objects(build.labels)
     assert scene.counts() == Counter(OBJECT_LABELS[place.kind] for place in layout.placements)
     objects = {placed.path: placed for placed in scene.objects}
     assert len(objects) == len(scene.objects) == len(table)
@@ -68,7 +69,7 @@ def test_every_object_of_the_layout_is_there_once_with_its_class_id_and_place(ga
 def test_the_triangles_of_every_object_fill_its_bounds_in_the_label_table(garage):
     build, scene = garage
     objects = {placed.path: placed for placed in scene.objects}
-    for entry in json.loads(build.labels.read_text())["objects"]:
+    for entry in labelled_objects(build.labels):
         placed = objects[entry["path"]]
         lights = [(light.matrix @ placed.matrix)[3:, :3] for light in scene.shapes[placed.shape].lights]
         points = np.concatenate([drawn_points(scene, placed), *lights])

@@ -1,0 +1,15 @@
+"""The objects in a table of labels, read as any program may that knows the documentation alone."""
+
+import json
+
+
+def labelled_objects(path):
+    """Each object's columns, the path of its prim and the name of its class, in the order of the ids."""
+    table = json.loads(path.read_text())
+    classes = {entry["id"]: entry["name"] for entry in table["classes"]}
+    entries = [
+        dict(zip(table["columns"], row, strict=True)) | {"path": f"{parent}/{row[0]}"}
+        for parent, rows in table["objects"].items()
+        for row in rows
+    ]
+    return sorted(({**entry, "class": classes[entry["class_id"]]} for entry in entries), key=lambda entry: entry["id"])
