@@ -8,11 +8,14 @@ import numpy as np
 from pxr import Usd
 
 from garage2usd.errors import StageError
+from garage2usd.objects import KINDS
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
 from garage2usd.reading.walk import placed_objects
-from garage2usd.stage.labels import CITYSCAPES
 
-__all__ = ["Labels", "read_labels"]
+__all__ = ["CITYSCAPES", "Labels", "read_labels"]
+
+CITYSCAPES: dict[str, str] = {kind.label: kind.cityscapes for kind in KINDS}
+"""Name of the nearest Cityscapes class of each class."""
 
 
 @dataclass(frozen=True, eq=False)
