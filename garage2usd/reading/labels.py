@@ -43,7 +43,7 @@ class Labels:
         return (path for path, number in self.ids.items() if self.class_ids[number] in wanted)
 
 
-def read_labels(stage: Usd.Stage, path: Path) -> Labels:
+def read_labels(stage: Usd.Stage, path: Path | None) -> Labels:
     """Read the table beside a stage; where there is none, number the stage's labelled prims in their order.
 
     Parameters
@@ -51,7 +51,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     stage
         The stage.
     path
-        Its file; the table of ``garage.usdc`` is ``garage_labels.json`` beside it.
+        Its file; the table of ``garage.usdc`` is ``garage_labels.json`` beside it. None for a stage that is in memory.
 
     Raises
     ------
@@ -60,7 +60,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     StageError
         If it is not a table of labels, or contradicts itself.
     """
-    table = read_label_table(path)
+    table = read_label_table(path) if path else None
     if table is None:
         return _labels_of(stage)
     class_of_name = {entry.name: entry.id for entry in table.classes}
