@@ -3,14 +3,14 @@
 import io
 from collections.abc import Mapping
 from pathlib import PurePosixPath
-from typing import Any
+from typing import Any, NamedTuple
 
 from PIL import Image
 from pxr import Ar
 
 from garage2usd.reading.surfaces import SurfaceLook
 
-__all__ = ["Materials"]
+__all__ = ["Materials", "Picture"]
 
 _Band = tuple[str, int]
 """A file and one of its channels."""
@@ -20,13 +20,23 @@ _KINDS = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 """The two kinds of pictures that glTF knows, by their first bytes."""
 
 
+class Picture(NamedTuple):
+    """A file of an image: its name, its media type, and its bytes."""
+
+    name: str
+    kind: str
+    data: bytes
+
+
 class Materials:
     """Collects the materials of a file: each that differs once, and so each image.
 
     Attributes
     ----------
-    materials, textures, images
-        As the arrays of glTF's JSON have them; an image has its bytes under ``bytes``.
+    materials, textures
+        As the arrays of glTF's JSON have them.
+    images
+        What the textures show.
     extensions
         Those that the materials use.
     """
@@ -34,7 +44,7 @@ class Materials:
     def __init__(self) -> None:
         self.materials: list[dict[str, Any]] = []
         self.textures: list[dict[str, Any]] = []
-        self.images: list[dict[str, Any]] = []
+        self.images: list[Picture] = []
         self.extensions: set[str] = set()
         self._number_of: dict[tuple[SurfaceLook, bool], int] = {}
         self._texture_of: dict[tuple[_Band, ...], int | None] = {}
@@ -46,6 +56,11 @@ class Materials:
             self._number_of[key] = len(self.materials)
             self.materials.append(self._material(surface, double_sided=double_sided))
         return self._number_of[key]
+
+    def textures_of(self, number: int) -> frozenset[str]:
+        """Names of the textures that a material reads."""
+        material = self.materials[number]
+        return frozenset(name for name in {**material, **material["pbrMetallicRoughness"]} if name.endswith("Texture"))
 
     def _material(self, surface: SurfaceLook, *, double_sided: bool) -> dict[str, Any]:
         material: dict[str, Any] = {"name": surface.name} if surface.name else {}
@@ -115,7 +130,7 @@ def _finish(surface: SurfaceLook) -> tuple[_Band, ...]:
     return (_WHITE, rough, metal) if files else ()
 
 
-def _image(bands: tuple[_Band, ...]) -> dict[str, Any] | None:
+def _image(bands: tuple[_Band, ...]) -> Picture | None:
     """An image of glTF: the very bytes of a file where it is a PNG or JPEG, else a PNG; None where nothing is there."""
     files = {path: _bytes(path) for path, _ in bands if path}
     if not all(files.values()):
@@ -125,7 +140,7 @@ def _image(bands: tuple[_Band, ...]) -> dict[str, Any] | None:
     if len(bands) == 1:
         data = files[first]
         kind = next((kind for magic, kind in _KINDS.items() if data.startswith(magic)), None)
-        return {"name": name, "mimeType": kind, "bytes": data} if kind else _png(name, _opened(data))
+        return Picture(name, kind, data) if kind else _png(name, _opened(data))
     pictures = {path: _opened(data) for path, data in files.items()}
     size = pictures[first].size
     parts = [
@@ -144,7 +159,7 @@ def _opened(data: bytes) -> Image.Image:
     return Image.open(io.BytesIO(data))
 
 
-def _png(name: str, picture: Image.Image) -> dict[str, Any]:
+def _png(name: str, picture: Image.Image) -> Picture:
     buffer = io.BytesIO()
     picture.save(buffer, format="PNG", optimize=True)
-    return {"name": name, "mimeType": "image/png", "bytes": buffer.getvalue()}
+    return Picture(name, "image/png", buffer.getvalue())

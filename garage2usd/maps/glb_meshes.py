@@ -1,6 +1,8 @@
-"""Triangles as glTF has them: tangents where a normal map asks for them, and places as translation, turn and scale."""
+"""Triangles as primitives of glTF, and matrices as translation, turn and scale."""
 
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,12 +10,104 @@ from numpy.typing import NDArray
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
 
-__all__ = ["is_rigid", "moved_triangles", "place_of", "tangents_of"]
+__all__ = [
+    "Primitive",
+    "is_faceted",
+    "is_rigid",
+    "joined",
+    "moved_triangles",
+    "place_of",
+    "primitive_of",
+    "tangents_of",
+]
 
 _SQUARE = 1e-6
 """By how much the cosine between two axes may differ from that of a right angle: single precision."""
 _SMALLEST = 1e-12
-_DIGITS = 7
+_FACET_COS = 1 - 1e-6
+_PLACE_DIGITS, _DIGITS = 5, 7
+"""Of metres, and of what has none."""
+
+
+class Primitive(NamedTuple):
+    """Arrays of a primitive, one row a vertex.
+
+    Attributes
+    ----------
+    positions, normals, tangents, coordinates
+        float32, shapes (vertices, 3), (vertices, 3), (vertices, 4) and (vertices, 2), or None where it has none: a
+        primitive without normals is faceted, as glTF 2.0 says in 3.7.2.1.
+    indices
+        uint32, shape (triangles, 3).
+    """
+
+    positions: NDArray[np.float32]
+    normals: NDArray[np.float32] | None
+    tangents: NDArray[np.float32] | None
+    coordinates: NDArray[np.float32] | None
+    indices: NDArray[np.uint32]
+
+
+def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool) -> Primitive:
+    """Triangles as a primitive.
+
+    Parameters
+    ----------
+    mesh
+        The triangles.
+    is_textured
+        Whether its material reads a texture, so that it needs coordinates.
+    is_bumpy
+        Whether its material reads a normal map, so that it needs normals and tangents.
+    """
+    # the first row of pixels is v = 0 there and v = 1 in USD
+    coordinates = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32) if is_textured else None
+    if is_bumpy:
+        return Primitive(mesh.positions_m, mesh.normals, _tangents_of(mesh), coordinates, mesh.indices)
+    if not all(is_faceted for is_faceted, _ in by_facets(mesh)):
+        return Primitive(mesh.positions_m, mesh.normals, None, coordinates, mesh.indices)
+    rows = mesh.positions_m if coordinates is None else np.hstack([mesh.positions_m, coordinates])
+    _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    indices = inverse.ravel()[mesh.indices].astype(np.uint32)
+    return Primitive(mesh.positions_m[first], None, None, None if coordinates is None else coordinates[first], indices)
+
+
+def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
+    """The triangles at which all normals are their own, which are faceted, and the others.
+
+    Yields
+    ------
+    tuple
+        Whether they are faceted, and the triangles.
+    """
+    corners = mesh.positions_m[mesh.indices].astype(np.float64)
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sizes = np.linalg.norm(areas, axis=1)
+    along = (mesh.normals[mesh.indices] * areas[:, None]).sum(axis=2)
+    are_faceted = (along >= sizes[:, None] * _FACET_COS).all(axis=1)
+    for is_faceted in (True, False):
+        own = np.flatnonzero(are_faceted == is_faceted)
+        if len(own):
+            yield is_faceted, mesh if len(own) == len(are_faceted) else replace(mesh, face_of=_each(mesh)).of_faces(own)
+
+
+def _each(mesh: Triangles) -> NDArray[np.int32]:
+    return np.arange(len(mesh.indices), dtype=np.int32)
+
+
+def joined(meshes: Sequence[Triangles]) -> Triangles:
+    """Several meshes that are seen from the same sides as one."""
+    if len(meshes) == 1:
+        return meshes[0]
+    first = np.cumsum([0, *(len(mesh.positions_m) for mesh in meshes[:-1])])
+    return Triangles(
+        np.concatenate([mesh.positions_m for mesh in meshes]),
+        np.concatenate([mesh.normals for mesh in meshes]),
+        np.concatenate([mesh.coordinates for mesh in meshes]),
+        np.concatenate([mesh.indices + np.uint32(start) for mesh, start in zip(meshes, first, strict=True)]),
+        np.zeros(sum(len(mesh.indices) for mesh in meshes), np.int32),
+        meshes[0].double_sided,
+    )
 
 
 def is_rigid(matrix: Matrix) -> bool:
@@ -36,7 +130,7 @@ def place_of(matrix: Matrix) -> dict[str, list[float]]:
 
     place: dict[str, list[float]] = {}
     if matrix[3, :3].any():
-        place["translation"] = _numbers(matrix[3, :3])
+        place["translation"] = _numbers(matrix[3, :3], _PLACE_DIGITS)
     scale = np.linalg.norm(matrix[:3, :3], axis=1)
     axes = matrix[:3, :3] / scale[:, None]
     if np.linalg.det(axes) < 0:
@@ -62,7 +156,7 @@ def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
     )
 
 
-def tangents_of(mesh: Triangles) -> NDArray[np.float32]:
+def _tangents_of(mesh: Triangles) -> NDArray[np.float32]:
     """Tangent of each vertex, along which the first texture coordinate grows, and the side of the bitangent.
 
     Returns
@@ -109,6 +203,6 @@ def _unit(vectors: NDArray[Any], otherwise: tuple[float, float, float]) -> NDArr
     return unit
 
 
-def _numbers(values: NDArray[np.float64]) -> list[float]:
-    numbers: list[float] = (np.round(values, _DIGITS) + 0.0).tolist()
+def _numbers(values: NDArray[np.float64], digits: int = _DIGITS) -> list[float]:
+    numbers: list[float] = (np.round(values, digits) + 0.0).tolist()
     return [int(number) if number.is_integer() else number for number in numbers]

@@ -62,8 +62,8 @@ class StallFacts:
         return {**named, "use": str(stall.use), "occupied": stall in self._car_of}
 
     def outline(self, stall: StallOutline) -> dict[str, Any]:
-        """What is said of a stall besides: its corners (x, y, z) as `StallOutline` has them, its lane node and its car."""
-        corners: Sequence[tuple[float, float, float]] = [(round(x, 4), 0.0, round(z, 4)) for x, z in stall.corners]
+        """What is said of a stall besides: its corners (x, y, z) as `StallOutline` says, lane node, and car."""
+        corners: Sequence[tuple[float, float, float]] = [(round(x, 4), 0, round(z, 4)) for x, z in stall.corners]
         car = self._car_of.get(stall)
         return {
             **self.facts(stall),

@@ -35,13 +35,10 @@ class DrawnMesh(NamedTuple):
     ----------
     mesh, surface
         Numbers of the triangles and of the surface.
-    subset
-        Name of the subset of faces that it is; empty for a prim as a whole, and for what no subset holds.
     """
 
     mesh: int
     surface: int
-    subset: str
 
 
 class MeshLooks:
@@ -68,8 +65,7 @@ class MeshLooks:
             if triangles is not None and faces is not None:
                 triangles = triangles.of_faces(faces)
             if triangles is not None and len(triangles.indices):
-                subset = bound.GetName() if bound != prim else ""
-                found.append(DrawnMesh(self.meshes.number(triangles, triangles.key()), surface, subset))
+                found.append(DrawnMesh(self.meshes.number(triangles, triangles.key()), surface))
         return found
 
     def _triangles(self, prim: Usd.Prim, coordinate_name: str) -> Triangles | None:

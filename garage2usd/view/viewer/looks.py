@@ -4,13 +4,13 @@ from collections import Counter
 
 from pxr import Usd
 
-from garage2usd.reading.lights import LIGHT_TYPES, Light, light_of
 from garage2usd.reading.looks import MeshLooks, Numbered
 from garage2usd.reading.meshes import DRAWN_TYPES
 from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
 from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
-from garage2usd.view.viewer.scene import UNLABELLED, Piece, Placed, Shape
+from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
+from garage2usd.view.viewer.scene import UNLABELLED, Light, Piece, Placed, Shape
 
 __all__ = ["Looks"]
 

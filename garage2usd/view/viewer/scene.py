@@ -2,18 +2,17 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
-from garage2usd.reading.lights import Light
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.surfaces import SurfaceLook
 
-__all__ = ["UNLABELLED", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
+__all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 
 UNLABELLED = "unlabelled"
 """Class of what the stage gives no semantic label."""
@@ -53,6 +52,47 @@ class Piece:
     slot: int
     is_blended: bool
     collider: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """A light in its object's space.
+
+    Attributes
+    ----------
+    kind
+        Its UsdLux type.
+    matrix
+        float64, shape (4, 4), points as rows.
+    width_m, height_m
+        Its sides, or its diameter twice.
+    colour_rgb
+        Linear.
+    intensity
+        UsdLux intensity with its exposure.
+    """
+
+    kind: str
+    matrix: NDArray[np.float64]
+    width_m: float
+    height_m: float
+    colour_rgb: tuple[float, float, float]
+    intensity: float
+
+    def moved(self, place: NDArray[np.float64]) -> "Light":
+        """The same elsewhere."""
+        return replace(self, matrix=self.matrix @ place)
+
+    def key(self) -> tuple[object, ...]:
+        """Equal for lights that are equal in all."""
+        return (
+            self.kind,
+            self.matrix.tobytes(),
+            self.width_m,
+            self.height_m,
+            self.colour_rgb,
+            self.intensity,
+        )
 
 
 @dataclass(frozen=True, eq=False)
