@@ -11,13 +11,13 @@ from pxr import Usd
 
 from garage2usd.errors import StageError
 from garage2usd.maps.glb_file import GlbFile
-from garage2usd.maps.glb_meshes import by_facets, is_rigid, joined, moved_triangles
+from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles
 from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
-from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
+from garage2usd.reading.objects import PlacedObject, once_for_each_look
 from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
@@ -50,31 +50,36 @@ def write_glb(stage: Usd.Stage, path: Path, *, labels: Labels | None = None) -> 
     Notes
     -----
     Each object is a node with the path of its prim as its name and, as ``extras``, its class, its instance id and, for
-    cars and stalls, the stall. What it looks like is one mesh, which all objects that look alike share, with a
-    primitive for each material. Lights are left out, as glTF has none with an area; what glows does. Below the node ``stalls`` each stall is a node in the middle of its outline whose Z
-    axis leads to its mouth.
+    cars and stalls, the stall. What it looks like is one mesh, which all objects that look alike share, with primitives
+    by material; what is faceted has no normals, as glTF 2.0 (3.7.2.1) says. Lights are left out, as glTF has none with
+    an area; what glows does. Below the node ``stalls`` each stall is a node in the middle of its outline, whose Z axis
+    leads to its mouth.
     """
     glb, looks, file = GlbFile(), MeshLooks(), stage.GetRootLayer().realPath
     labels = labels or read_labels(stage, Path(file) if file else None)
     look_of = once_for_each_look(lambda placed: _look(placed, looks))
-    drawn = [
-        (placed, look) for placed in placed_objects(stage, metres_y_up(stage)) if any((look := look_of(placed))[:2])
-    ]
+    drawn = [(placed, look) for placed in placed_objects(stage, metres_y_up(stage)) if (look := look_of(placed)).pieces]
     if not drawn:
         raise StageError(file, "nothing in it can be drawn")
     stalls = StallFacts(read_lanes(stage).stalls)
     homes = {
         placed.path: stalls.park(placed.path, look.hull_m, placed.matrix)
         for placed, look in drawn
-        if placed.label == _CAR and len(look.hull_m)
+        if placed.label == _CAR
     }
-    for placed, look in drawn:
+    mesh_of = once_for_each_look(lambda placed: glb.add_mesh(look_of(placed).pieces, name=_name(placed)))
+    rigid = are_rigid(np.array([placed.matrix for placed, _ in drawn]))
+    for (placed, look), is_rigid in zip(drawn, rigid.tolist(), strict=True):
         number = labels.ids.get(placed.path)
         stall = stalls.at(placed.matrix) if placed.label == _STALL else homes.get(placed.path)
         extras: dict[str, Any] = {"class": placed.label} if placed.label else {}
         extras |= {} if number is None else {"id": number}
         extras |= {} if stall is None else {"stall": stalls.facts(stall)}
-        _add_object(glb, placed, look, extras)
+        if is_rigid:
+            glb.add_node(placed.path, placed.matrix, mesh=mesh_of(placed), extras=extras)
+        else:  # no node can say so: it goes into the vertices
+            pieces = [(moved_triangles(triangles, placed.matrix), surface) for triangles, surface in look.pieces]
+            glb.add_node(placed.path, _IDENTITY, mesh=glb.add_mesh(pieces, name=_name(placed)), extras=extras)
     _add_stalls(glb, stalls)
     path.write_bytes(glb.data(_facts(stage)))
 
@@ -116,26 +121,12 @@ def _hull(points_m: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
     from scipy.spatial import ConvexHull, QhullError  # noqa: PLC0415 - all who import this module would wait for it
 
     with suppress(QhullError, ValueError):
-        return points_m[ConvexHull(points_m).vertices]
+        points_m = points_m[ConvexHull(points_m).vertices]
     return points_m
 
 
-def _add_object(glb: GlbFile, placed: PlacedObject, look: _Look, extras: dict[str, Any]) -> None:
-    """Add the node of an object with its mesh."""
-    place, inner = placed.matrix, _IDENTITY
-    if not is_rigid(place):  # no node can say so: it goes into the vertices
-        place, inner = _moved_only(place), place.copy()
-        inner[3] = 0, 0, 0, 1
-    pieces = look.pieces
-    if inner is not _IDENTITY:
-        pieces = [(moved_triangles(triangles, inner), surface) for triangles, surface in pieces]
-    glb.add_node(placed.path, place, mesh=glb.add_mesh(pieces, name=placed.path.rpartition("/")[2]), extras=extras)
-
-
-def _moved_only(matrix: Matrix) -> Matrix:
-    moved = _IDENTITY.copy()
-    moved[3, :3] = matrix[3, :3]
-    return moved
+def _name(placed: PlacedObject) -> str:
+    return placed.path.rpartition("/")[2]
 
 
 def _add_stalls(glb: GlbFile, stalls: StallFacts) -> None:

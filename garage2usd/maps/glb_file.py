@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.maps.glb_materials import Materials
-from garage2usd.maps.glb_meshes import Primitive, place_of, primitive_of
+from garage2usd.maps.glb_meshes import Primitive, places_of, primitive_of
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
 from garage2usd.reading.surfaces import SurfaceLook
@@ -39,6 +39,7 @@ class GlbFile:
         self._materials = Materials()
         self._numbers = _Numbers()
         self._nodes: list[dict[str, Any]] = []
+        self._matrices: list[Matrix] = []
         self._roots: list[int] = []
         self._meshes: list[dict[str, Any]] = []
         self._mesh_of: dict[str, int] = {}
@@ -84,7 +85,7 @@ class GlbFile:
         name
             Its name.
         matrix
-            From its space to that of the node above; rigid as `garage2usd.maps.glb_meshes.is_rigid` says.
+            From its space to that of the node above; rigid as `garage2usd.maps.glb_meshes.are_rigid` says.
         mesh
             Number of what it draws.
         above
@@ -99,7 +100,8 @@ class GlbFile:
         """
         number = len(self._nodes)
         drawn = {} if mesh is None else {"mesh": mesh}
-        self._nodes.append({"name": name, **drawn, **place_of(matrix), **({"extras": dict(extras)} if extras else {})})
+        self._nodes.append({"name": name, **drawn, **({"extras": dict(extras)} if extras else {})})
+        self._matrices.append(matrix)
         siblings = self._roots if above is None else self._nodes[above].setdefault("children", [])
         siblings.append(number)
         return number
@@ -110,13 +112,13 @@ class GlbFile:
         for image in materials.images:
             view = self._numbers.image(image.data)
             images.append({"name": image.name, "mimeType": image.kind, "bufferView": view})
-        buffer = self._numbers.buffer()
+        buffer, places = self._numbers.buffer(), places_of(np.array(self._matrices))
         document = {
             "asset": {"version": "2.0", "generator": f"garage2usd {VERSION}"},
             "extensionsUsed": sorted(materials.extensions),
             "scene": 0,
             "scenes": [{"nodes": self._roots, **({"extras": dict(facts)} if facts else {})}],
-            "nodes": self._nodes,
+            "nodes": [node | place for node, place in zip(self._nodes, places, strict=True)],
             "meshes": self._meshes,
             "materials": materials.materials,
             "textures": materials.textures,

@@ -10,16 +10,10 @@ from numpy.typing import NDArray
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
 
-__all__ = [
-    "Primitive",
-    "is_faceted",
-    "is_rigid",
-    "joined",
-    "moved_triangles",
-    "place_of",
-    "primitive_of",
-    "tangents_of",
-]
+__all__ = ["Primitive", "are_rigid", "by_facets", "joined", "moved_triangles", "places_of", "primitive_of"]
+
+Matrices = NDArray[np.float64]
+"""Transforms for points as rows; float64, shape (n, 4, 4)."""
 
 _SQUARE = 1e-6
 """By how much the cosine between two axes may differ from that of a right angle: single precision."""
@@ -110,17 +104,16 @@ def joined(meshes: Sequence[Triangles]) -> Triangles:
     )
 
 
-def is_rigid(matrix: Matrix) -> bool:
-    """Whether a matrix is a scale along the axes, then a turn and a move: all that a node of glTF can say."""
-    lengths = np.linalg.norm(matrix[:3, :3], axis=1)
-    if lengths.min() <= _SMALLEST:
-        return False
-    axes = matrix[:3, :3] / lengths[:, None]
-    return bool(np.abs(axes @ axes.T - np.eye(3)).max() < _SQUARE)
+def are_rigid(matrices: Matrices) -> NDArray[np.bool_]:
+    """Whether each matrix is a scale along the axes, then a turn and a move: all that a node of glTF can say."""
+    lengths = np.linalg.norm(matrices[:, :3, :3], axis=2, keepdims=True)
+    axes = matrices[:, :3, :3] / np.maximum(lengths, _SMALLEST)
+    found: NDArray[np.bool_] = np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2)) < _SQUARE
+    return found
 
 
-def place_of(matrix: Matrix) -> dict[str, list[float]]:
-    """A rigid matrix for points as rows as the properties of a node; what is as it is by default is left out.
+def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
+    """Rigid matrices for points as rows as the properties of nodes; what is as it is by default is left out.
 
     Notes
     -----
@@ -128,18 +121,22 @@ def place_of(matrix: Matrix) -> dict[str, list[float]]:
     """
     from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
 
-    place: dict[str, list[float]] = {}
-    if matrix[3, :3].any():
-        place["translation"] = _numbers(matrix[3, :3], _PLACE_DIGITS)
-    scale = np.linalg.norm(matrix[:3, :3], axis=1)
-    axes = matrix[:3, :3] / scale[:, None]
-    if np.linalg.det(axes) < 0:
-        scale, axes = scale * (-1, 1, 1), axes * [[-1], [1], [1]]
-    if np.abs(axes - np.eye(3)).max() > 10.0**-_DIGITS:
-        place["rotation"] = _numbers(Rotation.from_matrix(axes.T).as_quat(canonical=True))
-    if np.abs(scale - 1).max() > 10.0**-_DIGITS:
-        place["scale"] = _numbers(scale)
-    return place
+    scales = np.linalg.norm(matrices[:, :3, :3], axis=2)
+    axes = matrices[:, :3, :3] / scales[:, :, None]
+    mirror = np.where(np.linalg.det(axes) < 0, -1.0, 1.0)
+    scales[:, 0] *= mirror
+    axes[:, 0] *= mirror[:, None]
+    turns = Rotation.from_matrix(axes.transpose(0, 2, 1)).as_quat(canonical=True)
+    properties = (
+        ("translation", np.round(matrices[:, 3, :3], _PLACE_DIGITS), np.zeros(3)),
+        ("rotation", np.round(turns, _DIGITS), np.array([0.0, 0.0, 0.0, 1.0])),
+        ("scale", np.round(scales, _DIGITS), np.ones(3)),
+    )
+    places: list[dict[str, list[float]]] = [{} for _ in matrices]
+    for name, values, usual in properties:
+        for node in np.flatnonzero((values != usual).any(axis=1)).tolist():
+            places[node][name] = [int(value) if value.is_integer() else value for value in values[node].tolist()]
+    return places
 
 
 def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
@@ -201,8 +198,3 @@ def _unit(vectors: NDArray[Any], otherwise: tuple[float, float, float]) -> NDArr
         lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise
     ).astype(np.float32)
     return unit
-
-
-def _numbers(values: NDArray[np.float64], digits: int = _DIGITS) -> list[float]:
-    numbers: list[float] = (np.round(values, digits) + 0.0).tolist()
-    return [int(number) if number.is_integer() else number for number in numbers]
