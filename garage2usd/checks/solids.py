@@ -102,6 +102,10 @@ class Solids:
         _, first = np.unique(self._owner[rows], return_index=True)
         return (self._solid(index) for index in rows[first].tolist())
 
+    def between(self, low_m: float, high_m: float) -> Iterator[Solid]:
+        """The pieces that begin lower than one height and end higher than another, of what stands and what hangs."""
+        return (self._solid(index) for index in np.flatnonzero((self._low < high_m) & (self._high > low_m)).tolist())
+
     def grounds(self, below_m: float) -> Iterator[tuple[str, str, list[shapely.Polygon]]]:
         """Name, class and outlines of each object that stands, of its pieces that begin lower than a height."""
         rows = np.flatnonzero(~self._hangs & (self._low < below_m))
