@@ -24,7 +24,7 @@ class StallFacts:
         """Take all stalls, without cars yet."""
         self.stalls = tuple(stalls)
         self._subject = Subject("", "stage", self.stalls, (), ())
-        self._middles = shapely.STRtree(shapely.points([stall.centre for stall in self.stalls]))
+        self._middles = shapely.STRtree([shapely.Point(stall.centre) for stall in self.stalls])
         self._car_of: dict[StallOutline, str] = {}
 
     @property
