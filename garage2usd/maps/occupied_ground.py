@@ -41,7 +41,7 @@ def ramp_floors(subject: Subject) -> list[shapely.Geometry]:
 
 
 def occupied_ground(subject: Subject, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
-    """Convex outlines of all that is higher than one height and begins lower than another, (x, z) in metres.
+    """Convex outlines of all between two heights, to which it reaches at least, (x, z) in metres.
 
     Notes
     -----
@@ -57,12 +57,8 @@ def occupied_ground(subject: Subject, low_m: float, high_m: float) -> Iterator[s
             yield from _sections(thing, low_m, high_m)
     for body in _bodies(subject, _RAMP):
         if not _is_sheet(body):
-            pieces = (
-                shapely.MultiPoint(outline).convex_hull
-                for outline, low, high in body.pieces()
-                if low < high_m and high > low_m
-            )
-            yield from pieces
+            pieces = (outline for outline, low, high in body.pieces() if low <= high_m and high >= low_m)
+            yield from (shapely.MultiPoint(outline).convex_hull for outline in pieces)
 
 
 def _bodies(subject: Subject, label: str) -> Iterator[Body]:

@@ -34,3 +34,5 @@ def planted(fault, module):
         for other in [other for other in sys.modules if other.startswith(f"{ROOM}.")]:
             del sys.modules[other]
         sys.modules.update(healthy)
+        for other, own in healthy.items():
+            setattr(sys.modules[ROOM], other.rpartition(".")[2], own)
