@@ -10,7 +10,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdSemantics, UsdShade
 from scipy.spatial import KDTree
 from support.glb_reader import Glb, assert_like_the_stage, assert_stalls
 from support.map_faults import Fault, planted
-from support.places import MILLIMETRE
+from support.places import MILLIMETRE, assert_same_places
 from support.sample_files import each_sample
 from support.small_garage import SETTINGS
 
@@ -48,6 +48,29 @@ def test_its_bytes_are_always_the_same(made, tmp_path):
     for name in ("one", "other"):
         write_glb(Usd.Stage.Open(str(made.stage)), tmp_path / f"{name}.glb")
     assert (tmp_path / "one.glb").read_bytes() == (tmp_path / "other.glb").read_bytes()
+
+
+@pytest.mark.parametrize("form", ["nested", "flat"])
+def test_every_form_gives_the_same_garage(form, made, tmp_path):
+    other = build(GarageConfig(**SETTINGS | {"stage": {"form": form}}), tmp_path / "other.usdc")
+    write_glb(Usd.Stage.Open(str(other.stage)), tmp_path / "other.glb")
+    write_glb(Usd.Stage.Open(str(made.stage)), tmp_path / "made.glb")
+    glbs = [Glb((tmp_path / f"{name}.glb").read_bytes()) for name in ("other", "made")]
+    table = json.loads((tmp_path / "other_labels.json").read_text())
+    said = {node["name"]: node["extras"] for node in glbs[0].nodes if "mesh" in node}
+    assert {name: (own["class"], own["id"]) for name, own in said.items()} == {
+        entry["path"]: (entry["class"], entry["id"]) for entry in table["objects"]
+    }
+    for label in ("car", "column", "parking_stall", "stall_number"):
+        places = [
+            [glb.matrix(number)[:3, 3] for number, node in enumerate(glb.nodes) if _class(node) == label]
+            for glb in glbs
+        ]
+        assert_same_places(*places)
+
+
+def _class(node):
+    return node.get("extras", {}).get("class")
 
 
 FAULTS = (
