@@ -47,7 +47,7 @@ fi
 
 extra=""
 [ "$goal" = demo ] || extra="[test]"
-stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/support/browser.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
+stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/support/browser.py tests/support/gltf_validator.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
@@ -59,7 +59,9 @@ if [ ! -e "$stamp" ]; then
             PATH=$PWD/.venv/bin:$PATH
         }
         three=$(sed -n 's/^THREE_VERSION = "\(.*\)"$/\1/p' tests/support/browser.py)
-        "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three"
+        validator=$(sed -n 's/^VALIDATOR_VERSION = "\(.*\)"$/\1/p' tests/support/gltf_validator.py)
+        "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three" \
+            "gltf-validator@$validator"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
     fi

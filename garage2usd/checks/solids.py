@@ -17,6 +17,8 @@ __all__ = ["HANGS_FROM_M", "Solid", "Solids"]
 HANGS_FROM_M = 1.0
 """What begins higher than this hangs; all else stands."""
 _FLAT_M = 0.03
+_ROUNDING_M = 1e-4
+"""Of heights in a stage, which keeps single precision."""
 _NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid}
 
 
@@ -101,6 +103,11 @@ class Solids:
         rows = rows[np.lexsort((self._low[rows], self._owner[rows]))]
         _, first = np.unique(self._owner[rows], return_index=True)
         return (self._solid(index) for index in rows[first].tolist())
+
+    def between(self, low_m: float, high_m: float) -> Iterator[Solid]:
+        """The pieces between two heights, to which they reach at least, of what stands and of what hangs."""
+        reaches = (self._low <= high_m + _ROUNDING_M) & (self._high >= low_m - _ROUNDING_M)
+        return (self._solid(index) for index in np.flatnonzero(reaches).tolist())
 
     def grounds(self, below_m: float) -> Iterator[tuple[str, str, list[shapely.Polygon]]]:
         """Name, class and outlines of each object that stands, of its pieces that begin lower than a height."""

@@ -14,11 +14,11 @@ from garage2usd.limits import lift
 from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import open_stage
+from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.render.blender_process import check_blender, run_blender
 from garage2usd.render.cameras import View, find_views
 from garage2usd.render.drawn_prims import SHAPE_PROPERTY, read_drawn_prims, write_shapes
 from garage2usd.render.frames_file import write_frames
-from garage2usd.render.labels import Labels, read_labels
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,

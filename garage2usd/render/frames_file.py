@@ -5,8 +5,8 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
+from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
-from garage2usd.render.labels import Labels
 from garage2usd.render.pictures import Picture, VisibleInstance, class_colour
 from garage2usd.version import VERSION
 

@@ -10,13 +10,10 @@ from garage2usd.objects import KINDS
 from garage2usd.reading.label_table import LabelledObject, LabelTable, SemanticClass
 from garage2usd.stage.bounds import world_bounds_m
 
-__all__ = ["CITYSCAPES", "OBJECT_LABELS", "label_table"]
+__all__ = ["OBJECT_LABELS", "label_table"]
 
 OBJECT_LABELS: dict[str, str] = {kind.name: kind.label for kind in KINDS}
 """Semantic class of each kind of object, authored on every instance root."""
-
-CITYSCAPES: dict[str, str] = {kind.label: kind.cityscapes for kind in KINDS}
-"""Name of the nearest Cityscapes class of each class."""
 
 
 def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:

@@ -1,4 +1,4 @@
-"""Loads a .usdz into three.js in a headless browser; everything is served from this machine."""
+"""Loads a .usdz or a .glb into three.js in a headless browser; everything is served from this machine."""
 
 import base64
 import json
@@ -9,6 +9,7 @@ import subprocess
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from urllib.parse import quote
 
 PAGE_FOLDER = Path(__file__).parents[1] / "clients" / "threejs"
 THREE_VERSION = "0.187.0"
@@ -27,7 +28,7 @@ _ARGUMENTS = (
     "--disable-dev-shm-usage",
     "--disable-sync",
 )
-_TYPES = {".html": "text/html", ".js": "text/javascript", ".usdz": "model/vnd.usdz+zip"}
+_TYPES = {".html": "text/html", ".js": "text/javascript", ".usdz": "model/vnd.usdz+zip", ".glb": "model/gltf-binary"}
 
 
 def find_browser():
@@ -42,8 +43,10 @@ def find_three():
     return folder if (folder / "package.json").is_file() else None
 
 
-def load_in_three(stage, profile, *, pictures=False, timeout_s=300):
-    """What page.js found in `stage`; `profile` is an empty folder for the browser's own files.
+def load_in_three(stage, profile, *, pictures=False, page="page.html", camera="", timeout_s=300):
+    """What the script of a page found in `stage`; `profile` is an empty folder for the browser's own files.
+
+    `camera` is what the page is told of where to look from, where the file has no cameras.
 
     Raises
     ------
@@ -53,7 +56,7 @@ def load_in_three(stage, profile, *, pictures=False, timeout_s=300):
     answers = queue.Queue()
     with _Server(stage, answers) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        url = f"http://127.0.0.1:{server.server_port}/page.html{'?pictures' if pictures else ''}"
+        url = f"http://127.0.0.1:{server.server_port}/{page}{f'?pictures={quote(camera)}' if pictures else ''}"
         with (profile / "browser.log").open("wb") as log:
             browser = subprocess.Popen(
                 [find_browser(), *_ARGUMENTS, f"--user-data-dir={profile / 'profile'}", url], stdout=log, stderr=log
@@ -79,7 +82,7 @@ class _Server(ThreadingHTTPServer):
         self.stage, self.answers, self.missing = Path(stage), answers, []
 
     def file_of(self, path):
-        if path == "/stage.usdz":
+        if path == f"/stage{self.stage.suffix}":
             return self.stage
         if path.startswith("/three/"):
             return find_three() / path.removeprefix("/three/")

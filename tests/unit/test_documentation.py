@@ -120,7 +120,7 @@ def test_the_built_reference_has_all_that_the_code_has(site):
     from garage2usd.cli import main
     from garage2usd.config import GarageConfig
     from garage2usd.profiles import PROFILE_NAMES, Profile, load_profile
-    from garage2usd.stage.labels import CITYSCAPES
+    from garage2usd.reading.labels import CITYSCAPES
 
     configuration = text_of(site / "reference" / "configuration.html")
     for name, field in GarageConfig.model_fields.items():

@@ -13,10 +13,10 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError, StageError
+from garage2usd.reading.labels import read_labels
 from garage2usd.render import blender_process
 from garage2usd.render.cameras import find_views
 from garage2usd.render.drawn_prims import read_drawn_prims
-from garage2usd.render.labels import read_labels
 from garage2usd.render.pictures import visible_instances
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"

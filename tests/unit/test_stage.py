@@ -15,8 +15,9 @@ from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
 from garage2usd.layout import lay_out
 from garage2usd.pipeline import build
+from garage2usd.reading.labels import CITYSCAPES
 from garage2usd.stage.cameras import write_drive
-from garage2usd.stage.labels import CITYSCAPES, OBJECT_LABELS
+from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.view.viewer.meshes import Triangles
+from garage2usd.reading.meshes import Triangles
 from garage2usd.view.viewer.scene import Piece, box_corners, moved
 
 __all__ = ["collider_lines", "collider_of"]

@@ -45,7 +45,7 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
         objects=objects,
         shapes=looks.shapes.values,
         palettes=looks.palettes.values,
-        surfaces=looks.surfaces.values,
+        surfaces=looks.drawn.surfaces.values,
         lanes=read_lanes(stage),
         ids=_ids(path),
         bounds_m=_bounds_m(objects, looks.shapes.values),

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
-from garage2usd.view.viewer.meshes import Triangles
-from garage2usd.view.viewer.surfaces import SurfaceLook
+from garage2usd.reading.meshes import Triangles
+from garage2usd.reading.surfaces import SurfaceLook
 
 __all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 

@@ -14,8 +14,8 @@ from garage2usd.cli import main
 from garage2usd.errors import ConfigError, ReportError, StageError
 from garage2usd.output import json_text
 from garage2usd.reading.label_table import read_label_table
+from garage2usd.reading.labels import read_labels
 from garage2usd.reading.report import read_report
-from garage2usd.render.labels import read_labels
 from garage2usd.view.viewer.reading import read_scene
 
 

@@ -8,11 +8,14 @@ import numpy as np
 from pxr import Usd
 
 from garage2usd.errors import StageError
+from garage2usd.objects import KINDS
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
 from garage2usd.reading.walk import placed_objects
-from garage2usd.stage.labels import CITYSCAPES
 
-__all__ = ["Labels", "read_labels"]
+__all__ = ["CITYSCAPES", "Labels", "read_labels"]
+
+CITYSCAPES: dict[str, str] = {kind.label: kind.cityscapes for kind in KINDS}
+"""Name of the nearest Cityscapes class of each class."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +43,7 @@ class Labels:
         return (path for path, number in self.ids.items() if self.class_ids[number] in wanted)
 
 
-def read_labels(stage: Usd.Stage, path: Path) -> Labels:
+def read_labels(stage: Usd.Stage, path: Path | None) -> Labels:
     """Read the table beside a stage; where there is none, number the stage's labelled prims in their order.
 
     Parameters
@@ -48,7 +51,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     stage
         The stage.
     path
-        Its file; the table of ``garage.usdc`` is ``garage_labels.json`` beside it.
+        Its file; the table of ``garage.usdc`` is ``garage_labels.json`` beside it. None for a stage that is in memory.
 
     Raises
     ------
@@ -57,7 +60,7 @@ def read_labels(stage: Usd.Stage, path: Path) -> Labels:
     StageError
         If it is not a table of labels, or contradicts itself.
     """
-    table = read_label_table(path)
+    table = read_label_table(path) if path else None
     if table is None:
         return _labels_of(stage)
     return Labels(

@@ -1,6 +1,6 @@
-"""Materials of a stage as the few values that the viewer's surface takes."""
+"""Materials of a stage as the few values that surfaces take which know no networks of shaders."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from pxr import Sdf, Usd, UsdShade
@@ -24,14 +24,18 @@ class SurfaceLook:
         Linear.
     roughness, metallic, opacity, clearcoat
         0 to 1.
-    colour_texture, roughness_texture, metallic_texture
+    colour_texture, roughness_texture, metallic_texture, normal_texture, occlusion_texture
         Resolved asset paths, empty for none.
-    roughness_channel, metallic_channel
+    roughness_channel, metallic_channel, occlusion_channel
         Which channel of its texture each is: 0 to 3.
     has_alpha
         Whether the colour texture's alpha is the opacity.
+    opacity_threshold
+        What is less opaque is not drawn, and all else is opaque; 0 where all is drawn as opaque as it is.
     coordinate_name
         Primvar of the texture coordinates.
+    name
+        Of the material, empty for none; two materials of other names that look alike are equal.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
@@ -45,8 +49,13 @@ class SurfaceLook:
     roughness_channel: int = 0
     metallic_texture: str = ""
     metallic_channel: int = 0
+    normal_texture: str = ""
+    occlusion_texture: str = ""
+    occlusion_channel: int = 0
     has_alpha: bool = False
+    opacity_threshold: float = 0.0
     coordinate_name: str = "st"
+    name: str = field(default="", compare=False)
 
     @property
     def is_blended(self) -> bool:
@@ -68,7 +77,10 @@ def surface_of(material: UsdShade.Material) -> SurfaceLook:
     roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS)
     metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0)
     opacity, opacity_reader, _ = _number(shader, "opacity", 1.0)
+    threshold, _, _ = _number(shader, "opacityThreshold", 0.0)
     clearcoat, _, _ = _number(shader, "clearcoat", 0.0)
+    _, normal_reader, _ = _input(shader, "normal")
+    _, occlusion_reader, occlusion_channel = _number(shader, "occlusion", 1.0)
     return SurfaceLook(
         colour_rgb=colour,
         emissive_rgb=emissive,
@@ -81,8 +93,13 @@ def surface_of(material: UsdShade.Material) -> SurfaceLook:
         roughness_channel=channel,
         metallic_texture=_file(metallic_reader),
         metallic_channel=metallic_channel,
+        normal_texture=_file(normal_reader),
+        occlusion_texture=_file(occlusion_reader),
+        occlusion_channel=occlusion_channel,
         has_alpha=opacity_reader is not None,
-        coordinate_name=_coordinate_name(colour_reader or roughness_reader),
+        opacity_threshold=threshold,
+        coordinate_name=_coordinate_name(colour_reader or roughness_reader or normal_reader),
+        name=material.GetPrim().GetName(),
     )
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom
 
+from garage2usd.reading.solid_shapes import solid_faces
+from garage2usd.reading.surfaces import PLAIN
 from garage2usd.reading.values import READ_AT, numbers_of
-from garage2usd.view.viewer.solids import solid_faces
-from garage2usd.view.viewer.surfaces import PLAIN
 
 __all__ = ["DRAWN_TYPES", "Triangles", "display_colour", "face_sets", "triangles_of"]
 

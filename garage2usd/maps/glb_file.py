@@ -1,0 +1,210 @@
+"""A binary glTF 2.0 file in the making: nodes, meshes, materials, and their numbers and images in one buffer."""
+
+import hashlib
+import json
+import struct
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.maps.glb_materials import Materials
+from garage2usd.maps.glb_meshes import Primitive, places_of, primitive_of
+from garage2usd.reading.meshes import Triangles
+from garage2usd.reading.objects import Matrix
+from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.version import VERSION
+
+__all__ = ["GlbFile"]
+
+_FLOAT, _UINT16, _UINT32 = 5126, 5123, 5125
+_VERTICES, _INDICES = 34962, 34963
+_MOST_SHORT = 2**16 - 1
+"""Vertices that two bytes number; the last number would restart a primitive."""
+_ALIGNMENT = 4
+_GLTF, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+
+
+class GlbFile:
+    """Collects what a file holds: equal numbers, images, materials and meshes once.
+
+    Notes
+    -----
+    Names of keys are those of glTF 2.0 (ISO/IEC 12113:2022).
+    """
+
+    def __init__(self) -> None:
+        """Begin an empty file."""
+        self._materials = Materials()
+        self._numbers = _Numbers()
+        self._nodes: list[dict[str, Any]] = []
+        self._matrices: list[Matrix] = []
+        self._roots: list[int] = []
+        self._meshes: list[dict[str, Any]] = []
+        self._mesh_of: dict[str, int] = {}
+        self._primitive_of: dict[tuple[Triangles, int], dict[str, Any]] = {}
+
+    def add_mesh(self, pieces: Iterable[tuple[Triangles, SurfaceLook]], name: str) -> int:
+        """Number of the mesh that consists of some triangles and their surfaces; a new one is called `name`."""
+        primitives = [self._primitive(*piece) for piece in pieces]
+        key = json.dumps(primitives)
+        if key not in self._mesh_of:
+            self._mesh_of[key] = len(self._meshes)
+            self._meshes.append({"name": name, "primitives": primitives})
+        return self._mesh_of[key]
+
+    def _primitive(self, triangles: Triangles, surface: SurfaceLook) -> dict[str, Any]:
+        material = self._materials.number(surface, double_sided=triangles.double_sided)
+        key = triangles, material
+        if key not in self._primitive_of:
+            textures = self._materials.textures_of(material)
+            own = primitive_of(triangles, is_textured=bool(textures), is_bumpy="normalTexture" in textures)
+            indices, attributes = self._numbers.indices(own.indices), self._attributes(own)
+            self._primitive_of[key] = {"attributes": attributes, "indices": indices, "material": material}
+        return self._primitive_of[key]
+
+    def _attributes(self, own: Primitive) -> dict[str, int]:
+        arrays = {"NORMAL": own.normals, "TANGENT": own.tangents, "TEXCOORD_0": own.coordinates}
+        attributes = {"POSITION": self._numbers.vectors(own.positions, with_bounds=True)}
+        return attributes | {name: self._numbers.vectors(array) for name, array in arrays.items() if array is not None}
+
+    def add_node(
+        self,
+        name: str,
+        matrix: Matrix,
+        *,
+        mesh: int | None = None,
+        above: int | None = None,
+        extras: Mapping[str, Any] | None = None,
+    ) -> int:
+        """Add a node.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        matrix
+            From its space to that of the node above; rigid as `garage2usd.maps.glb_meshes.are_rigid` says.
+        mesh
+            Number of what it draws.
+        above
+            Number of the node that it is below; None for a node of the scene.
+        extras
+            What it says of itself.
+
+        Returns
+        -------
+        int
+            Its number.
+        """
+        number = len(self._nodes)
+        drawn = {} if mesh is None else {"mesh": mesh}
+        self._nodes.append({"name": name, **drawn, **({"extras": dict(extras)} if extras else {})})
+        self._matrices.append(matrix)
+        siblings = self._roots if above is None else self._nodes[above].setdefault("children", [])
+        siblings.append(number)
+        return number
+
+    def data(self, facts: Mapping[str, Any]) -> bytes:
+        """The bytes of the file; `facts` is what the scene says of itself."""
+        materials, images = self._materials, []
+        for image in materials.images:
+            view = self._numbers.image(image.data)
+            images.append({"name": image.name, "mimeType": image.kind, "bufferView": view})
+        buffer, places = self._numbers.buffer(), places_of(np.array(self._matrices))
+        document = {
+            "asset": {"version": "2.0", "generator": f"garage2usd {VERSION}"},
+            "extensionsUsed": sorted(materials.extensions),
+            "scene": 0,
+            "scenes": [{"nodes": self._roots, **({"extras": dict(facts)} if facts else {})}],
+            "nodes": [node | place for node, place in zip(self._nodes, places, strict=True)],
+            "meshes": self._meshes,
+            "materials": materials.materials,
+            "textures": materials.textures,
+            "images": images,
+            "accessors": self._numbers.accessors,
+            "bufferViews": self._numbers.views(),
+            "buffers": [{"byteLength": len(buffer)}] if buffer else [],
+        }
+        filled = {name: value for name, value in document.items() if value not in ([], {})}
+        text = json.dumps(filled, separators=(",", ":"), allow_nan=False).encode()
+        chunks = (_JSON, text + b" " * (-len(text) % _ALIGNMENT)), (_BIN, buffer)
+        body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in chunks if chunk)
+        return struct.pack("<III", _GLTF, 2, 12 + len(body)) + body
+
+
+class _Numbers:
+    """The buffer: arrays of one type and width stand in one view, images in views of their own."""
+
+    def __init__(self) -> None:
+        self.accessors: list[dict[str, Any]] = []
+        self._known: dict[tuple[bytes, int, str], int] = {}
+        self._parts: list[list[bytes]] = []
+        self._headers: list[dict[str, int]] = []
+        self._view_of: dict[tuple[int, str], int] = {}
+
+    def vectors(self, values: NDArray[np.float32], *, with_bounds: bool = False) -> int:
+        """Number of the accessor of vectors, one a vertex; float32, shape (vertices, 2 to 4)."""
+        width = values.shape[1]
+        header = {"target": _VERTICES, "byteStride": 4 * width}
+        bounds = {"min": _shortest(values.min(axis=0)), "max": _shortest(values.max(axis=0))} if with_bounds else {}
+        return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
+
+    def indices(self, triangles: NDArray[np.uint32]) -> int:
+        """Number of the accessor of what `triangles` numbers, in two bytes where that is enough."""
+        is_short = triangles.max() < _MOST_SHORT
+        data = triangles.astype("<u2" if is_short else "<u4").tobytes()
+        return self._accessor(
+            data, _UINT16 if is_short else _UINT32, triangles.size, "SCALAR", {"target": _INDICES}, {}
+        )
+
+    def image(self, data: bytes) -> int:
+        """Number of the view of an image."""
+        self._headers.append({})
+        self._parts.append([data])
+        return len(self._parts) - 1
+
+    def _accessor(
+        self, data: bytes, component: int, count: int, kind: str, header: dict[str, int], bounds: dict[str, list[float]]
+    ) -> int:
+        key = hashlib.blake2b(data, digest_size=16).digest(), component, f"{kind} {sorted(bounds)}"
+        if key in self._known:
+            return self._known[key]
+        view = self._view_of.setdefault((component, kind), len(self._parts))
+        if view == len(self._parts):
+            self._headers.append(header)
+            self._parts.append([])
+        offset = sum(map(len, self._parts[view]))
+        self._parts[view].append(data)
+        self._known[key] = len(self.accessors)
+        self.accessors.append(
+            {
+                "bufferView": view,
+                **({"byteOffset": offset} if offset else {}),
+                "componentType": component,
+                "count": count,
+                "type": kind,
+                **bounds,
+            }
+        )
+        return self._known[key]
+
+    def views(self) -> list[dict[str, int]]:
+        """The views of the buffer, each from a multiple of four bytes on."""
+        views, offset = [], 0
+        for parts, header in zip(self._parts, self._headers, strict=True):
+            length = sum(map(len, parts))
+            views.append({"buffer": 0, "byteOffset": offset, "byteLength": length, **header})
+            offset += length + -length % _ALIGNMENT
+        return views
+
+    def buffer(self) -> bytes:
+        """All views, padded to multiples of four bytes."""
+        joined = (b"".join(parts) for parts in self._parts)
+        return b"".join(data + bytes(-len(data) % _ALIGNMENT) for data in joined)
+
+
+def _shortest(values: NDArray[np.float32]) -> list[float]:
+    """Single precision in the fewest digits that mean the same number."""
+    return [float(np.format_float_positional(value, unique=True, trim="0")) for value in values]

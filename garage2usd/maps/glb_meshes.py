@@ -1,0 +1,200 @@
+"""Triangles as primitives of glTF, and matrices as translation, turn and scale."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.reading.meshes import Triangles
+from garage2usd.reading.objects import Matrix
+
+__all__ = ["Primitive", "are_rigid", "by_facets", "joined", "moved_triangles", "places_of", "primitive_of"]
+
+Matrices = NDArray[np.float64]
+"""Transforms for points as rows; float64, shape (n, 4, 4)."""
+
+_SQUARE = 1e-6
+"""By how much the cosine between two axes may differ from that of a right angle: single precision."""
+_SMALLEST = 1e-12
+_FACET_COS = 1 - 1e-6
+_PLACE_DIGITS, _DIGITS = 5, 7
+"""Of metres, and of what has none."""
+
+
+class Primitive(NamedTuple):
+    """Arrays of a primitive, one row a vertex.
+
+    Attributes
+    ----------
+    positions, normals, tangents, coordinates
+        float32, shapes (vertices, 3), (vertices, 3), (vertices, 4) and (vertices, 2), or None where it has none: a
+        primitive without normals is faceted, as glTF 2.0 says in 3.7.2.1.
+    indices
+        uint32, shape (triangles, 3).
+    """
+
+    positions: NDArray[np.float32]
+    normals: NDArray[np.float32] | None
+    tangents: NDArray[np.float32] | None
+    coordinates: NDArray[np.float32] | None
+    indices: NDArray[np.uint32]
+
+
+def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool) -> Primitive:
+    """Triangles as a primitive.
+
+    Parameters
+    ----------
+    mesh
+        The triangles.
+    is_textured
+        Whether its material reads a texture, so that it needs coordinates.
+    is_bumpy
+        Whether its material reads a normal map, so that it needs normals and tangents.
+    """
+    # the first row of pixels is v = 0 there and v = 1 in USD
+    coordinates = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32) if is_textured else None
+    if is_bumpy:
+        return Primitive(mesh.positions_m, mesh.normals, _tangents_of(mesh), coordinates, mesh.indices)
+    if not all(is_faceted for is_faceted, _ in by_facets(mesh)):
+        return Primitive(mesh.positions_m, mesh.normals, None, coordinates, mesh.indices)
+    rows = mesh.positions_m if coordinates is None else np.hstack([mesh.positions_m, coordinates])
+    _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    indices = inverse.ravel()[mesh.indices].astype(np.uint32)
+    return Primitive(mesh.positions_m[first], None, None, None if coordinates is None else coordinates[first], indices)
+
+
+def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
+    """The triangles at which all normals are their own, which are faceted, and the others.
+
+    Yields
+    ------
+    tuple
+        Whether they are faceted, and the triangles.
+    """
+    corners = mesh.positions_m[mesh.indices].astype(np.float64)
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sizes = np.linalg.norm(areas, axis=1)
+    along = (mesh.normals[mesh.indices] * areas[:, None]).sum(axis=2)
+    are_faceted = (along >= sizes[:, None] * _FACET_COS).all(axis=1)
+    for is_faceted in (True, False):
+        own = np.flatnonzero(are_faceted == is_faceted)
+        if len(own):
+            yield is_faceted, mesh if len(own) == len(are_faceted) else replace(mesh, face_of=_each(mesh)).of_faces(own)
+
+
+def _each(mesh: Triangles) -> NDArray[np.int32]:
+    return np.arange(len(mesh.indices), dtype=np.int32)
+
+
+def joined(meshes: Sequence[Triangles]) -> Triangles:
+    """Several meshes that are seen from the same sides as one."""
+    if len(meshes) == 1:
+        return meshes[0]
+    first = np.cumsum([0, *(len(mesh.positions_m) for mesh in meshes[:-1])])
+    return Triangles(
+        np.concatenate([mesh.positions_m for mesh in meshes]),
+        np.concatenate([mesh.normals for mesh in meshes]),
+        np.concatenate([mesh.coordinates for mesh in meshes]),
+        np.concatenate([mesh.indices + np.uint32(start) for mesh, start in zip(meshes, first, strict=True)]),
+        np.zeros(sum(len(mesh.indices) for mesh in meshes), np.int32),
+        meshes[0].double_sided,
+    )
+
+
+def are_rigid(matrices: Matrices) -> NDArray[np.bool_]:
+    """Whether each matrix is a scale along the axes, then a turn and a move: all that a node of glTF can say."""
+    lengths = np.linalg.norm(matrices[:, :3, :3], axis=2, keepdims=True)
+    axes = matrices[:, :3, :3] / np.maximum(lengths, _SMALLEST)
+    found: NDArray[np.bool_] = np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2)) < _SQUARE
+    return found
+
+
+def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
+    """Rigid matrices for points as rows as the properties of nodes; what is as it is by default is left out.
+
+    Notes
+    -----
+    A mirrored matrix gets a negative scale along X.
+    """
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+
+    scales = np.linalg.norm(matrices[:, :3, :3], axis=2)
+    axes = matrices[:, :3, :3] / scales[:, :, None]
+    mirror = np.where(np.linalg.det(axes) < 0, -1.0, 1.0)
+    scales[:, 0] *= mirror
+    axes[:, 0] *= mirror[:, None]
+    turns = Rotation.from_matrix(axes.transpose(0, 2, 1)).as_quat(canonical=True)
+    properties = (
+        ("translation", np.round(matrices[:, 3, :3], _PLACE_DIGITS), np.zeros(3)),
+        ("rotation", np.round(turns, _DIGITS), np.array([0.0, 0.0, 0.0, 1.0])),
+        ("scale", np.round(scales, _DIGITS), np.ones(3)),
+    )
+    places: list[dict[str, list[float]]] = [{} for _ in matrices]
+    for name, values, usual in properties:
+        for node in np.flatnonzero((values != usual).any(axis=1)).tolist():
+            places[node][name] = [int(value) if value.is_integer() else value for value in values[node].tolist()]
+    return places
+
+
+def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
+    """The same triangles in another space, also through a matrix that is not rigid."""
+    turn = matrix[:3, :3]
+    is_mirrored = np.linalg.det(turn) < 0
+    return Triangles(
+        (mesh.positions_m @ turn + matrix[3, :3]).astype(np.float32),
+        _unit(mesh.normals @ np.linalg.pinv(turn).T, (0.0, 1.0, 0.0)),
+        mesh.coordinates,
+        mesh.indices[:, [0, 2, 1]] if is_mirrored else mesh.indices,
+        mesh.face_of,
+        mesh.double_sided,
+    )
+
+
+def _tangents_of(mesh: Triangles) -> NDArray[np.float32]:
+    """Tangent of each vertex, along which the first texture coordinate grows, and the side of the bitangent.
+
+    Returns
+    -------
+    numpy.ndarray
+        float32, shape (vertices, 4): unit vectors across the normals, and 1 where the second coordinate grows along
+        the cross product of normal and tangent, -1 where it grows against it.
+
+    Notes
+    -----
+    The directions of the triangles around a vertex are added by area, as E. Lengyel describes (Foundations of Game
+    Engine Development 2, 7.5).
+    """
+    corners = mesh.indices.astype(np.int64)
+    points, uv = mesh.positions_m[corners].astype(np.float64), mesh.coordinates[corners].astype(np.float64)
+    (side_1, side_2), (uv_1, uv_2) = ((at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]) for at in (points, uv))
+    winding = np.sign(uv_1[:, 0] * uv_2[:, 1] - uv_2[:, 0] * uv_1[:, 1])[:, None]
+    along_u = winding * (side_1 * uv_2[:, 1:] - side_2 * uv_1[:, 1:])
+    along_v = winding * (side_2 * uv_1[:, :1] - side_1 * uv_2[:, :1])
+    area = np.linalg.norm(np.cross(side_1, side_2), axis=1, keepdims=True)
+    sums = np.zeros((2, len(mesh.positions_m), 3))
+    for total, along in zip(sums, (along_u, along_v), strict=True):
+        np.add.at(total, corners.ravel(), np.repeat(_unit(along, (0.0, 0.0, 0.0)) * area, 3, axis=0))
+    normals = mesh.normals.astype(np.float64)
+    # what has no direction gets that of the axis which the normal is farthest from
+    spare = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    given = np.linalg.norm(_across(sums[0], normals), axis=1, keepdims=True) > _SMALLEST
+    tangents = _unit(_across(np.where(given, sums[0], spare), normals), (1.0, 0.0, 0.0))
+    side = (np.cross(normals, tangents) * sums[1]).sum(axis=1)
+    return np.column_stack([tangents, np.where(side < 0, -1.0, 1.0)]).astype(np.float32)
+
+
+def _across(vectors: NDArray[Any], normals: NDArray[Any]) -> NDArray[Any]:
+    """The part of vectors that is square to normals."""
+    square: NDArray[Any] = vectors - normals * (vectors * normals).sum(axis=1, keepdims=True)
+    return square
+
+
+def _unit(vectors: NDArray[Any], otherwise: tuple[float, float, float]) -> NDArray[np.float32]:
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    unit: NDArray[np.float32] = np.where(
+        lengths > _SMALLEST, vectors / np.maximum(lengths, _SMALLEST), otherwise
+    ).astype(np.float32)
+    return unit

@@ -1,0 +1,141 @@
+"""Programs that are not ours read the GLB of every sample: Khronos' validator, three.js, Blender and trimesh."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pxr import Gf, Usd, UsdGeom
+from support.browser import find_browser, find_three, load_in_three
+from support.glb_reader import Glb
+from support.gltf_validator import VALIDATOR_VERSION, find_node, find_validator, validated
+from support.pictures import difference, read_png, store, stored
+from support.places import MILLIMETRE
+from support.sample_files import REPOSITORY, SAMPLES, each_sample
+
+from garage2usd.maps.glb import write_glb
+
+pytestmark = pytest.mark.client
+NO_BLENDER = importlib.util.find_spec("bpy") is None
+SMALL_SAMPLES = [sample for sample in SAMPLES if sample.stem != "large_20x30"]
+each_small_sample = pytest.mark.parametrize("sample", SMALL_SAMPLES, ids=lambda path: path.stem)
+LARGEST_DIFFERENCE = 1.0
+
+
+@pytest.fixture(scope="module")
+def files(builds, tmp_path_factory):
+    made = {}
+
+    def glb_of(sample):
+        if sample not in made:
+            built = builds(sample, "usdz")
+            made[sample] = tmp_path_factory.mktemp("glb") / f"{sample.stem}.glb"
+            write_glb(Usd.Stage.Open(str(built.stage)), made[sample])
+        return made[sample]
+
+    return glb_of
+
+
+def camera_of(stage_path):
+    """Place, a point ahead and vertical angle of the stage's camera Inside."""
+    stage = Usd.Stage.Open(str(stage_path))
+    camera = UsdGeom.Camera(stage.GetPrimAtPath("/Garage/Cameras/Inside")).GetCamera(0)
+    matrix = np.array(camera.transform)
+    place, ahead = matrix[3, :3], -matrix[2, :3]
+    return json.dumps([place.tolist(), (place + ahead).tolist(), camera.GetFieldOfView(Gf.Camera.FOVVertical)])
+
+
+def bounds_of(glb):
+    """By name: class and stall as a node says, and the corners of its bounds."""
+    found = {}
+    for number, node in enumerate(glb.nodes):
+        if "mesh" in node:
+            points = glb.points(number)
+            found[node["name"]] = node["extras"], points.min(axis=0), points.max(axis=0)
+    return found
+
+
+@each_sample
+@pytest.mark.skipif(
+    find_node() is None or find_validator() is None, reason="environment.sh test installs the validator"
+)
+def test_the_validator_finds_nothing(sample, files):
+    report = validated(files(sample))
+    assert report["validatorVersion"] == VALIDATOR_VERSION
+    issues = report["issues"]
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    # of the other remarks only this one: textures need not have 2^n pixels
+    assert {message["code"] for message in issues["messages"]} <= {"IMAGE_NPOT_DIMENSIONS"}
+
+
+@pytest.fixture(scope="module")
+def in_three(builds, files, tmp_path_factory):
+    def load(sample, *, pictures=False):
+        folder = tmp_path_factory.mktemp("browser")
+        camera = camera_of(builds(sample, "usdz").stage)
+        return load_in_three(files(sample), folder, pictures=pictures, page="glb.html", camera=camera)
+
+    return load
+
+
+@each_sample
+@pytest.mark.skipif(find_browser() is None or find_three() is None, reason="no browser or no three.js")
+def test_three_agrees(sample, files, in_three):
+    glb, scene = Glb(files(sample).read_bytes()), in_three(sample)
+    assert (scene["complaints"], scene["missing"]) == ([], [])
+    expected = bounds_of(glb)
+    found = {item["name"]: item for item in scene["objects"] if item["said"].get("class")}
+    assert found.keys() == expected.keys()
+    for name, (said, low, high) in expected.items():
+        item = found[name]
+        assert {key: item["said"].get(key) for key in said} == said
+        assert np.abs(np.array([item["low"], item["high"]]) - [low, high]).max() < MILLIMETRE
+    primitives = [own for mesh in glb.json["meshes"] for own in mesh["primitives"]]
+    shapes = {(own["indices"], *sorted(own["attributes"].items())) for own in primitives}
+    assert scene["geometries"] == len(shapes)
+    assert scene["textures"] == len(glb.json["images"])
+
+
+@pytest.mark.skipif(find_browser() is None or find_three() is None, reason="no browser or no three.js")
+def test_three_draws_the_stored_picture(in_three, write_pictures):
+    scene = in_three(REPOSITORY / "samples" / "paper_7x9.toml", pictures=True)
+    assert scene["complaints"] == []
+    picture = read_png(scene["pictures"]["Inside"])
+    if write_pictures:
+        store("threejs_glb_inside", picture)
+    assert difference(picture, stored("threejs_glb_inside")) < LARGEST_DIFFERENCE
+
+
+@each_small_sample
+@pytest.mark.skipif(NO_BLENDER, reason="Blender's bpy is made for Python 3.11 only")
+def test_blender_agrees(sample, builds, files, tmp_path):
+    script, output = Path(__file__).with_name("glb_blender_dump.py"), tmp_path / "dump.json"
+    camera = camera_of(builds(sample, "usdz").stage)
+    command = [sys.executable, str(script), str(files(sample)), str(output), "", camera]
+    subprocess.run(command, check=True, capture_output=True, timeout=600)
+    scene, glb = json.loads(output.read_text()), Glb(files(sample).read_bytes())
+    expected = bounds_of(glb)
+    found = {item["name"]: item for item in scene["objects"] if "class" in item["said"]}
+    assert found.keys() == expected.keys()
+    for name, (said, low, high) in expected.items():
+        item = found[name]
+        assert {key: item["said"].get(key) for key in said} == said
+        assert np.abs(np.array([item["low"], item["high"]]) - [low, high]).max() < MILLIMETRE
+    assert len({item["mesh"] for item in found.values()}) == len(glb.json["meshes"])
+    assert len(scene["images"]) == len(glb.json["images"])
+    assert all(image["values"] for image in scene["images"])
+    # what has no normals is faceted, and the rest is smooth
+    facets = {item["said"]["class"]: item["smooth"] for item in found.values()}
+    assert facets["column"] == facets["wall"] == 0
+    assert 0.2 < facets["car"] < 1
+
+
+def test_trimesh_agrees(files):
+    trimesh = pytest.importorskip("trimesh")
+    file = files(REPOSITORY / "samples" / "paper_7x9.toml")
+    expected, scene = bounds_of(Glb(file.read_bytes())), trimesh.load(file)
+    low, high = (np.array([bounds[side] for bounds in expected.values()]) for side in (1, 2))
+    assert np.abs(scene.bounds - [low.min(axis=0), high.max(axis=0)]).max() < MILLIMETRE

@@ -1,0 +1,300 @@
+"""A GLB read with nothing but json and numpy, and what it must agree with a stage on, which pxr alone reads."""
+
+import json
+import re
+import struct
+import zipfile
+from collections import defaultdict
+from typing import NamedTuple
+
+import numpy as np
+from pxr import Usd, UsdGeom, UsdShade
+from scipy.spatial import KDTree
+
+from support.places import MILLIMETRE
+
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+TYPES = {5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
+UNIT = 1e-3
+CORNERS = (-1, 1), (1, 1), (1, -1), (-1, -1)
+"""Mouth left, mouth right, rear right, rear left; a driver who drives in looks to -Z at a yaw of 0."""
+WEIGHTS = np.array([1, 1, 1, 0.1, 0.1, 0.1])
+"""A normal that is off by 0.01 is as bad as a place that is off by a millimetre."""
+
+
+class Glb:
+    """The JSON of a file, and its arrays and images by number."""
+
+    def __init__(self, data):
+        magic, version, length = struct.unpack_from("<III", data)
+        assert (magic, version, length) == (0x46546C67, 2, len(data))
+        size, kind = struct.unpack_from("<II", data, 12)
+        assert kind == 0x4E4F534A
+        self.json = json.loads(data[20 : 20 + size])
+        binary, kind = struct.unpack_from("<II", data, 20 + size)
+        assert (kind, 28 + size + binary) == (0x004E4942, len(data))
+        self.buffer = data[28 + size :]
+        self.parents = {child: number for number, node in enumerate(self.nodes) for child in node.get("children", [])}
+
+    @property
+    def nodes(self):
+        return self.json["nodes"]
+
+    def view(self, number):
+        view = self.json["bufferViews"][number]
+        return self.buffer[view.get("byteOffset", 0) : view.get("byteOffset", 0) + view["byteLength"]]
+
+    def array(self, number):
+        accessor = self.json["accessors"][number]
+        kind, width = TYPES[accessor["componentType"]], WIDTHS[accessor["type"]]
+        start, count = accessor.get("byteOffset", 0), accessor["count"] * width
+        return np.frombuffer(self.view(accessor["bufferView"]), kind, count, start).reshape(-1, width)
+
+    def matrix(self, number):
+        """From a node's space to the world, for columns."""
+        node = self.nodes[number]
+        x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+        turn = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+        matrix = np.eye(4)
+        matrix[:3, :3] = turn * node.get("scale", (1, 1, 1))
+        matrix[:3, 3] = node.get("translation", (0, 0, 0))
+        return self.matrix(self.parents[number]) @ matrix if number in self.parents else matrix
+
+    def primitives(self, number):
+        return self.json["meshes"][self.nodes[number]["mesh"]]["primitives"]
+
+    def points(self, number):
+        """All positions of a node's mesh in the world."""
+        matrix = self.matrix(number)
+        own = np.concatenate([self.array(own["attributes"]["POSITION"]) for own in self.primitives(number)])
+        return own @ matrix[:3, :3].T + matrix[:3, 3]
+
+    def corners(self, number):
+        """Which of these are the corners of each triangle; shape (n, 3)."""
+        found, first = [], 0
+        for own in self.primitives(number):
+            found.append(self.array(own["indices"]).reshape(-1, 3).astype(int) + first)
+            first += self.json["accessors"][own["attributes"]["POSITION"]]["count"]
+        return np.concatenate(found)
+
+
+def assert_like_the_stage(data, stage_path, labels):
+    """A GLB has the objects of a stage where they are, with their classes, ids, meshes and images."""
+    glb, stage = Glb(data), Usd.Stage.Open(str(stage_path))
+    number_of = {node["name"]: number for number, node in enumerate(glb.nodes)}
+    assert len(number_of) == len(glb.nodes)
+    objects = {entry["path"]: entry for entry in labels["objects"]}
+    assert objects.keys() == {name for name in number_of if name.partition("/")[0] != "stalls"}
+    seen, meshes, prototypes, judged = _Drawn(), defaultdict(set), set(), set()
+    for path, entry in objects.items():
+        number, prim = number_of[path], stage.GetPrimAtPath(path)
+        node = glb.nodes[number]
+        assert (node["extras"]["class"], node["extras"]["id"]) == (entry["class"], entry["id"])
+        prototype = str(prim.GetPrototype().GetPath()) if prim.IsInstance() else path
+        meshes[prototype].add(node["mesh"])
+        prototypes.add(prototype)
+        drawn = seen.of(prim, with_looks=node["mesh"] not in judged)
+        found = glb.points(number)
+        assert np.abs(_bounds(found) - _bounds(drawn.points)).max() < MILLIMETRE, path
+        assert abs(_volume(found[glb.corners(number)]) - drawn.volume) < drawn.volume_error, path
+        if node["mesh"] not in judged:
+            judged.add(node["mesh"])
+            _assert_same_look(glb, number, drawn)
+    assert all(len(own) == 1 for own in meshes.values())
+    assert len(judged) == len(glb.json["meshes"]) <= len(prototypes)
+    _assert_sound_primitives(glb)
+    if stage_path.suffix == ".usdz":
+        with zipfile.ZipFile(stage_path) as package:
+            files = [package.read(name) for name in package.namelist() if name.endswith((".png", ".jpg"))]
+        assert sorted(glb.view(image["bufferView"]) for image in glb.json["images"]) == sorted(files)
+
+
+def _assert_same_look(glb, number, drawn):
+    """All points are the same, and so are materials, what is seen from both sides, and what is smooth."""
+    found, primitives = glb.points(number), glb.primitives(number)
+    assert _is_among(found, drawn.points)
+    assert _is_among(drawn.points, found)
+    materials = {
+        (material["name"], material.get("doubleSided", False))
+        for material in (glb.json["materials"][own["material"]] for own in primitives)
+    }
+    assert materials == drawn.materials
+    turn = glb.matrix(number)[:3, :3]
+    smooth = [
+        np.hstack([glb.array(own["attributes"]["POSITION"]) @ turn.T, glb.array(own["attributes"]["NORMAL"]) @ turn.T])
+        for own in primitives
+        if "NORMAL" in own["attributes"]
+    ]
+    if len(drawn.smooth):
+        assert smooth
+        here = np.concatenate(smooth) + np.hstack([glb.matrix(number)[:3, 3], np.zeros(3)])
+        assert _is_among(drawn.smooth * WEIGHTS, here * WEIGHTS)
+
+
+def _is_among(some, others):
+    """Whether each place of one is a place of the others, within a millimetre."""
+    return KDTree(others).query(some)[0].max() < MILLIMETRE
+
+
+def _bounds(points):
+    return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _volume(corners):
+    """Signed volume within triangles, shape (n, 3, 3), seen from their middle."""
+    corners = corners - corners.reshape(-1, 3).mean(axis=0)
+    return np.linalg.det(corners).sum() / 6
+
+
+class _Seen(NamedTuple):
+    points: np.ndarray
+    volume: float
+    volume_error: float
+    materials: set
+    smooth: np.ndarray
+
+
+class _Drawn:
+    """What pxr's own traversal finds of all meshes at and below a prim, in the world."""
+
+    def __init__(self):
+        self.cache, self.known = UsdGeom.XformCache(), {}
+
+    def of(self, root, *, with_looks):
+        points, triangles, materials, smooth = [], [], set(), [np.zeros((0, 6))]
+        for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies()):
+            if prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in {"default", "render"}:
+                own, fans = self._mesh(prim)
+                matrix = np.array(self.cache.GetLocalToWorldTransform(prim))
+                places = own @ matrix[:3, :3] + matrix[3, :3]
+                points.append(places[np.unique(fans)])
+                triangles.append(places[fans])
+                if with_looks:
+                    material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPrim().GetName()
+                    materials.add((material, bool(UsdGeom.Mesh(prim).GetDoubleSidedAttr().Get())))
+                    smooth.append(_smooth_corners(prim, places, matrix[:3, :3]))
+        points, triangles = np.concatenate(points), np.concatenate(triangles)
+        size = np.ptp(points, axis=0)
+        # single precision over the area of the surface; both are taken from one middle, which need not be the same
+        area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+        open_m2 = np.linalg.norm(np.cross(*np.moveaxis(np.diff(triangles, axis=1), 1, 0)).sum(axis=0))
+        error = 1e-4 * (area.sum() * size.max() + 1e-6) + open_m2 * size.max()
+        return _Seen(points, _volume(triangles), error, materials, np.concatenate(smooth))
+
+    def _mesh(self, prim):
+        source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+        if source.GetPath() not in self.known:
+            mesh = UsdGeom.Mesh(source)
+            counts, corners = (
+                np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr())
+            )
+            faces = np.split(corners, np.cumsum(counts)[:-1])
+            fans = np.array([(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)])
+            self.known[source.GetPath()] = np.array(mesh.GetPointsAttr().Get(), dtype=float), fans
+        return self.known[source.GetPath()]
+
+
+def _smooth_corners(prim, places, turn):
+    """World place and normal of the corners of faces whose normal is not the face's; shape (n, 6)."""
+    mesh = UsdGeom.Mesh(prim)
+    primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
+    if not primvar or primvar.GetInterpolation() != "faceVarying":
+        return np.zeros((0, 6))
+    normals = np.array(primvar.ComputeFlattened()) @ turn
+    counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
+    found, start = [np.zeros((0, 6))], 0
+    for count in counts:
+        own = places[corners[start : start + count]]
+        facing = np.cross(own, np.roll(own, -1, axis=0)).sum(axis=0)
+        there = normals[start : start + count]
+        bent = there @ facing < 0.999 * np.linalg.norm(facing)
+        found.append(np.hstack([own, there])[bent])
+        start += count
+    return np.concatenate(found)
+
+
+def _assert_sound_primitives(glb):
+    """Normals look out of their triangles, tangents lie across them along u, and coordinates are there for textures."""
+    for mesh in glb.json["meshes"]:
+        for primitive in mesh["primitives"]:
+            attributes = {name: glb.array(number) for name, number in primitive["attributes"].items()}
+            corners = glb.array(primitive["indices"]).reshape(-1, 3)
+            points = attributes["POSITION"][corners].astype(float)
+            areas = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+            material = glb.json["materials"][primitive["material"]]
+            textures = {name for name in {**material, **material["pbrMetallicRoughness"]} if name.endswith("Texture")}
+            assert ("TEXCOORD_0" in attributes) == bool(textures)
+            assert ("TANGENT" in attributes) == ("normalTexture" in textures)
+            if "NORMAL" in attributes:
+                normals = attributes["NORMAL"]
+                assert np.abs(np.linalg.norm(normals, axis=1) - 1).max() < UNIT
+                outwards = (normals[corners].sum(axis=1) * areas).sum(axis=1)
+                assert (outwards >= -1e-9).all()
+            if "TANGENT" in attributes:
+                _assert_tangents(attributes, corners, points)
+
+
+def _assert_tangents(attributes, corners, points):
+    tangents, normals = attributes["TANGENT"], attributes["NORMAL"]
+    assert np.abs(np.linalg.norm(tangents[:, :3], axis=1) - 1).max() < UNIT
+    assert np.abs((tangents[:, :3] * normals).sum(axis=1)).max() < UNIT
+    # the way from corner to corner along which u, or v upwards, alone grows
+    uv = attributes["TEXCOORD_0"][corners].astype(float) * (1, -1)
+    for triangle, place, here in zip(corners, points, uv, strict=True):
+        sides, steps = place[1:] - place[0], here[1:] - here[0]
+        if abs(np.linalg.det(steps)) < 1e-9:
+            continue
+        along_u, along_v = np.linalg.inv(steps) @ sides
+        for vertex in triangle:
+            tangent, side = tangents[vertex, :3], tangents[vertex, 3]
+            assert tangent @ along_u > 0
+            assert side * np.cross(normals[vertex], tangent) @ along_v > 0
+
+
+def stalls_of(report):
+    """By id: number, use and corners (x, z) of each stall of a report."""
+    stalls = {}
+    for stall in report["stalls"]:
+        half = np.array([stall["width_m"], stall["length_m"]]) / 2
+        sin, cos = np.sin(stall["yaw_rad"]), np.cos(stall["yaw_rad"])
+        across, along = np.array([cos, -sin]), np.array([sin, cos])
+        corners = [stall["centre_m"] + a * half[0] * across + b * half[1] * along for a, b in CORNERS]
+        stalls[stall["name"]] = stall["number"], stall["use"], corners
+    return stalls
+
+
+def assert_stalls(data, report, labels):
+    """The stall nodes say what the report says of its stalls, and the cars which they stand in, by their names."""
+    glb, stalls = Glb(data), stalls_of(report)
+    cars = {
+        entry["path"]: re.sub(r".*/Tile_(r\d+_c\d+)/Car_(\d+)$", r"Stall_\1_\2", entry["path"])
+        for entry in labels["objects"]
+        if entry["class"] == "car"
+    }
+    nodes = {node["name"]: (number, node) for number, node in enumerate(glb.nodes)}
+    found = {name.partition("/")[2]: value for name, value in nodes.items() if name.startswith("stalls/")}
+    assert found.keys() == stalls.keys()
+    taken = {stall: car for car, stall in cars.items()}
+    for name, (number, node) in found.items():
+        said, (label, use, corners) = node["extras"]["stall"], stalls[name]
+        assert (said["id"], said["number"], said["use"]) == (name, label, use)
+        assert (said["occupied"], said.get("car")) == (name in taken, taken.get(name))
+        assert np.abs(np.array(said["corners_m"])[:, [0, 2]] - corners).max() < MILLIMETRE
+        matrix, corners = glb.matrix(number), np.array(corners)
+        assert np.abs(matrix[[0, 2], 3] - corners.mean(axis=0)).max() < MILLIMETRE
+        mouth = corners[:2].mean(axis=0) - corners[2:].mean(axis=0)
+        assert np.abs(matrix[[0, 2], 2] - mouth / np.linalg.norm(mouth)).max() < UNIT
+    named = {name: node["extras"]["stall"]["id"] for name, (_, node) in nodes.items() if _class(node) == "car"}
+    assert named == cars
+    grounds = {node["extras"]["stall"]["id"] for _, node in nodes.values() if _class(node) == "parking_stall"}
+    assert grounds == stalls.keys()
+
+
+def _class(node):
+    return node.get("extras", {}).get("class")

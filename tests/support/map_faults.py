@@ -1,0 +1,38 @@
+"""Faults planted in the modules of maps: a text of one is replaced, and all of them are imported anew around it."""
+
+import importlib
+import importlib.util
+import sys
+from contextlib import contextmanager
+from types import ModuleType
+from typing import NamedTuple
+
+ROOM = "garage2usd.maps"
+
+
+class Fault(NamedTuple):
+    """A text that stands once in a module of maps, and what takes its place."""
+
+    name: str
+    module: str
+    old: str
+    new: str
+
+
+@contextmanager
+def planted(fault, module):
+    """The module of maps with the name `module`, in whose room a fault is planted."""
+    name = f"{ROOM}.{fault.module}"
+    source = importlib.util.find_spec(name).loader.get_source(name)
+    assert source.count(fault.old) == 1, f"{fault.name}: its text is {source.count(fault.old)} times in {name}"
+    healthy = {other: sys.modules.pop(other) for other in list(sys.modules) if other.startswith(f"{ROOM}.")}
+    try:
+        sys.modules[name] = faulty = ModuleType(name)
+        exec(compile(source.replace(fault.old, fault.new), f"faulty {name}", "exec"), faulty.__dict__)  # noqa: S102
+        yield importlib.import_module(f"{ROOM}.{module}")
+    finally:
+        for other in [other for other in sys.modules if other.startswith(f"{ROOM}.")]:
+            del sys.modules[other]
+        sys.modules.update(healthy)
+        for other, own in healthy.items():
+            setattr(sys.modules[ROOM], other.rpartition(".")[2], own)
