@@ -1,0 +1,327 @@
+"""Smooth paths over lanes and ramps: a search over the middles of squares for those that a car drives without a touch."""
+
+import heapq
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import count
+from typing import NamedTuple
+
+import numpy as np
+
+from garage2usd.driving.car import DesignCar, Point, Pose
+from garage2usd.driving.lane_poses import DirectedEdge, SquareUse
+from garage2usd.driving.obstacles import Obstacles
+from garage2usd.driving.path import Path, Piece
+from garage2usd.driving.proof import LanePose
+from garage2usd.driving.road import DrivenRoad, Portal
+from garage2usd.driving.turns import Steering, joining_pieces
+
+__all__ = ["Roadmap"]
+
+_MOST_EDGES = 4
+"""Of a piece of road that is driven in two turns."""
+_SAME_WAY = 0.999
+_ASIDE = (0.0, 1.0, -1.0)
+"""Places across a lane that are tried, as shares of the room beside a car."""
+_ROOM_KEPT_M = 0.2
+_MOST_ASIDE_M = 1.2
+_ASIDE_COST_M = 2.0
+_ROOM_TO_TURN_M = 0.1
+_BESIDE_M = 0.8
+"""Width of where a car may stand to turn."""
+_DIGITS = 4
+
+
+class Spot(NamedTuple):
+    """A place that paths lead through: the middle of a square, or a place beside it, in line with an edge.
+
+    Attributes
+    ----------
+    square
+        Its number.
+    along
+        Direction of driving, a unit vector (x, z).
+    aside_m
+        How far it lies to the right of the middle.
+    """
+
+    square: int
+    along: Point
+    aside_m: float = 0.0
+
+
+_Place = Spot | int | None
+"""A spot, a portal by its square, or the pose at which a search begins."""
+
+
+class Roadmap:
+    """The smooth paths of a garage's lanes; what was found once is kept.
+
+    Parameters
+    ----------
+    road
+        The garage.
+    standing
+        What is in the way.
+    car
+        Which car drives.
+    steerings
+        How it may turn, the most comfortable way first.
+    margin_m
+        What is kept clear around it.
+    """
+
+    def __init__(
+        self, road: DrivenRoad, standing: Obstacles, car: DesignCar, steerings: Sequence[Steering], margin_m: float
+    ) -> None:
+        self._directions = road.garage.directions
+        self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
+        self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
+
+    def onward(self, start: Pose, exits: Iterable[Portal]) -> tuple[Path, Portal] | None:
+        """The shortest path found from a pose in line with a lane to where a car stands after one of some exits."""
+        edges = self.edges_at(start, self._directions.leaving)
+        return self._found(start, edges, exits, is_back=False)
+
+    def arrival(self, end: Pose, entrances: Iterable[Portal]) -> tuple[Path, Portal] | None:
+        """The shortest path found to a pose in line with a lane from where a car stands before one of some entrances."""
+        edges = self.edges_at(end, self._directions.arriving)
+        return self._found(end, edges, entrances, is_back=True)
+
+    def _found(
+        self, pose: Pose, edges: Sequence[DirectedEdge], portals: Iterable[Portal], *, is_back: bool
+    ) -> tuple[Path, Portal] | None:
+        portals = tuple(portals)
+        for asides in (_ASIDE[:1], _ASIDE):
+            found = _Growth(self, pose, portals, asides, is_back=is_back).grown(edges)
+            if found is not None:
+                return found
+        return None
+
+    def edges_at(self, pose: Pose, edges: Iterable[DirectedEdge]) -> list[DirectedEdge]:
+        """Those of some edges that a car is in line with and on."""
+        x, z = _middle(self._car, pose)
+        found = []
+        for edge in edges:
+            one, other = (self._directions.squares[number].middle_m for number in edge)
+            along, length = self._along[edge]
+            run = (x - one[0]) * along[0] + (z - one[1]) * along[1]
+            aside = abs((x - one[0]) * along[1] - (z - one[1]) * along[0])
+            beyond = self._directions.squares[edge[1]].sides_m
+            far = length + abs(along[0]) * beyond[0] / 2 + abs(along[1]) * beyond[1] / 2
+            same = -math.sin(pose.yaw_rad) * along[0] - math.cos(pose.yaw_rad) * along[1]
+            if same > _SAME_WAY and aside <= self._directions.widths_m[edge] / 2 and -0.01 <= run <= far:  # noqa: PLR2004
+                found.append(edge)
+        return found
+
+    def roomy_poses(self, edges: Iterable[DirectedEdge], *, is_back: bool) -> list[LanePose]:
+        """Where a car has room to turn at the end of some edges, or has turned at their starts, its middle on them.
+
+        Notes
+        -----
+        Rectangles as long as that room, with the tightest turn of a quarter; none where an edge is too short. Where
+        traffic may drive straight on, or come straight, the whole edge counts.
+        """
+        tangent_m = float(abs(self._steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
+        used = self._directions.arriving if is_back else self._directions.leaving
+        poses = []
+        for edge in edges:
+            along, length_m = self._along[edge]
+            is_straight = any(self._along[next_][0] == along for next_ in self._joins[is_back][edge] if next_ in used)
+            low, high = 0.0, length_m
+            if not is_straight:
+                low, high = (tangent_m, high) if is_back else (low, high - tangent_m)
+            if high < low:
+                continue
+            x, z = self._directions.squares[edge[0]].middle_m
+            ahead = (low + high) / 2 + self._car.length_m / 2 - self._car.rear_overhang_m
+            room = min(_BESIDE_M, self._directions.widths_m[edge] - self._car.width_m)
+            if room >= 0:
+                yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
+                poses.append(LanePose((x + ahead * along[0], z + ahead * along[1]), yaw, high - low, room))
+        return poses
+
+    @cached_property
+    def _along(self) -> dict[DirectedEdge, tuple[Point, float]]:
+        """Direction and length of each edge."""
+        squares = self._directions.squares
+        along = {}
+        for edge in self._directions.widths_m:
+            (x, z), (to_x, to_z) = (squares[number].middle_m for number in edge)
+            length = math.hypot(to_x - x, to_z - z)
+            along[edge] = (round((to_x - x) / length, _DIGITS) + 0.0, round((to_z - z) / length, _DIGITS) + 0.0), length
+        return along
+
+    @cached_property
+    def _joins(self) -> tuple[dict[DirectedEdge, tuple[DirectedEdge, ...]], ...]:
+        """The edges that follow each, and those that it follows, without turning round or through a portal."""
+        entering: dict[int, list[DirectedEdge]] = {}
+        leaving: dict[int, list[DirectedEdge]] = {}
+        for edge in self._directions.widths_m:
+            leaving.setdefault(edge[0], []).append(edge)
+            entering.setdefault(edge[1], []).append(edge)
+        lanes = {number for number, square in enumerate(self._directions.squares) if square.use is SquareUse.LANE}
+
+        def beside(edge: DirectedEdge, square: int, others: dict[int, list[DirectedEdge]]) -> tuple[DirectedEdge, ...]:
+            return tuple(other for other in others.get(square, ()) if set(other) != set(edge) and square in lanes)
+
+        return (
+            {edge: beside(edge, edge[1], leaving) for edge in self._directions.widths_m},
+            {edge: beside(edge, edge[0], entering) for edge in self._directions.widths_m},
+        )
+
+    def walks(self, first: DirectedEdge, *, is_back: bool) -> Iterator[list[DirectedEdge]]:
+        """Walks over few edges that begin with one, or end with it where they are walked back."""
+        waiting = [[first]]
+        while waiting:
+            walk = waiting.pop()
+            yield walk
+            if len(walk) < _MOST_EDGES:
+                waiting += [[*walk, following] for following in self._joins[is_back][walk[-1]]]
+
+    def is_straight(self, walk: Sequence[DirectedEdge]) -> bool:
+        """Whether a walk turns nowhere."""
+        return len({self._along[edge][0] for edge in walk}) == 1
+
+    def spots(self, edge: DirectedEdge, asides: Sequence[float], *, is_back: bool) -> list[tuple[Spot, Pose]]:
+        """The places at the end of an edge, or at its start where it is walked back."""
+        room = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
+        square, along = edge[0 if is_back else 1], self._along[edge][0]
+        x, z = self._directions.squares[square].middle_m
+        yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
+        found = []
+        for share in asides:
+            aside = round(share * max(room, 0.0), _DIGITS)
+            found.append((Spot(square, along, aside), Pose(x + aside * along[1], z - aside * along[0], yaw)))
+        return found
+
+    def edges_from(self, spot: "Spot", *, is_back: bool) -> list[DirectedEdge]:
+        """The edges that a place lies at the start of, in line with it, or at the end of where they are walked back."""
+        at = 1 if is_back else 0
+        return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
+
+    def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
+        """A clear path from pose to pose in at most two turns."""
+        key = (start, end)
+        if key not in self._known:
+            self._known[key] = next(self._clear(start, end), None)
+        return self._known[key]
+
+    def _clear(self, start: Pose, end: Pose) -> Iterator[tuple[Piece, ...]]:
+        for steering in self._steerings:
+            for pieces in joining_pieces(start, end, steering):
+                if Path(start, pieces).clearance_m(self._car, self._standing) >= self._margin_m:
+                    yield pieces
+
+
+@dataclass(order=True, slots=True)
+class _Candidate:
+    """A piece of road that may be driven next.
+
+    Attributes
+    ----------
+    estimate_m
+        Way from the root over it to the nearest portal, at least.
+    number
+        Which one it is.
+    target, origin
+        Where it leads, and from where.
+    driven_m
+        Way until its origin, or until its target once it is known.
+    pieces
+        None until its turn comes.
+    """
+
+    estimate_m: float
+    number: int
+    target: "_Place" = field(compare=False)
+    origin: "_Place" = field(compare=False)
+    driven_m: float = field(compare=False)
+    pieces: tuple[Piece, ...] | None = field(compare=False, default=None)
+
+
+class _Growth:
+    """An A* from a pose at a stall to a portal, or back to one; a piece of road is looked at when its turn comes."""
+
+    def __init__(
+        self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], asides: Sequence[float], *, is_back: bool
+    ) -> None:
+        self._roadmap, self._asides, self._is_back = roadmap, asides, is_back
+        self._portals = {portal.square: portal for portal in portals}
+        self._poses: dict[_Place, Pose] = {None: root, **{portal.square: portal.pose for portal in portals}}
+        self._done: dict[_Place, tuple[Piece, ...]] = {}
+        self._waiting: list[_Candidate] = []
+        self._numbers = count()
+
+    def grown(self, edges: Iterable[DirectedEdge]) -> tuple[Path, Portal] | None:
+        """The path, and the portal that it begins or ends at."""
+        self._done[None] = ()
+        self._grow_from(None, edges, 0.0)
+        while self._waiting:
+            candidate = heapq.heappop(self._waiting)
+            target, origin = candidate.target, candidate.origin
+            if target in self._done:
+                continue
+            if candidate.pieces is None:
+                self._look_at(candidate)
+                continue
+            there = self._done[origin]
+            pieces = (*candidate.pieces, *there) if self._is_back else (*there, *candidate.pieces)
+            self._done[target] = pieces
+            if isinstance(target, int):
+                portal = self._portals[target]
+                return Path(portal.pose if self._is_back else self._poses[None], pieces), portal
+            if target is not None:
+                edges = self._roadmap.edges_from(target, is_back=self._is_back)
+                self._grow_from(target, edges, candidate.driven_m)
+        return None
+
+    def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
+        for first in edges:
+            for walk in self._roadmap.walks(first, is_back=self._is_back):
+                portal = walk[-1][0 if self._is_back else 1]
+                if portal in self._portals:
+                    self._offer(portal, origin, driven_m)
+                # a long straight between spots is put together of short ones
+                if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
+                    continue
+                for spot, pose in self._roadmap.spots(walk[-1], self._asides, is_back=self._is_back):
+                    self._poses.setdefault(spot, pose)
+                    self._offer(spot, origin, driven_m)
+
+    def _offer(self, target: "_Place", origin: "_Place", driven_m: float) -> None:
+        if target in self._done:
+            return
+        least_m = _apart_m(self._poses[origin], self._poses[target]) + _cost_m(target)
+        estimate_m = driven_m + least_m + self._left_m(target)
+        heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
+
+    def _look_at(self, candidate: _Candidate) -> None:
+        ends = self._poses[candidate.origin], self._poses[candidate.target]
+        pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
+        if pieces is None:
+            return
+        length_m = sum(piece.length_m for piece in pieces)
+        driven_m = candidate.driven_m + length_m + _cost_m(candidate.target)
+        candidate.estimate_m, candidate.driven_m = driven_m + self._left_m(candidate.target), driven_m
+        candidate.pieces = pieces
+        heapq.heappush(self._waiting, candidate)
+
+    def _left_m(self, place: "_Place") -> float:
+        return min(_apart_m(self._poses[place], portal.pose) for portal in self._portals.values())
+
+
+def _apart_m(one: Pose, other: Pose) -> float:
+    return math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
+
+
+def _cost_m(place: "_Place") -> float:
+    return _ASIDE_COST_M if isinstance(place, Spot) and place.aside_m else 0.0
+
+
+def _middle(car: DesignCar, pose: Pose) -> Point:
+    """(x, z) of the middle of a car's footprint."""
+    ahead = car.length_m / 2 - car.rear_overhang_m
+    return pose.x_m - math.sin(pose.yaw_rad) * ahead, pose.z_m - math.cos(pose.yaw_rad) * ahead

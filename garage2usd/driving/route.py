@@ -1,0 +1,162 @@
+"""Whole routes: from before an entrance into a stall, and from the stall to behind an exit."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.garage import DrivenStall, Nose, StallProof, absent_cars, prove_garage
+from garage2usd.driving.lane_poses import DirectedEdge, SquareUse, families
+from garage2usd.driving.manoeuvre import Manoeuvre
+from garage2usd.driving.obstacles import Obstacles
+from garage2usd.driving.path import Path
+from garage2usd.driving.proof import Limits, find_way
+from garage2usd.driving.road import DrivenRoad, Portal
+from garage2usd.driving.roadmap import Roadmap
+from garage2usd.driving.turns import Steering
+
+__all__ = ["Route", "Router"]
+
+_FURTHER = {"gear_changes": 6, "reach_m": 20.0}
+"""Limits of a way between lane and stall where the usual ones leave no room to turn onto the next lane."""
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """From before an entrance into a stall, and out of it to behind an exit.
+
+    Attributes
+    ----------
+    stall
+        Name of the stall.
+    nose
+        How the car stands in it.
+    entrance, exit
+        Where it comes from, and where it leaves.
+    arrival, departure
+        The paths; the second begins where the first ends.
+    is_full
+        Whether they are clear with a car in every other stall.
+    """
+
+    stall: str
+    nose: Nose
+    entrance: Portal
+    exit: Portal
+    arrival: Path
+    departure: Path
+    is_full: bool
+
+
+class Router:
+    """What the routes of one garage share.
+
+    Parameters
+    ----------
+    road
+        The garage.
+    steerings
+        How the car may turn on lanes, the most comfortable way first.
+    car, limits
+        The car, and what is asked of its driver.
+    """
+
+    def __init__(
+        self,
+        road: DrivenRoad,
+        steerings: Sequence[Steering],
+        *,
+        car: DesignCar | None = None,
+        limits: Limits | None = None,
+    ) -> None:
+        self._road, self._steerings = road, tuple(steerings)
+        self._car, self._limits = car or DesignCar(), limits or Limits()
+        self._roadmap = lru_cache(maxsize=2)(self._mapped)
+
+    def portals(self, use: SquareUse) -> tuple[Portal, ...]:
+        """The entrances or the exits, in reading order."""
+        return tuple(portal for portal in self._road.portals if portal.use is use)
+
+    def route(
+        self,
+        stall: DrivenStall,
+        *,
+        proof: StallProof | None = None,
+        entrances: Iterable[Portal] | None = None,
+        exits: Iterable[Portal] | None = None,
+    ) -> Route | StallProof:
+        """The shortest route found into a stall and out of it, or the proof that there are no ways or what they lack.
+
+        Parameters
+        ----------
+        stall
+            A stall of the garage.
+        proof
+            Its proof, where it is known.
+        entrances, exits
+            Those that may be used; left out, all.
+        """
+        if proof is None:
+            (proof,) = prove_garage(self._road.garage, [stall], car=self._car, limits=self._limits)
+        if proof.nose is None or proof.way_in is None or proof.way_out is None:
+            return proof
+        entrances = self.portals(SquareUse.ENTRANCE) if entrances is None else tuple(entrances)
+        exits = self.portals(SquareUse.EXIT) if exits is None else tuple(exits)
+        parked = proof.way_out.start
+        arrival = self._led(stall, proof.is_full, parked, proof.way_in, entrances, is_back=True)
+        departure = self._led(stall, proof.is_full, parked, proof.way_out, exits, is_back=False)
+        if arrival is None or departure is None:
+            return replace(proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None)
+        return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
+
+    def _led(
+        self,
+        stall: DrivenStall,
+        is_full: bool,  # noqa: FBT001
+        parked: Pose,
+        proven: Manoeuvre,
+        portals: Sequence[Portal],
+        *,
+        is_back: bool,
+    ) -> tuple[Path, Portal] | None:
+        """The proven way led on to a portal, or back to one; else another way from the same parked pose."""
+        roadmap = self._roadmap(is_full)
+        for way in self._ways(stall, is_full, parked, proven, is_back=is_back):
+            parking = Path.of_way(way)
+            if is_back:
+                found = roadmap.arrival(parking.start, portals)
+                if found is not None:
+                    return found[0].then(parking.pieces), found[1]
+            else:
+                found = roadmap.onward(parking.end, portals)
+                if found is not None:
+                    return parking.then(found[0].pieces), found[1]
+        return None
+
+    def _ways(
+        self,
+        stall: DrivenStall,
+        is_full: bool,  # noqa: FBT001
+        parked: Pose,
+        proven: Manoeuvre,
+        *,
+        is_back: bool,
+    ) -> Iterable[Manoeuvre]:
+        """The proven way, and ways between the stall and places on lanes that leave room to turn."""
+        yield proven
+        directions = self._road.garage.directions
+        used = directions.arriving if is_back else directions.leaving
+        standing = self._standing(is_full).without(stall.unseen)
+        for limits in (self._limits, replace(self._limits, **_FURTHER)):
+            edges: list[DirectedEdge] = [edge for edge in directions.near(stall.access) if edge in used]
+            for family in families(self._roadmap(is_full).roomy_poses(edges, is_back=is_back)):
+                way = find_way(self._car, parked, standing, family, limits).way
+                if way is not None:
+                    yield way.reversed() if is_back else way
+
+    def _standing(self, is_full: bool) -> Obstacles:  # noqa: FBT001
+        standing = self._road.standing
+        return standing.joined(absent_cars(self._road.garage.stalls, self._car)) if is_full else standing
+
+    def _mapped(self, is_full: bool) -> Roadmap:  # noqa: FBT001
+        return Roadmap(self._road, self._standing(is_full), self._car, self._steerings, self._limits.margin_m)
