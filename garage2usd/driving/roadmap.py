@@ -23,14 +23,14 @@ __all__ = ["Roadmap"]
 _MOST_EDGES = 4
 """Of a piece of road that is driven in two turns."""
 _SAME_WAY = 0.999
-_ASIDE = (0.0, 1.0, -1.0)
-"""Places across a lane that are tried, as shares of the room beside a car."""
 _ROOM_KEPT_M = 0.2
 _MOST_ASIDE_M = 1.2
 _ASIDE_COST_M = 2.0
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
 """Width of where a car may stand to turn."""
+_DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
+"""Within the door, and how far apart."""
 _DIGITS = 4
 
 
@@ -43,14 +43,33 @@ class Spot(NamedTuple):
         Its number.
     along
         Direction of driving, a unit vector (x, z).
-    aside_m
-        How far it lies to the right of the middle.
+    aside_m, ahead_m
+        How far it lies to the right of the middle, and beyond it.
     """
 
     square: int
     along: Point
     aside_m: float = 0.0
+    ahead_m: float = 0.0
 
+
+@dataclass(frozen=True, slots=True)
+class _Grain:
+    """How finely places are spread.
+
+    Attributes
+    ----------
+    asides
+        Places across a lane, as shares of the room beside a car.
+    is_fine
+        Whether there are some between the middles of squares too.
+    """
+
+    asides: tuple[float, ...]
+    is_fine: bool
+
+
+_GRAINS = (_Grain((0.0,), is_fine=False), _Grain((0.0, 1.0, -1.0), is_fine=True))
 
 _Place = Spot | int | None
 """A spot, a portal by its square, or the pose at which a search begins."""
@@ -94,8 +113,8 @@ class Roadmap:
         self, pose: Pose, edges: Sequence[DirectedEdge], portals: Iterable[Portal], *, is_back: bool
     ) -> tuple[Path, Portal] | None:
         portals = tuple(portals)
-        for asides in (_ASIDE[:1], _ASIDE):
-            found = _Growth(self, pose, portals, asides, is_back=is_back).grown(edges)
+        for grain in _GRAINS:
+            found = _Growth(self, pose, portals, grain, is_back=is_back).grown(edges)
             if found is not None:
                 return found
         return None
@@ -185,21 +204,35 @@ class Roadmap:
         """Whether a walk turns nowhere."""
         return len({self._along[edge][0] for edge in walk}) == 1
 
-    def spots(self, edge: DirectedEdge, asides: Sequence[float], *, is_back: bool) -> list[tuple[Spot, Pose]]:
-        """The places at the end of an edge, or at its start where it is walked back."""
-        room = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
-        square, along = edge[0 if is_back else 1], self._along[edge][0]
-        x, z = self._directions.squares[square].middle_m
-        yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
-        found = []
-        for share in asides:
-            aside = round(share * max(room, 0.0), _DIGITS)
-            found.append((Spot(square, along, aside), Pose(x + aside * along[1], z - aside * along[0], yaw)))
-        return found
+    def spots(self, edge: DirectedEdge, grain: "_Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
+        """The places on an edge and at its end, or at its start where it is walked back."""
+        room_m = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
+        along, length_m = self._along[edge]
+        for share in grain.asides:
+            aside_m = round(share * max(room_m, 0.0), _DIGITS)
+            yield self._placed(Spot(edge[0 if is_back else 1], along, aside_m))
+            if grain.is_fine:
+                yield self._placed(Spot(edge[0], along, aside_m, round(length_m / 2, _DIGITS)))
 
-    def edges_from(self, spot: "Spot", *, is_back: bool) -> list[DirectedEdge]:
-        """The edges that a place lies at the start of, in line with it, or at the end of where they are walked back."""
-        at = 1 if is_back else 0
+    def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
+        """Places between the middle of a portal's square and where cars stand outside, in line with that."""
+        x, z = self._directions.squares[portal.square].middle_m
+        along = -math.sin(portal.pose.yaw_rad), -math.cos(portal.pose.yaw_rad)
+        length_m = (portal.pose.x_m - x) * along[0] + (portal.pose.z_m - z) * along[1]
+        for ahead_m in np.arange(0.0, min(abs(length_m), _DOOR_SPOTS_M), _DOOR_SPOT_M).tolist():
+            yield self._placed(Spot(portal.square, along, 0.0, math.copysign(ahead_m, length_m)))
+
+    def _placed(self, spot: Spot) -> tuple[Spot, Pose]:
+        x, z = self._directions.squares[spot.square].middle_m
+        (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
+        yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
+        return spot, Pose(
+            x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw
+        )
+
+    def edges_from(self, spot: Spot, *, is_back: bool) -> list[DirectedEdge]:
+        """The edges that a place lies at the start of, or on; those that it lies at the end of where they are walked back."""
+        at = 1 if is_back and not spot.ahead_m else 0
         return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
 
     def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
@@ -246,9 +279,9 @@ class _Growth:
     """An A* from a pose at a stall to a portal, or back to one; a piece of road is looked at when its turn comes."""
 
     def __init__(
-        self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], asides: Sequence[float], *, is_back: bool
+        self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], grain: _Grain, *, is_back: bool
     ) -> None:
-        self._roadmap, self._asides, self._is_back = roadmap, asides, is_back
+        self._roadmap, self._grain, self._is_back = roadmap, grain, is_back
         self._portals = {portal.square: portal for portal in portals}
         self._poses: dict[_Place, Pose] = {None: root, **{portal.square: portal.pose for portal in portals}}
         self._done: dict[_Place, tuple[Piece, ...]] = {}
@@ -283,13 +316,15 @@ class _Growth:
     def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
         for first in edges:
             for walk in self._roadmap.walks(first, is_back=self._is_back):
+                places = list(self._roadmap.spots(walk[-1], self._grain, is_back=self._is_back))
                 portal = walk[-1][0 if self._is_back else 1]
                 if portal in self._portals:
                     self._offer(portal, origin, driven_m)
+                    places += self._roadmap.door_spots(self._portals[portal])
                 # a long straight between spots is put together of short ones
                 if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
                     continue
-                for spot, pose in self._roadmap.spots(walk[-1], self._asides, is_back=self._is_back):
+                for spot, pose in places:
                     self._poses.setdefault(spot, pose)
                     self._offer(spot, origin, driven_m)
 
