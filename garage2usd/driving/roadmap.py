@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import count
+from itertools import count, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +25,8 @@ _MOST_EDGES = 4
 _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
 _MOST_ASIDE_M = 1.2
-_ASIDE_COST_M = 2.0
+_ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
+"""What a place beside the middle costs, and each further edge between two places, so that paths keep to the middle lines."""
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
 """Width of where a car may stand to turn."""
@@ -235,6 +236,10 @@ class Roadmap:
         at = 1 if is_back and not spot.ahead_m else 0
         return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
 
+    def middle_m(self, square: int) -> Point:
+        """(x, z) of the middle of a square."""
+        return self._directions.squares[square].middle_m
+
     def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
         """A clear path from pose to pose in at most two turns."""
         key = (start, end)
@@ -262,9 +267,7 @@ class _Candidate:
     target, origin
         Where it leads, and from where.
     driven_m
-        Way until its origin, or until its target once it is known.
-    pieces
-        None until its turn comes.
+        Way until its target.
     """
 
     estimate_m: float
@@ -272,7 +275,6 @@ class _Candidate:
     target: "_Place" = field(compare=False)
     origin: "_Place" = field(compare=False)
     driven_m: float = field(compare=False)
-    pieces: tuple[Piece, ...] | None = field(compare=False, default=None)
 
 
 class _Growth:
@@ -294,14 +296,10 @@ class _Growth:
         self._grow_from(None, edges, 0.0)
         while self._waiting:
             candidate = heapq.heappop(self._waiting)
-            target, origin = candidate.target, candidate.origin
-            if target in self._done:
+            target = candidate.target
+            pieces = None if target in self._done else self._pieces(candidate)
+            if pieces is None:
                 continue
-            if candidate.pieces is None:
-                self._look_at(candidate)
-                continue
-            there = self._done[origin]
-            pieces = (*candidate.pieces, *there) if self._is_back else (*there, *candidate.pieces)
             self._done[target] = pieces
             if isinstance(target, int):
                 portal = self._portals[target]
@@ -313,38 +311,49 @@ class _Growth:
                 self._grow_from(target, edges, candidate.driven_m)
         return None
 
+    def _pieces(self, candidate: _Candidate) -> tuple[Piece, ...] | None:
+        """What is driven between the root and a target; None if the last of it is not clear."""
+        there = self._done[candidate.origin]
+        ends = self._poses[candidate.origin], self._poses[candidate.target]
+        pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
+        if pieces is None:
+            return None
+        return (*pieces, *there) if self._is_back else (*there, *pieces)
+
     def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
+        usual = 2 if origin is None else 1
         for first in edges:
             for walk in self._roadmap.walks(first, is_back=self._is_back):
+                over_m = driven_m + _EDGE_COST_M * max(len(walk) - usual, 0)
                 places = list(self._roadmap.spots(walk[-1], self._grain, is_back=self._is_back))
                 portal = walk[-1][0 if self._is_back else 1]
                 if portal in self._portals:
-                    self._offer(portal, origin, driven_m)
+                    # rather straight through the door, by a place in line with it
+                    self._offer(portal, origin, over_m + _EDGE_COST_M, walk[:-1])
                     places += self._roadmap.door_spots(self._portals[portal])
                 # a long straight between spots is put together of short ones
                 if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
                     continue
                 for spot, pose in places:
                     self._poses.setdefault(spot, pose)
-                    self._offer(spot, origin, driven_m)
+                    self._offer(spot, origin, over_m, walk[:-1])
 
-    def _offer(self, target: "_Place", origin: "_Place", driven_m: float) -> None:
+    def _offer(
+        self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()
+    ) -> None:
+        """Wait for a target, over edges all of which are driven whole."""
         if target in self._done:
             return
-        least_m = _apart_m(self._poses[origin], self._poses[target]) + _cost_m(target)
-        estimate_m = driven_m + least_m + self._left_m(target)
+        driven_m += max(_apart_m(self._poses[origin], self._poses[target]), self._over_m(origin, target, over))
+        driven_m += _ASIDE_COST_M if isinstance(target, Spot) and target.aside_m else 0.0
+        estimate_m = driven_m + self._left_m(target)
         heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
 
-    def _look_at(self, candidate: _Candidate) -> None:
-        ends = self._poses[candidate.origin], self._poses[candidate.target]
-        pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
-        if pieces is None:
-            return
-        length_m = sum(piece.length_m for piece in pieces)
-        driven_m = candidate.driven_m + length_m + _cost_m(candidate.target)
-        candidate.estimate_m, candidate.driven_m = driven_m + self._left_m(candidate.target), driven_m
-        candidate.pieces = pieces
-        heapq.heappush(self._waiting, candidate)
+    def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[DirectedEdge]) -> float:
+        """Way along the middle lines, from turn to turn."""
+        turns = [self._roadmap.middle_m(edge[0 if self._is_back else 1]) for edge in over]
+        ends = [(pose.x_m, pose.z_m) for pose in (self._poses[origin], self._poses[target])]
+        return sum(math.dist(one, other) for one, other in pairwise([ends[0], *turns, ends[1]]))
 
     def _left_m(self, place: "_Place") -> float:
         return min(_apart_m(self._poses[place], portal.pose) for portal in self._portals.values())
@@ -352,10 +361,6 @@ class _Growth:
 
 def _apart_m(one: Pose, other: Pose) -> float:
     return math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
-
-
-def _cost_m(place: "_Place") -> float:
-    return _ASIDE_COST_M if isinstance(place, Spot) and place.aside_m else 0.0
 
 
 def _middle(car: DesignCar, pose: Pose) -> Point:

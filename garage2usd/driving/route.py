@@ -149,8 +149,9 @@ class Router:
         standing = self._standing(is_full).without(stall.unseen)
         for limits in (self._limits, replace(self._limits, **_FURTHER)):
             edges: list[DirectedEdge] = [edge for edge in directions.near(stall.access) if edge in used]
-            for family in families(self._roadmap(is_full).roomy_poses(edges, is_back=is_back)):
-                way = find_way(self._car, parked, standing, family, limits).way
+            poses = self._roadmap(is_full).roomy_poses(edges, is_back=is_back)
+            for lanes in (*families(poses), *([pose] for pose in poses)):
+                way = find_way(self._car, parked, standing, lanes, limits).way
                 if way is not None:
                     yield way.reversed() if is_back else way
 
