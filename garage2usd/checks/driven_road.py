@@ -52,9 +52,7 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
     ramps = {thing.name: _floor(thing) for thing in subject.things if thing.label == _RAMP}
     floors = tuple(floor for floor in ramps.values() if floor is not None)
     opened = [thing.name for thing in subject.things if thing.label in {_GATE, _RAMP}]
-    gates = (
-        (solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M
-    )
+    gates = ((solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
     sides = (
         (thing.name, shapely.MultiLineString(list(_sides(thing, floors, height_m))))
         for thing in subject.things
@@ -80,9 +78,7 @@ def _portals(subject: Subject, ramps: Sequence[RampFloor], car: DesignCar) -> It
             top = ramp.top_m
             end_m = (top[0] - x) * outwards[0] + (top[1] - z) * outwards[1] - _FROM_END_M
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
-        pose = Pose(
-            x + axle_m * outwards[0], z + axle_m * outwards[1], yaw if is_entrance else _about(yaw)
-        )
+        pose = Pose(x + axle_m * outwards[0], z + axle_m * outwards[1], yaw if is_entrance else _about(yaw))
         yield Portal(number, node.name, SquareUse.ENTRANCE if is_entrance else SquareUse.EXIT, pose)
 
 
@@ -107,7 +103,9 @@ def _outwards(subject: Subject, number: int) -> tuple[Point, float]:
 def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
     """How far away a door in the outer wall around a portal is, and in which direction; None if it is elsewhere."""
     dx, dz = door[0] - node.position[0], door[1] - node.position[1]
-    along, aside, half = (abs(dx), abs(dz), node.widths_m[0]) if abs(dx) > abs(dz) else (abs(dz), abs(dx), node.widths_m[1])
+    along, aside, half = (
+        (abs(dx), abs(dz), node.widths_m[0]) if abs(dx) > abs(dz) else (abs(dz), abs(dx), node.widths_m[1])
+    )
     if aside > _DOOR_REACH_M or along > half / 2 + _DOOR_REACH_M:
         return None
     return along, ((math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz)))
@@ -159,10 +157,15 @@ def _floor(thing: Thing) -> RampFloor | None:
     middle = None
     for _, corners in sloping:
         flat = corners[:, [0, 2]]
-        is_floor = np.ptp(flat @ across) > 0.9 * wide_m and np.ptp(flat @ uphill) > _LEAST_FLAT_M  # noqa: PLR2004
+        is_floor = np.ptp(flat @ across) > 0.9 * wide_m and np.ptp(flat @ uphill) > _LEAST_FLAT_M
         if is_floor:
             middle = float((flat @ across).min() + (flat @ across).max()) / 2
-            profile.update({round(run, _DIGITS): height for run, height in zip((flat @ uphill).tolist(), corners[:, 1].tolist(), strict=True)})
+            profile.update(
+                {
+                    round(run, _DIGITS): height
+                    for run, height in zip((flat @ uphill).tolist(), corners[:, 1].tolist(), strict=True)
+                }
+            )
     if middle is None:
         return None
     runs = np.array(sorted(profile))

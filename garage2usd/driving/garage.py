@@ -107,7 +107,7 @@ class DrivenStall:
 
     @property
     def unseen(self) -> tuple[str, ...]:
-        """Names of what is not in the way of a car that parks there, the car included that is thought to stand there."""
+        """What is not in the way of a car that parks there: its own, and the car that is thought to stand there."""
         return self.own if self.absent is None else (*self.own, self.absent)
 
 

@@ -6,16 +6,18 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import roots_legendre
 
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.search import least_clearance
 
-__all__ = ["Path", "PathPoints", "Piece"]
+__all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
-_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+GAUSS, WEIGHTS = roots_legendre(12)
+"""Places from -1 to 1, and weights, of a quadrature that is exact but for rounding on the pieces of paths."""
 _STEP_M = 0.1
 """Between the poses at which a path's clearance is looked at."""
 
@@ -120,9 +122,7 @@ class Path:
         number = np.clip(np.searchsorted(self._ends, arc, side="right") - 1, 0, max(len(self.pieces) - 1, 0))
         if not self.pieces:
             still = np.zeros_like(arc)
-            return PathPoints(
-                self.start.x_m + still, self.start.z_m + still, self.start.yaw_rad + still, still
-            )
+            return PathPoints(self.start.x_m + still, self.start.z_m + still, self.start.yaw_rad + still, still)
         into = np.clip(arc - self._ends[number], 0.0, self._table[number, 0])
         return self._within(number, into)
 
@@ -158,7 +158,7 @@ class Path:
 
     def _within(self, number: NDArray[np.int64], into: Floats) -> PathPoints:
         _, signs, curvatures, rates = self._table[number].T
-        places, yaws = (of_all[number] for of_all in self._starts)
+        places, yaws = self._starts[0][number], self._starts[1][number]
         place = places + _moved(into, signs, curvatures, rates, yaws)
         yaw = yaws + signs * into * (curvatures + rates * into / 2)
         return PathPoints(place.real, -place.imag, yaw, curvatures + rates * into)
@@ -189,7 +189,7 @@ class Path:
 
 def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:
     """How far pieces lead (x - iz) within some of their lengths, by Gauss's quadrature of the heading."""
-    at = into[:, None] / 2 * (1 + _GAUSS)
+    at = into[:, None] / 2 * (1 + GAUSS)
     heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
-    moved: NDArray[np.complex128] = signs * into / 2 * (np.exp(1j * heading) @ _WEIGHTS)
+    moved: NDArray[np.complex128] = signs * into / 2 * (np.exp(1j * heading) @ WEIGHTS)
     return moved

@@ -1,4 +1,4 @@
-"""The road of a garage: where cars stand before its portals, what is in their way on lanes and ramps, and its heights."""
+"""The road of a garage: where cars stand before its portals, what is in their way, and the heights of its floor."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

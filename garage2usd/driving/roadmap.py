@@ -1,4 +1,4 @@
-"""Smooth paths over lanes and ramps: a search over the middles of squares for those that a car drives without a touch."""
+"""Smooth paths over lanes and ramps: a search over the middles of squares for those that a car drives clear of all."""
 
 import heapq
 import math
@@ -26,7 +26,7 @@ _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
 _MOST_ASIDE_M = 1.2
 _ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
-"""What a place beside the middle costs, and each further edge between two places, so that paths keep to the middle lines."""
+"""What a place beside the middle costs, and each further edge between two, so that paths keep to the middle lines."""
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
 """Width of where a car may stand to turn."""
@@ -106,7 +106,7 @@ class Roadmap:
         return self._found(start, edges, exits, is_back=False)
 
     def arrival(self, end: Pose, entrances: Iterable[Portal]) -> tuple[Path, Portal] | None:
-        """The shortest path found to a pose in line with a lane from where a car stands before one of some entrances."""
+        """The shortest path found to a pose in line with a lane from where a car stands before one of some."""
         edges = self.edges_at(end, self._directions.arriving)
         return self._found(end, edges, entrances, is_back=True)
 
@@ -125,7 +125,7 @@ class Roadmap:
         x, z = _middle(self._car, pose)
         found = []
         for edge in edges:
-            one, other = (self._directions.squares[number].middle_m for number in edge)
+            one = self._directions.squares[edge[0]].middle_m
             along, length = self._along[edge]
             run = (x - one[0]) * along[0] + (z - one[1]) * along[1]
             aside = abs((x - one[0]) * along[1] - (z - one[1]) * along[0])
@@ -227,12 +227,10 @@ class Roadmap:
         x, z = self._directions.squares[spot.square].middle_m
         (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
         yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
-        return spot, Pose(
-            x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw
-        )
+        return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
 
     def edges_from(self, spot: Spot, *, is_back: bool) -> list[DirectedEdge]:
-        """The edges that a place lies at the start of, or on; those that it lies at the end of where they are walked back."""
+        """The edges in line with a place that lead on from it, or to it where they are walked back."""
         at = 1 if is_back and not spot.ahead_m else 0
         return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
 
@@ -338,9 +336,7 @@ class _Growth:
                     self._poses.setdefault(spot, pose)
                     self._offer(spot, origin, over_m, walk[:-1])
 
-    def _offer(
-        self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()
-    ) -> None:
+    def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()) -> None:
         """Wait for a target, over edges all of which are driven whole."""
         if target in self._done:
             return

@@ -17,8 +17,8 @@ from garage2usd.driving.turns import Steering
 
 __all__ = ["Route", "Router"]
 
-_FURTHER = {"gear_changes": 6, "reach_m": 20.0}
-"""Limits of a way between lane and stall where the usual ones leave no room to turn onto the next lane."""
+_MORE_CHANGES, _FURTHER_M = 6, 20.0
+"""Gear changes and reach of a way between lane and stall where the usual ones leave no room to turn on the lanes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +106,9 @@ class Router:
         arrival = self._led(stall, proof.is_full, parked, proof.way_in, entrances, is_back=True)
         departure = self._led(stall, proof.is_full, parked, proof.way_out, exits, is_back=False)
         if arrival is None or departure is None:
-            return replace(proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None)
+            return replace(
+                proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None
+            )
         return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
 
     def _led(
@@ -147,7 +149,7 @@ class Router:
         directions = self._road.garage.directions
         used = directions.arriving if is_back else directions.leaving
         standing = self._standing(is_full).without(stall.unseen)
-        for limits in (self._limits, replace(self._limits, **_FURTHER)):
+        for limits in (self._limits, replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)):
             edges: list[DirectedEdge] = [edge for edge in directions.near(stall.access) if edge in used]
             poses = self._roadmap(is_full).roomy_poses(edges, is_back=is_back)
             for lanes in (*families(poses), *([pose] for pose in poses)):

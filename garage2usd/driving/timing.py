@@ -1,4 +1,4 @@
-"""When a car is where on a path: as fast as the settings allow, at a standstill where the steering or the gear jumps."""
+"""When a car is where on a path: as fast as the settings allow, standing where the steering or the gear jumps."""
 
 import math
 from collections.abc import Sequence
@@ -86,7 +86,8 @@ class Motion:
         """When the car starts or stops, or has turned its wheels at a standstill; ascending, without repetitions."""
         stops = [start + run.seconds for start, run in zip(self.starts_s, self.runs, strict=True)]
         steered = [stop + self._steering_s(number) for number, stop in enumerate(stops[:-1])]
-        return np.unique(np.round([0.0, *self.starts_s, *stops, *steered, self.ends_s], 9))
+        events: Floats = np.unique(np.round([0.0, *self.starts_s, *stops, *steered, self.ends_s], 9))
+        return events
 
     def sampled(self, step_s: float) -> Trajectory:
         """At a fixed step, and at all events; steps that nearly coincide with an event are left out.
@@ -140,7 +141,7 @@ class Motion:
             )
             for ahead in (0.0, self.car.wheelbase_m)
         )
-        sign = run.path.pieces[0].gear.sign
+        sign = float(run.path.pieces[0].gear.sign)
         return (
             times,
             points.x_m,
@@ -152,7 +153,7 @@ class Motion:
             sign * pace,
             np.tan(steering) / self.car.wheelbase_m,
             steering,
-            np.full(len(times), float(sign)),
+            np.full(len(times), sign),
             driven_m + way,
         )
 
@@ -189,10 +190,10 @@ def timed(
 
     Notes
     -----
-    Where the curvature of two pieces differs, the car stands while its wheels turn; where the gear does, at least as long
-    as shifting takes. In between it is as fast as its limits allow: node by node the speed is the least of those of lane
-    or parking, of the acceleration across the path, and of the steering; then the acceleration is limited forwards and
-    backwards along the way.
+    Where the curvature of two pieces differs, the car stands while its wheels turn; where the gear does, at least as
+    long as shifting takes. In between it is as fast as its limits allow: node by node the speed is the least of those
+    of lane or parking, of the acceleration across the path, and of the steering; then the acceleration is limited
+    forwards and backwards along the way.
     """
     car = car or DesignCar()
     groups, pauses = _groups(path, settings, parked_after)

@@ -14,11 +14,10 @@ from scipy.optimize import brentq
 
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
-from garage2usd.driving.path import Floats, Piece
+from garage2usd.driving.path import GAUSS, WEIGHTS, Floats, Piece
 
 __all__ = ["Steering", "joining_pieces"]
 
-_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _MOST_RAD = 2.4
 """Most that a car turns on one of the two turns."""
 _SCAN_RAD = math.radians(2.0)
@@ -62,8 +61,8 @@ class Steering:
         size = np.abs(deflections_rad)
         peak, arc_m = self._shape(size)
         easing_m = peak / self.sharpness_per_m2
-        way = easing_m[:, None] / 2 * (1 + _GAUSS)
-        easing = easing_m / 2 * (np.exp(0.5j * self.sharpness_per_m2 * way**2) @ _WEIGHTS)
+        way = easing_m[:, None] / 2 * (1 + GAUSS)
+        easing = easing_m / 2 * (np.exp(0.5j * self.sharpness_per_m2 * way**2) @ WEIGHTS)
         eased = peak * easing_m / 2
         # twice the projection of the first half onto the chord
         half_turn = peak * arc_m / 2

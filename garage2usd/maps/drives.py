@@ -86,10 +86,9 @@ class DrivePlanner:
         self.road = driven_road(subject, car=self._car)
         curvature, wheelbase_m = 1 / self._car.rear_axle_radius_m, self._car.wheelbase_m
         # as fast as on a lane, or so slowly that the wheels turn on less way
-        speeds = sorted({self._settings.lane_speed_m_s, min(self._settings.parking_speed_m_s, self._settings.lane_speed_m_s)})
-        steerings = [
-            Steering(curvature, self._settings.steering_rate_rad_s / (wheelbase_m * speed)) for speed in reversed(speeds)
-        ]
+        rate, fast_m_s = self._settings.steering_rate_rad_s, self._settings.lane_speed_m_s
+        speeds_m_s = (fast_m_s, min(fast_m_s, self._settings.parking_speed_m_s))
+        steerings = [Steering(curvature, rate / (wheelbase_m * speed)) for speed in speeds_m_s]
         self._router = Router(self.road, steerings, car=self._car)
         self._outlines = {stall.name: stall for stall in subject.parking_stalls}
         self._others = {stall.name for stall in subject.stalls} - set(self._outlines)
@@ -162,8 +161,9 @@ def _lack(proof: StallProof) -> str:
     """What a stall must be to be driven to, with what is in the way of this one."""
     if proof.touched:
         named = ", ".join(proof.touched[:_NAMED])
-        return f"a stall that the design car gets into and out of; {'in the way' if proof.is_single_cause else 'touched'}: {named}"
+        how = "in the way" if proof.is_single_cause else "touched"
+        return f"a stall that the design car gets into and out of; {how}: {named}"
     if proof.nose is None:
         return "a stall beside a lane that is driven to from an entrance and on to an exit without turning round"
     ways = [name for name, way in (("from the entrance", proof.way_in), ("to the exit", proof.way_out)) if way is None]
-    return f"a stall with a smooth path {' and '.join(ways)}; the car gets into it and out of it, but none was found over the lanes"
+    return f"a stall with a path over the lanes {' and '.join(ways)}, on which none was found that is smooth and clear"

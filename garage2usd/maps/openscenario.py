@@ -119,18 +119,16 @@ def _design_car(car: DesignCar, settings: DriveConfig) -> "xosc.Vehicle":
     front = xosc.Axle(_number(lock_rad), _WHEEL_M, car.track_m, car.wheelbase_m, _WHEEL_M / 2)
     rear = xosc.Axle(0.0, _WHEEL_M, car.track_m, 0.0, _WHEEL_M / 2)
     most = settings.acceleration_m_s2
-    return xosc.Vehicle(
-        "design_car", xosc.VehicleCategory.car, box, front, rear, settings.lane_speed_m_s, most, most
-    )
+    return xosc.Vehicle("design_car", xosc.VehicleCategory.car, box, front, rear, settings.lane_speed_m_s, most, most)
 
 
 def _standing_car(parked: ParkedCar) -> "xosc.Vehicle":
-    box = xosc.BoundingBox(
-        _number(parked.width_m), _number(parked.length_m), _number(parked.height_m), 0.0, 0.0, _number(parked.height_m / 2)
-    )
-    wheelbase_m = _number(0.58 * parked.length_m)
-    front = xosc.Axle(0.5, _WHEEL_M, _number(0.85 * parked.width_m), wheelbase_m / 2, _WHEEL_M / 2)
-    rear = xosc.Axle(0.0, _WHEEL_M, _number(0.85 * parked.width_m), -wheelbase_m / 2, _WHEEL_M / 2)
+    width, length, height = (_number(value) for value in (parked.width_m, parked.length_m, parked.height_m))
+    box = xosc.BoundingBox(width, length, height, 0.0, 0.0, _number(height / 2))
+    # a scenario asks for axles, which the box of a car does not tell
+    wheelbase_m, track_m = _number(0.58 * length), _number(0.85 * width)
+    front = xosc.Axle(0.5, _WHEEL_M, track_m, wheelbase_m / 2, _WHEEL_M / 2)
+    rear = xosc.Axle(0.0, _WHEEL_M, track_m, -wheelbase_m / 2, _WHEEL_M / 2)
     return xosc.Vehicle(parked.name, xosc.VehicleCategory.car, box, front, rear, 50.0, 5.0, 8.0)
 
 

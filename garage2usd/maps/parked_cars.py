@@ -51,11 +51,11 @@ def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedC
     -----
     A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on.
     """
-    cars = []
+    cars: list[ParkedCar] = []
     for thing in subject.things:
         if thing.label != _CAR or not thing.bodies:
             continue
-        ground, home = subject.cars[thing.name]
+        _, home = subject.cars.get(thing.name, (None, None))
         if home is not None and home.name in free:
             continue
         back = thing.bodies[0].matrix[2, [0, 2]]
