@@ -5,9 +5,9 @@ import math
 import numpy as np
 import shapely
 from shapely import affinity
-from support.driving_simulation import LOCK_RAD, WHEELBASE_M, World, outlines
 
 from garage2usd.stage.prototypes import asset_of
+from support.driving_simulation import LOCK_RAD, WHEELBASE_M, World, outlines
 
 FOOT_M = 0.5
 MOVED_M = 0.02
@@ -67,7 +67,8 @@ def faults(rows, settings):
     way, plan = np.linalg.norm(steps, axis=1), np.hypot(steps[:, 0], steps[:, 2])
     gear = rows["gear"][:-1]
 
-    most("jump of pose", way - np.diff(rows["arc_m"]), 1e-4)
+    # over the break of a ramp, by 7.5 %, the chord is shorter than the way
+    most("jump of pose", way - np.diff(rows["arc_m"]), 3e-4)
     most("speed", speed, settings["lane_speed_m_s"] + 1e-6)
     most("speed of the places", way / seconds, settings["lane_speed_m_s"] + 5e-3)
     most("acceleration", np.diff(speed) / seconds, settings["acceleration_m_s2"] + 1e-3)
@@ -94,7 +95,11 @@ def faults(rows, settings):
     across = _means(np.abs(speed))[moves] ** 2 * curvature
     most("acceleration across the path", across, settings["lateral_acceleration_m_s2"] + 0.02)
 
-    most("steering that is not the curvature's", np.tan(rows["steering_rad"]) / WHEELBASE_M - rows["curvature_per_m"], 1e-5)
+    most(
+        "steering that is not the curvature's",
+        np.tan(rows["steering_rad"]) / WHEELBASE_M - rows["curvature_per_m"],
+        1e-5,
+    )
     rate = settings["steering_rate_rad_s"]
     most("steering rate that is said", np.diff(rows["steering_rad"]) / seconds, rate + 1e-3)
     both = moves[1:] & moves[:-1] & (gear[1:] == gear[:-1])

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -165,18 +166,21 @@ def test_the_gate_on_the_way_opens_and_its_housing_stays_in_the_way(small, plann
     gates = [thing.name for thing in subject_of(small).things if thing.label == "barrier"]
     assert gates
     as_it_stands, opened = planner.road.garage.standing, planner.road.standing
-    arms = [np.ptp(standing.only(gates[0]).pieces.reshape(-1, 2), axis=0) for standing in (as_it_stands, opened)]
-    assert arms[0].max() > 4.0
-    assert 0 < arms[1].max() < 3.0
+    arms_m, open_m = (
+        max(np.ptp(standing.only(gate).pieces.reshape(-1, 2), axis=0).max() for gate in gates)
+        for standing in (as_it_stands, opened)
+    )
+    assert arms_m > 4.0
+    assert 0 < open_m < 3.0
 
 
 def test_the_car_is_as_high_and_as_steep_as_the_ramp(small, planner, tmp_path):
     rows = rows_of(planner.drive(first_stall(small).name).motion, tmp_path)
-    (spec,) = {ramp.spec for ramp in small.layout.of_kind("ramp")}
-    top = spec.profile[-1][1]
+    (profile,) = {ramp.spec.profile for ramp in small.layout.of_kind("ramp")}
+    top = profile[-1][1]
     assert top - 0.3 < rows["y_m"][0] <= top
     assert rows["pitch_rad"][0] < 0 < rows["pitch_rad"][-1]
-    steepest = max((y1 - y0) / (r1 - r0) for (r0, y0), (r1, y1) in zip(spec.profile, spec.profile[1:], strict=False))
+    steepest = max((y1 - y0) / (r1 - r0) for (r0, y0), (r1, y1) in pairwise(profile))
     assert np.tan(np.abs(rows["pitch_rad"])).max() == pytest.approx(steepest, abs=0.005)
     level = np.abs(rows["y_m"]) < 1e-9
     assert level.mean() > 0.5

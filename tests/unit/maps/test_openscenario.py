@@ -117,10 +117,13 @@ def test_parked_cars_stand_where_the_garage_has_them(garage, drives, scenarios):
         length, width = boxes[name]
         along = np.array([math.cos(heading), math.sin(heading)])
         across = np.array([-along[1], along[0]])
-        corners = [np.array([x, y]) + s * along * length / 2 + t * across * width / 2 for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
+        corners = [
+            np.array([x, y]) + s * along * length / 2 + t * across * width / 2
+            for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+        ]
         found.append((shapely.Polygon(corners), along))
     for car in cars:
-        ground = shapely.MultiPolygon([shapely.Polygon(outline) for outline in car.outlines()])
+        ground = shapely.union_all([shapely.Polygon(outline) for outline in car.outlines()])
         ground = shapely.affinity.scale(ground, 1, -1, origin=(0, 0))
         box, along = max(found, key=lambda pair: pair[0].intersection(ground).area)
         assert ground.difference(box.buffer(0.02)).is_empty
@@ -146,7 +149,12 @@ def test_asam_s_checker_has_no_issue(scenarios, tmp_path, leg):
 @pytest.mark.client
 @pytest.mark.skipif(not CHECKER.exists(), reason="asam-qc-openscenarioxml is not installed beside the judges")
 def test_asam_s_checker_sees_a_scenario_that_is_broken(scenarios, tmp_path):
-    text = scenarios(Leg.IN, "broken.xosc").read_text().replace("<ObjectController", "<Nothing", 1).replace('entityRef="Ego"', 'entityRef="Nobody"')
+    text = (
+        scenarios(Leg.IN, "broken.xosc")
+        .read_text()
+        .replace("<ObjectController", "<Nothing", 1)
+        .replace('entityRef="Ego"', 'entityRef="Nobody"')
+    )
     broken = tmp_path / "broken.xosc"
     broken.write_text(text)
     assert judged(broken, tmp_path)
