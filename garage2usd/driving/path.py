@@ -6,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import roots_legendre
 
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
@@ -16,7 +15,7 @@ from garage2usd.driving.search import least_clearance
 __all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
 Floats = NDArray[np.float64]
-GAUSS, WEIGHTS = roots_legendre(12)
+GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(12)  # type: ignore[no-untyped-call]
 """Places from -1 to 1, and weights, of a quadrature that is exact but for rounding on the pieces of paths."""
 _STEP_M = 0.1
 """Between the poses at which a path's clearance is looked at."""

@@ -1,32 +1,28 @@
-"""Smooth paths over lanes and ramps: a search over the middles of squares for those that a car drives clear of all."""
+"""Places on lanes and ramps that smooth paths lead through, and which of them a car drives between clear of all."""
 
-import heapq
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from itertools import count, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from garage2usd.driving.car import DesignCar, Point, Pose
-from garage2usd.driving.lane_poses import DirectedEdge, SquareUse
+from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, SquareUse
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.proof import LanePose
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.turns import Steering, joining_pieces
 
-__all__ = ["Roadmap"]
+__all__ = ["GRAINS", "Grain", "Roadmap", "Spot"]
 
 _MOST_EDGES = 4
 """Of a piece of road that is driven in two turns."""
 _SAME_WAY = 0.999
 _ROOM_KEPT_M = 0.2
 _MOST_ASIDE_M = 1.2
-_ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
-"""What a place beside the middle costs, and each further edge between two, so that paths keep to the middle lines."""
 _ROOM_TO_TURN_M = 0.1
 _BESIDE_M = 0.8
 """Width of where a car may stand to turn."""
@@ -55,7 +51,7 @@ class Spot(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class _Grain:
+class Grain:
     """How finely places are spread.
 
     Attributes
@@ -70,14 +66,12 @@ class _Grain:
     is_fine: bool
 
 
-_GRAINS = (_Grain((0.0,), is_fine=False), _Grain((0.0, 1.0, -1.0), is_fine=True))
-
-_Place = Spot | int | None
-"""A spot, a portal by its square, or the pose at which a search begins."""
+GRAINS = (Grain((0.0,), is_fine=False), Grain((0.0, 1.0, -1.0), is_fine=True))
+"""The middles of squares alone, and many places more."""
 
 
 class Roadmap:
-    """The smooth paths of a garage's lanes; what was found once is kept.
+    """Places on the lanes of a garage and smooth paths between them; what was found once is kept.
 
     Parameters
     ----------
@@ -100,25 +94,10 @@ class Roadmap:
         self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
         self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
 
-    def onward(self, start: Pose, exits: Iterable[Portal]) -> tuple[Path, Portal] | None:
-        """The shortest path found from a pose in line with a lane to where a car stands after one of some exits."""
-        edges = self.edges_at(start, self._directions.leaving)
-        return self._found(start, edges, exits, is_back=False)
-
-    def arrival(self, end: Pose, entrances: Iterable[Portal]) -> tuple[Path, Portal] | None:
-        """The shortest path found to a pose in line with a lane from where a car stands before one of some."""
-        edges = self.edges_at(end, self._directions.arriving)
-        return self._found(end, edges, entrances, is_back=True)
-
-    def _found(
-        self, pose: Pose, edges: Sequence[DirectedEdge], portals: Iterable[Portal], *, is_back: bool
-    ) -> tuple[Path, Portal] | None:
-        portals = tuple(portals)
-        for grain in _GRAINS:
-            found = _Growth(self, pose, portals, grain, is_back=is_back).grown(edges)
-            if found is not None:
-                return found
-        return None
+    @property
+    def directions(self) -> LaneDirections:
+        """The garage's lanes."""
+        return self._directions
 
     def edges_at(self, pose: Pose, edges: Iterable[DirectedEdge]) -> list[DirectedEdge]:
         """Those of some edges that a car is in line with and on."""
@@ -205,7 +184,7 @@ class Roadmap:
         """Whether a walk turns nowhere."""
         return len({self._along[edge][0] for edge in walk}) == 1
 
-    def spots(self, edge: DirectedEdge, grain: "_Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
+    def spots(self, edge: DirectedEdge, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
         """The places on an edge and at its end, or at its start where it is walked back."""
         room_m = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
         along, length_m = self._along[edge]
@@ -250,113 +229,6 @@ class Roadmap:
             for pieces in joining_pieces(start, end, steering):
                 if Path(start, pieces).clearance_m(self._car, self._standing) >= self._margin_m:
                     yield pieces
-
-
-@dataclass(order=True, slots=True)
-class _Candidate:
-    """A piece of road that may be driven next.
-
-    Attributes
-    ----------
-    estimate_m
-        Way from the root over it to the nearest portal, at least.
-    number
-        Which one it is.
-    target, origin
-        Where it leads, and from where.
-    driven_m
-        Way until its target.
-    """
-
-    estimate_m: float
-    number: int
-    target: "_Place" = field(compare=False)
-    origin: "_Place" = field(compare=False)
-    driven_m: float = field(compare=False)
-
-
-class _Growth:
-    """An A* from a pose at a stall to a portal, or back to one; a piece of road is looked at when its turn comes."""
-
-    def __init__(
-        self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], grain: _Grain, *, is_back: bool
-    ) -> None:
-        self._roadmap, self._grain, self._is_back = roadmap, grain, is_back
-        self._portals = {portal.square: portal for portal in portals}
-        self._poses: dict[_Place, Pose] = {None: root, **{portal.square: portal.pose for portal in portals}}
-        self._done: dict[_Place, tuple[Piece, ...]] = {}
-        self._waiting: list[_Candidate] = []
-        self._numbers = count()
-
-    def grown(self, edges: Iterable[DirectedEdge]) -> tuple[Path, Portal] | None:
-        """The path, and the portal that it begins or ends at."""
-        self._done[None] = ()
-        self._grow_from(None, edges, 0.0)
-        while self._waiting:
-            candidate = heapq.heappop(self._waiting)
-            target = candidate.target
-            pieces = None if target in self._done else self._pieces(candidate)
-            if pieces is None:
-                continue
-            self._done[target] = pieces
-            if isinstance(target, int):
-                portal = self._portals[target]
-                return Path(portal.pose if self._is_back else self._poses[None], pieces), portal
-            if target is not None:
-                if target.square in self._portals:
-                    self._offer(target.square, target, candidate.driven_m)
-                edges = self._roadmap.edges_from(target, is_back=self._is_back)
-                self._grow_from(target, edges, candidate.driven_m)
-        return None
-
-    def _pieces(self, candidate: _Candidate) -> tuple[Piece, ...] | None:
-        """What is driven between the root and a target; None if the last of it is not clear."""
-        there = self._done[candidate.origin]
-        ends = self._poses[candidate.origin], self._poses[candidate.target]
-        pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
-        if pieces is None:
-            return None
-        return (*pieces, *there) if self._is_back else (*there, *pieces)
-
-    def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
-        usual = 2 if origin is None else 1
-        for first in edges:
-            for walk in self._roadmap.walks(first, is_back=self._is_back):
-                over_m = driven_m + _EDGE_COST_M * max(len(walk) - usual, 0)
-                places = list(self._roadmap.spots(walk[-1], self._grain, is_back=self._is_back))
-                portal = walk[-1][0 if self._is_back else 1]
-                if portal in self._portals:
-                    # rather straight through the door, by a place in line with it
-                    self._offer(portal, origin, over_m + _EDGE_COST_M, walk[:-1])
-                    places += self._roadmap.door_spots(self._portals[portal])
-                # a long straight between spots is put together of short ones
-                if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
-                    continue
-                for spot, pose in places:
-                    self._poses.setdefault(spot, pose)
-                    self._offer(spot, origin, over_m, walk[:-1])
-
-    def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()) -> None:
-        """Wait for a target, over edges all of which are driven whole."""
-        if target in self._done:
-            return
-        driven_m += max(_apart_m(self._poses[origin], self._poses[target]), self._over_m(origin, target, over))
-        driven_m += _ASIDE_COST_M if isinstance(target, Spot) and target.aside_m else 0.0
-        estimate_m = driven_m + self._left_m(target)
-        heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
-
-    def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[DirectedEdge]) -> float:
-        """Way along the middle lines, from turn to turn."""
-        turns = [self._roadmap.middle_m(edge[0 if self._is_back else 1]) for edge in over]
-        ends = [(pose.x_m, pose.z_m) for pose in (self._poses[origin], self._poses[target])]
-        return sum(math.dist(one, other) for one, other in pairwise([ends[0], *turns, ends[1]]))
-
-    def _left_m(self, place: "_Place") -> float:
-        return min(_apart_m(self._poses[place], portal.pose) for portal in self._portals.values())
-
-
-def _apart_m(one: Pose, other: Pose) -> float:
-    return math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)
 
 
 def _middle(car: DesignCar, pose: Pose) -> Point:

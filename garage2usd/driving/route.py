@@ -1,18 +1,20 @@
 """Whole routes: from before an entrance into a stall, and from the stall to behind an exit."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import chain
 
-from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.car import DesignCar
 from garage2usd.driving.garage import DrivenStall, Nose, StallProof, absent_cars, prove_garage
-from garage2usd.driving.lane_poses import DirectedEdge, SquareUse, families
+from garage2usd.driving.lane_poses import SquareUse, families
+from garage2usd.driving.lane_search import path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path
-from garage2usd.driving.proof import Limits, find_way
+from garage2usd.driving.proof import LanePose, Limits, find_way
 from garage2usd.driving.road import DrivenRoad, Portal
-from garage2usd.driving.roadmap import Roadmap
+from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap
 from garage2usd.driving.turns import Steering
 
 __all__ = ["Route", "Router"]
@@ -102,9 +104,8 @@ class Router:
             return proof
         entrances = self.portals(SquareUse.ENTRANCE) if entrances is None else tuple(entrances)
         exits = self.portals(SquareUse.EXIT) if exits is None else tuple(exits)
-        parked = proof.way_out.start
-        arrival = self._led(stall, proof.is_full, parked, proof.way_in, entrances, is_back=True)
-        departure = self._led(stall, proof.is_full, parked, proof.way_out, exits, is_back=False)
+        arrival = self._led(stall, proof, proof.way_in, entrances, is_back=True)
+        departure = self._led(stall, proof, proof.way_out, exits, is_back=False)
         if arrival is None or departure is None:
             return replace(
                 proof, way_in=proof.way_in if arrival else None, way_out=proof.way_out if departure else None
@@ -112,50 +113,39 @@ class Router:
         return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
 
     def _led(
-        self,
-        stall: DrivenStall,
-        is_full: bool,  # noqa: FBT001
-        parked: Pose,
-        proven: Manoeuvre,
-        portals: Sequence[Portal],
-        *,
-        is_back: bool,
+        self, stall: DrivenStall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool
     ) -> tuple[Path, Portal] | None:
         """The proven way led on to a portal, or back to one; else another way from the same parked pose."""
-        roadmap = self._roadmap(is_full)
-        for way in self._ways(stall, is_full, parked, proven, is_back=is_back):
-            parking = Path.of_way(way)
-            if is_back:
-                found = roadmap.arrival(parking.start, portals)
-                if found is not None:
-                    return found[0].then(parking.pieces), found[1]
-            else:
-                found = roadmap.onward(parking.end, portals)
-                if found is not None:
-                    return parking.then(found[0].pieces), found[1]
-        return None
-
-    def _ways(
-        self,
-        stall: DrivenStall,
-        is_full: bool,  # noqa: FBT001
-        parked: Pose,
-        proven: Manoeuvre,
-        *,
-        is_back: bool,
-    ) -> Iterable[Manoeuvre]:
-        """The proven way, and ways between the stall and places on lanes that leave room to turn."""
-        yield proven
+        roadmap = self._roadmap(proof.is_full)
+        parked = proven.end if is_back else proven.start
         directions = self._road.garage.directions
         used = directions.arriving if is_back else directions.leaving
-        standing = self._standing(is_full).without(stall.unseen)
-        for limits in (self._limits, replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)):
-            edges: list[DirectedEdge] = [edge for edge in directions.near(stall.access) if edge in used]
-            poses = self._roadmap(is_full).roomy_poses(edges, is_back=is_back)
-            for lanes in (*families(poses), *([pose] for pose in poses)):
-                way = find_way(self._car, parked, standing, lanes, limits).way
+        poses = roadmap.roomy_poses([edge for edge in directions.near(stall.access) if edge in used], is_back=is_back)
+        standing = self._standing(proof.is_full).without(stall.unseen)
+        further = replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)
+
+        def ways(limits: Limits, lanes: Iterable[Sequence[LanePose]]) -> Iterator[Manoeuvre]:
+            for some in lanes:
+                way = find_way(self._car, parked, standing, some, limits).way
                 if way is not None:
                     yield way.reversed() if is_back else way
+
+        together, each = families(poses), [[pose] for pose in poses]
+        rounds = (
+            chain([proven], ways(self._limits, together)),
+            chain(ways(self._limits, each), ways(further, together), ways(further, each)),
+        )
+        # a coarse look at all ways of a round comes before a fine one at any
+        for found in rounds:
+            kept: list[Manoeuvre] = []
+            for grain in GRAINS:
+                for way in kept[:] if kept else found:
+                    if grain is GRAINS[0]:
+                        kept.append(way)
+                    led = _joined(roadmap, way, portals, grain, is_back=is_back)
+                    if led is not None:
+                        return led
+        return None
 
     def _standing(self, is_full: bool) -> Obstacles:  # noqa: FBT001
         standing = self._road.standing
@@ -163,3 +153,15 @@ class Router:
 
     def _mapped(self, is_full: bool) -> Roadmap:  # noqa: FBT001
         return Roadmap(self._road, self._standing(is_full), self._car, self._steerings, self._limits.margin_m)
+
+
+def _joined(
+    roadmap: Roadmap, way: Manoeuvre, portals: Sequence[Portal], grain: Grain, *, is_back: bool
+) -> tuple[Path, Portal] | None:
+    """A way between a lane and a stall with the path over lanes before it or after it."""
+    parking = Path.of_way(way)
+    if is_back:
+        found = path_from_entrance(roadmap, parking.start, portals, grain)
+        return found and (found[0].then(parking.pieces), found[1])
+    found = path_to_exit(roadmap, parking.end, portals, grain)
+    return found and (parking.then(found[0].pieces), found[1])
