@@ -10,7 +10,6 @@ from garage2usd.driving.lane_poses import LaneDirections, LaneSquare, SquareUse
 from garage2usd.driving.layout_garage import prove_stalls, without_unreachable
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.path import Path, PathPoints, Piece
 from garage2usd.driving.proof import LanePose, Limits, Search, find_way, least_clearance_m
 from garage2usd.driving.road import DrivenRoad, Portal, RampFloor, heights_m
 
@@ -28,9 +27,6 @@ __all__ = [
     "Move",
     "Nose",
     "Obstacles",
-    "Path",
-    "PathPoints",
-    "Piece",
     "Portal",
     "Pose",
     "RampFloor",

@@ -18,7 +18,8 @@ from support.trajectory_judge import OpenWorld, faults
 import garage2usd
 from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.config.maps import DriveConfig
-from garage2usd.driving import DesignCar, Gear, Path, Piece, Pose
+from garage2usd.driving import DesignCar, Gear, Pose
+from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.timing import timed
 from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json
 from garage2usd.driving.turns import Steering, joining_pieces
