@@ -20,7 +20,7 @@ from garage2usd.objects import KINDS
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
 
-SECTIONS = {"SiteConfig", "BayConfig", "PlanConfig", "FittingsConfig", "ParkingConfig", "StageConfig"}
+SECTIONS = {"SiteConfig", "BayConfig", "PlanConfig", "FittingsConfig", "ParkingConfig", "StageConfig", "MapsConfig"}
 
 WORDS = {"integer": "whole number", "number": "number", "boolean": "`true`, `false`", "string": "text"}
 
@@ -51,7 +51,25 @@ class ConfigurationReference(MadeFromCode):
                 # pydantic leaves a description out that the section itself has
                 about = value.get("description", definitions[section]["description"])
                 yield from (f"## `[{name}]`", "", about, "")
-                yield from (*_settings_table(definitions[section]["properties"], definitions), "")
+                yield from _section_table(name, definitions[section]["properties"], definitions)
+
+
+def _section_table(name: str, properties: dict[str, Any], definitions: dict[str, Any]) -> Iterator[str]:
+    """The settings of a section, then those of each section within it."""
+    inner = {key: definition for key, value in properties.items() if (definition := _inner(value, definitions))}
+    own = {key: value for key, value in properties.items() if key not in inner}
+    yield from (*_settings_table(own, definitions), "")
+    for key, definition in inner.items():
+        about = properties[key].get("description", definition["description"])
+        yield from (f"### `[{name}.{key}]`", "", about, "")
+        yield from _section_table(f"{name}.{key}", definition["properties"], definitions)
+
+
+def _inner(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any] | None:
+    """The definition of a setting that is a section of its own; None where it is not."""
+    name = schema.get("$ref", "").rpartition("/")[2]
+    definition = definitions.get(name, {})
+    return definition if definition.get("type") == "object" and name != "Profile" else None
 
 
 def _section(schema: dict[str, Any]) -> str | None:

@@ -9,6 +9,7 @@ import shapely
 
 from garage2usd.checks.aisle import dead_ends
 from garage2usd.checks.openings import section_of
+from garage2usd.checks.shapes import Thing
 from garage2usd.checks.subject import Subject
 from garage2usd.driving import DrivenGarage
 from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
@@ -23,6 +24,9 @@ CAR_HEIGHT_M = 2.0
 _DRIVEN_THROUGH = {"vehicle_door", "ramp"}
 """What a convex outline would close; it counts by its section instead."""
 _DRIVEN_OVER = {"speed_bump"}
+_CAR = "car"
+_SKIN_M = 0.02
+"""What stands out of a car less than that counts as its colliders."""
 _CORNERS, _DIRECTIONS = 4, 8
 _SLACK_M2 = 0.05
 """Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
@@ -61,15 +65,33 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
 
 def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
     """Each thing that a car could touch; doors and ramps by their sections."""
+    cars = {thing.name: thing for thing in subject.things if thing.label == _CAR}
     for name, label, pieces in subject.solids.grounds(height_m):
         if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
             ground = _simple(pieces)
+            if name in cars:
+                ground = shapely.GeometryCollection(
+                    [*shapely.get_parts(ground), *_standing_out(cars[name], ground, height_m)]
+                )
             home = subject.home_of(ground.convex_hull) if label in BELONGINGS else None
             yield StandingThing(name, label, ground, home.name if home else None)
     for thing in subject.things:
         if thing.label in _DRIVEN_THROUGH:
             cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
             yield StandingThing(thing.name, thing.label, cuts)
+
+
+def _standing_out(car: Thing, ground: shapely.Geometry, height_m: float) -> Iterator[shapely.Geometry]:
+    """The pieces of a car that stand out of the ground of its colliders, which are its mirrors."""
+    within = shapely.convex_hull(ground).buffer(_SKIN_M)
+    shapely.prepare(within)
+    for body in car.bodies:
+        if body.touches or shapely.contains_xy(within, body.world_points()[:, [0, 2]]).all():
+            continue
+        for outline, low, _ in body.pieces():
+            piece = shapely.convex_hull(shapely.multipoints(outline))
+            if low < height_m and not within.covers(piece):
+                yield shapely.oriented_envelope(piece)
 
 
 def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:

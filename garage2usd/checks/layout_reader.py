@@ -58,7 +58,8 @@ def unlaid_subject(
 def _outline(stall: Stall, graph: LaneGraph) -> StallOutline:
     left, right, rear_right, rear_left = stall.corners_m()
     corners = (left, right, rear_right, rear_left)
-    return StallOutline(stall.name, corners, StallUse(stall.use), graph.number_of[stall.access_square])
+    facts = (("number", stall.number),) if stall.number else ()
+    return StallOutline(stall.name, corners, StallUse(stall.use), graph.number_of[stall.access_square], facts)
 
 
 def _nodes(graph: LaneGraph) -> tuple[LaneNode, ...]:

@@ -14,12 +14,17 @@ from garage2usd.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from garage2usd.checks import Subject
+    from garage2usd.config.maps import DriveConfig
     from garage2usd.driving import StallProof
+    from garage2usd.maps.drives import Drive
     from garage2usd.progress import Progress
 
 __all__ = ["drive"]
 
 _FORMATS = (".json", ".usda", ".usdc")
+_TRAJECTORY_FORMATS, _ANIMATION_FORMATS = (".csv", ".json"), (".usda", ".usdc")
+_STEP_S = 0.05
 
 
 @click.command(short_help="Prove that a car gets into each stall and out again.")
@@ -30,9 +35,34 @@ _FORMATS = (".json", ".usda", ".usdc")
     "-o",
     metavar="FILE",
     type=click.Path(path_type=Path),
-    help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage.",
+    help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage. With --stall the "
+    "trajectory: .csv or .json; with --animate .usda or .usdc.",
 )
-def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
+@click.option(
+    "--stall",
+    metavar="NAME",
+    help="Drive from an entrance to this stall, park, and drive to an exit: its name, or the number painted in it.",
+)
+@click.option("--entrance", type=int, metavar="N", help="With --stall: the entrance, from 1 on in reading order.")
+@click.option("--exit", "exit_", type=int, metavar="N", help="With --stall: the exit, from 1 on in reading order.")
+@click.option(
+    "--leg",
+    type=click.Choice(["both", "in", "out"]),
+    default="both",
+    help="With --stall: only come, only leave, or both, which is the default.",
+)
+@click.option("--animate", is_flag=True, help="With --stall: write the car in time, to put over the stage.")
+def drive(
+    *,
+    path: Path | None,
+    seed: int | None,
+    output: Path | None,
+    stall: str | None,
+    entrance: int | None,
+    exit_: int | None,
+    leg: str,
+    animate: bool,
+) -> None:
     """Prove that a car drives into each stall and out again without a touch.
 
     PATH is a configuration, and the garage the one that `build` makes of it and the seed; or a stage, also one that
@@ -40,19 +70,35 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     with a turning radius of 6 m. Access aisles and stalls for turning hold no car and are left out. Stalls without ways
     are named with what is in the way, and the exit code is 1.
 
+    With --stall the car drives the whole way, on ramps and lanes as well, as fast as the settings `maps.drive` allow:
+    those of PATH where it is a configuration, else the defaults. Gates open to it.
+
     \b
     Examples:
       garage2usd drive garage.usdz
       garage2usd drive --seed 7 -o ways.json
+      garage2usd drive garage.usdz --stall A1-08 -o trajectory.csv
+      garage2usd drive garage.usdz --stall A1-08 --animate -o car.usdc
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
+    if stall is None:
+        _refuse_without_stall(
+            entrance=entrance, exit=exit_, leg=None if leg == "both" else leg, animate=animate or None
+        )
+    elif animate and output is None:
+        raise ConfigError("output", None, f"a path that ends in {', '.join(_ANIMATION_FORMATS)}, with --animate")
     if output is not None:
-        if output.suffix not in _FORMATS:
-            raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
+        formats = _FORMATS if stall is None else _ANIMATION_FORMATS if animate else _TRAJECTORY_FORMATS
+        if output.suffix not in formats:
+            with_stall = "" if stall is None else " with --stall and --animate" if animate else " with --stall"
+            raise ConfigError("output", str(output), f"a path that ends in {', '.join(formats)}{with_stall}")
         check_name(output)
         check_writable(output.parent)
+    if stall is not None:
+        _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg, output=output)
+        return
     with Bars(sys.stderr) as progress:
         if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
             refuse_seed(seed)
@@ -64,6 +110,75 @@ def drive(*, path: Path | None, seed: int | None, output: Path | None) -> None:
     _describe(proofs)
     if not all(proof.is_proven for proof in proofs):
         raise click.exceptions.Exit(1)
+
+
+def _refuse_without_stall(**given: object) -> None:
+    for option, value in given.items():
+        if value is not None:
+            raise ConfigError(option, value, "only with --stall")
+
+
+def _drive_to(
+    path: Path | None,
+    seed: int | None,
+    stall: str,
+    *,
+    entrance: int | None,
+    exit_: int | None,
+    leg: str,
+    output: Path | None,
+) -> None:
+    """Drive to one stall and tell of it."""
+    from garage2usd.maps.drives import DrivePlanner, Leg  # noqa: PLC0415 - keeps --help instant
+
+    with Bars(sys.stderr) as progress:
+        subject, settings = _subject_of(path, seed, progress)
+        driven = DrivePlanner(subject, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+    if output is not None:
+        _write_drive(output, driven)
+    route, states = driven.route, driven.motion.sampled(_STEP_S)
+    ways = {"in": ("arrival", route.arrival), "out": ("departure", route.departure)}
+    for name, (word, way) in ways.items():
+        if leg in {"both", name}:
+            portal = route.entrance if name == "in" else route.exit
+            click.echo(f"{word:>12}  {way.length_m:.1f} m {'from' if name == 'in' else 'to'} the portal {portal.name}")
+    click.echo(f"{'nose':>12}  {route.nose.value}")
+    click.echo(f"{'seconds':>12}  {states.time_s[-1]:.1f}")
+    click.echo(f"{'fastest':>12}  {abs(states.speed_m_s).max():.2f} m/s")
+    if not route.is_full:
+        click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
+
+
+def _subject_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[Subject, DriveConfig]":
+    """The garage, and the settings of drives."""
+    from garage2usd.checks import read_subject  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.checks.layout_reader import layout_subject  # noqa: PLC0415
+    from garage2usd.config import GarageConfig, load_config  # noqa: PLC0415
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
+
+    if path is not None and path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}:
+        refuse_seed(seed)
+        return read_subject(path)[0], GarageConfig().maps.drive
+    config = load_config(path) if path else GarageConfig()
+    garage = generate(config, seed=seed, progress=progress)
+    return layout_subject(garage.layout, garage.graph, source=str(path or ""), kind="plan"), config.maps.drive
+
+
+def _write_drive(output: Path, driven: "Drive") -> None:
+    from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json  # noqa: PLC0415
+    from garage2usd.output import publish, staging_folder  # noqa: PLC0415
+    from garage2usd.stage.driving_car import write_driving_car  # noqa: PLC0415
+
+    with staging_folder() as staging:
+        file = staging / output.name
+        if output.suffix == ".csv":
+            write_trajectory_csv(file, driven.motion.sampled(_STEP_S))
+        elif output.suffix == ".json":
+            write_trajectory_json(file, driven.motion.sampled(_STEP_S), driven.car, driven.facts)
+        else:
+            write_driving_car(file, driven.motion)
+        publish([file], output.parent)
 
 
 def _proofs_of_config(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":

@@ -11,10 +11,12 @@ from garage2usd.driving.layout_garage import prove_stalls, without_unreachable
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Search, find_way, least_clearance_m
+from garage2usd.driving.road import DrivenRoad, Portal, RampFloor, heights_m
 
 __all__ = [
     "DesignCar",
     "DrivenGarage",
+    "DrivenRoad",
     "DrivenStall",
     "Gear",
     "LaneDirections",
@@ -25,12 +27,15 @@ __all__ = [
     "Move",
     "Nose",
     "Obstacles",
+    "Portal",
     "Pose",
+    "RampFloor",
     "Search",
     "SquareUse",
     "StallProof",
     "Waypoint",
     "find_way",
+    "heights_m",
     "least_clearance_m",
     "prove_garage",
     "prove_stalls",

@@ -13,18 +13,16 @@ from functools import lru_cache
 import shapely
 
 from garage2usd.driving.car import DesignCar, Point, Pose
-from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections
+from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, families
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m, touched_parked
 from garage2usd.progress import Progress, silent
 
-__all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "prove_garage"]
+__all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "absent_cars", "prove_garage"]
 
 _SUSPECTS = 8
 _FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
-_QUARTER = math.pi / 2
-_ASKEW_RAD, _SAME_RAD = 1e-4, 1e-9
 
 
 class Nose(StrEnum):
@@ -107,6 +105,11 @@ class DrivenStall:
     absent: str | None
     own: tuple[str, ...] = ()
 
+    @property
+    def unseen(self) -> tuple[str, ...]:
+        """What is not in the way of a car that parks there: its own, and the car that is thought to stand there."""
+        return self.own if self.absent is None else (*self.own, self.absent)
+
 
 @dataclass(frozen=True, eq=False)
 class DrivenGarage:
@@ -185,7 +188,7 @@ class _Prover:
         self.car, self.limits = car, limits
         self.directions = garage.directions
         self.as_it_stands = garage.standing
-        self.full = garage.standing.joined(_absent_cars(garage.stalls, car))
+        self.full = garage.standing.joined(absent_cars(garage.stalls, car))
         self.poses_at = lru_cache(maxsize=None)(self._poses_at)
 
     def _poses_at(self, square: int, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
@@ -235,7 +238,7 @@ class _Prover:
 
     def _seen_from(self, stall: DrivenStall, obstacles: Obstacles) -> Obstacles:
         near = obstacles.near(stall.centre_m, 1.5 * (self.limits.reach_m + self.car.length_m))
-        return near.without(stall.own if stall.absent is None else (*stall.own, stall.absent))
+        return near.without(stall.unseen)
 
     def _ways_without(self, stall: DrivenStall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
         """The ways in and out where one thing is left out, looked for roughly; none if there are not both."""
@@ -266,7 +269,7 @@ class _Prover:
 
         def way(poses: list[LanePose]) -> tuple[Manoeuvre | None, tuple[str, ...]]:
             touched: list[str] = []
-            for family in _families(poses):
+            for family in families(poses):
                 found = find_way(self.car, parked, obstacles, family, limits)
                 if found.way is not None:
                     return found.way, ()
@@ -285,24 +288,7 @@ class _Prover:
         return into.reversed() if into else None, out, touched
 
 
-def _families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
-    """Poses whose directions differ by quarter turns, but for rounding, together; their directions then do exactly."""
-    families: list[list[LanePose]] = []
-    for pose in poses:
-        for family in families:
-            turned = pose.yaw_rad - family[0].yaw_rad
-            quarters = round(turned / _QUARTER)
-            off = abs(turned - quarters * _QUARTER)
-            if off < _ASKEW_RAD:
-                exact = family[0].yaw_rad + quarters * _QUARTER
-                family.append(pose if off < _SAME_RAD else replace(pose, yaw_rad=exact))
-                break
-        else:
-            families.append([pose])
-    return families
-
-
-def _absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:
+def absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:
     """A car in the middle of each stall that holds none."""
     return Obstacles.of(
         (stall.absent, shapely.Polygon(car.corners(car.centred(stall.centre_m, stall.yaw_rad))))

@@ -3,19 +3,21 @@
 import math
 from collections import deque
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from functools import cached_property
 
 from garage2usd.driving.car import DesignCar, Point
 from garage2usd.driving.proof import LanePose
 
-__all__ = ["DirectedEdge", "LaneDirections", "LaneSquare", "SquareUse"]
+__all__ = ["DirectedEdge", "LaneDirections", "LaneSquare", "SquareUse", "families"]
 
 DirectedEdge = tuple[int, int]
 """From the middle of one square to the middle of the next, by their numbers."""
 _NEAR_EDGES = 2
 _SHORTEST_M = 1e-3
+_QUARTER = math.pi / 2
+_ASKEW_RAD, _SAME_RAD = 1e-4, 1e-9
 
 
 class SquareUse(Enum):
@@ -138,6 +140,23 @@ class LaneDirections:
         middle = (low + high) / 2
         place = start.middle_m[0] + along[0] * middle, start.middle_m[1] + along[1] * middle
         return LanePose(place, _yaw_rad(along), high - low, self.widths_m[edge] - car.width_m)
+
+
+def families(poses: Iterable[LanePose]) -> list[list[LanePose]]:
+    """Poses whose directions differ by quarter turns, but for rounding, together; their directions then do exactly."""
+    families: list[list[LanePose]] = []
+    for pose in poses:
+        for family in families:
+            turned = pose.yaw_rad - family[0].yaw_rad
+            quarters = round(turned / _QUARTER)
+            off = abs(turned - quarters * _QUARTER)
+            if off < _ASKEW_RAD:
+                exact = family[0].yaw_rad + quarters * _QUARTER
+                family.append(pose if off < _SAME_RAD else replace(pose, yaw_rad=exact))
+                break
+        else:
+            families.append([pose])
+    return families
 
 
 def _yaw_rad(along: Point) -> float:

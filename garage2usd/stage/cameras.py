@@ -14,7 +14,7 @@ from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["DRIVE_NAME", "author_cameras", "set_frames", "write_drive"]
+__all__ = ["DRIVE_NAME", "FRAMES_PER_SECOND", "author_cameras", "bends", "set_frames", "write_drive"]
 
 FRAMES_PER_SECOND = 24.0
 _EYE_M = 1.5
@@ -112,15 +112,15 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
             yaw += math.remainder(target - yaw, 360.0)
         yaws_deg.append(yaw)
     turns.default = yaws_deg[0]
-    for frame in _bends(np.array(here)):
+    for frame in bends(np.array(here)):
         x, z = here[frame]
         layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, _EYE_M, z))
-    for frame in _bends(np.array(yaws_deg)[:, None]):
+    for frame in bends(np.array(yaws_deg)[:, None]):
         layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
     return frames
 
 
-def _bends(values: NDArray[np.float64]) -> list[int]:
+def bends(values: NDArray[np.float64]) -> list[int]:
     """The frames between which values, shape (frames, n), change steadily, which USD interpolates linearly."""
     bends = np.ones(len(values), dtype=bool)
     bends[1:-1] = (np.abs(np.diff(values, 2, axis=0)) > _STEADY).any(axis=1)

@@ -27,7 +27,7 @@ from garage2usd.stage.looks import define_material, set_glow, set_varying
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["NITS_PER_INTENSITY", "write_prototype"]
+__all__ = ["NITS_PER_INTENSITY", "define_mesh", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
@@ -87,7 +87,7 @@ def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQua
         for touch in sorted(_touched(asset)):
             _define_friction(layer, looks, touch)
         for part in asset.parts:
-            _define_mesh(layer, geometry.AppendChild(part.name), part, looks)
+            define_mesh(layer, geometry.AppendChild(part.name), part, looks)
         if asset.paints:
             _define_paints(root, asset.paints)
         if asset.light is not None:
@@ -156,7 +156,8 @@ def _over(variant: Sdf.PrimSpec, *names: str) -> Sdf.PrimSpec:
     return Sdf.CreatePrimInLayer(variant.layer, path)
 
 
-def _define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) -> None:
+def define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) -> None:
+    """Define one mesh with the material of its key, and its collider if it has one."""
     mesh = define(layer, path, "Mesh")
     points = Vt.Vec3fArray.FromNumpy(part.points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)

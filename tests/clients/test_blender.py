@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -12,8 +13,13 @@ from pxr import Usd
 from support.pictures import difference, read_png, store, stored
 from support.places import assert_same_places
 from support.sample_files import REPOSITORY, each_build
+from support.small_garage import SETTINGS
 from support.stage_textures import texture_names
 
+import garage2usd
+from garage2usd.checks import read_subject
+from garage2usd.maps.drives import DrivePlanner, Leg
+from garage2usd.stage.driving_car import CAR_NAME, write_driving_car
 from garage2usd.stage.prototypes import asset_of
 
 pytestmark = [
@@ -96,3 +102,31 @@ def test_blender_draws_the_stored_picture(builds, tmp_path, write_pictures):
     if write_pictures:
         store("blender_inside", drawn)
     assert difference(drawn, stored("blender_inside")) < LARGEST_DIFFERENCE
+
+
+def test_blender_plays_the_car_that_drives(tmp_path):
+    made = garage2usd.build(garage2usd.GarageConfig(**SETTINGS), tmp_path / "small.usdc")
+    motion = DrivePlanner(read_subject(made.stage)[0]).drive("Stall_r00_c01_2", leg=Leg.IN).motion
+    write_driving_car(tmp_path / "car.usdc", motion)
+    over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
+    over.GetRootLayer().subLayerPaths = ["./car.usdc", "./small.usdc"]
+    for key in ("upAxis", "metersPerUnit", "timeCodesPerSecond", "startTimeCode", "endTimeCode"):
+        over.SetMetadata(key, Usd.Stage.Open(str(tmp_path / "car.usdc")).GetMetadata(key))
+    over.GetRootLayer().Save()
+    frames = [0, 100, 333, 700]
+    script, output = Path(__file__).with_name("blender_drive_dump.py"), tmp_path / "dump.json"
+    arguments = [str(tmp_path / "over.usda"), str(output), json.dumps(frames), json.dumps([CAR_NAME, "FrontLeftWheel"])]
+    subprocess.run([sys.executable, str(script), *arguments], check=True, capture_output=True, timeout=600)
+    played = json.loads(output.read_text())
+    assert played["fps"] == 24
+    assert played["frames"] == [0, math.ceil(motion.ends_s * 24)]
+    states = motion.at(np.array(frames) / 24)
+    places = np.array(played["places"][CAR_NAME])
+    expected = np.stack([states.x_m, states.y_m, states.z_m], axis=1)
+    assert np.ptp(expected[:, 2]) > 1 or np.ptp(expected[:, 0]) > 1
+    assert places[:, :, 3] == pytest.approx(expected, abs=1e-3)
+    noses = -places[:, :, 2]
+    assert noses[:, 0] == pytest.approx(-np.sin(states.yaw_rad) * np.cos(states.pitch_rad), abs=1e-3)
+    assert noses[:, 2] == pytest.approx(-np.cos(states.yaw_rad) * np.cos(states.pitch_rad), abs=1e-3)
+    hubs = np.array(played["places"]["FrontLeftWheel"])[:, :, 3]
+    assert np.linalg.norm(hubs - places[:, :, 3], axis=1) == pytest.approx(np.full(len(frames), 2.66), abs=0.1)

@@ -1,0 +1,192 @@
+"""A garage that is checked, as plain geometry that a car drives through from portal to portal."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import shapely
+
+from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage
+from garage2usd.checks.shapes import Array, Thing
+from garage2usd.checks.subject import Subject
+from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, SquareUse, heights_m
+from garage2usd.reading.ground import LaneNode, Point
+from garage2usd.structure.lane_graph import LaneKind
+
+__all__ = ["driven_road"]
+
+_GATE, _RAMP = "barrier", "ramp"
+_ARM_FROM_M = 0.5
+"""What of a gate begins higher belongs to its arm."""
+_UPRIGHT, _LEAST_FACE_M = 0.5, 0.1
+_LEAST_FLAT_M = 0.06
+"""The lands between the grooves of a ramp are longer than this, and the grooves narrower."""
+_LEVEL_SLOPE, _STEEPEST_SLOPE = 0.005, 0.6
+_FROM_END_M = 0.5
+"""Between a car that has come from outside, or leaves, and the end of its ramp."""
+_FROM_DOOR_M = 0.3
+"""Between a car and the door that it has come through, or will go through, where there is no ramp."""
+_DOOR_REACH_M, _RAMP_REACH_M = 1.5, 2.0
+_DIGITS = 4
+
+
+def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
+    """The road of a garage that is checked.
+
+    Parameters
+    ----------
+    subject
+        The garage.
+    car
+        Which car is driven.
+    height_m
+        What begins higher touches no car.
+
+    Notes
+    -----
+    A car comes from the top of the ramp behind a door, half a metre before its end. Where a door has no ramp, it is
+    shut; the car then stands within the portal's square, 0.3 m from the door.
+    """
+    car = car or DesignCar()
+    garage = driven_garage(subject, height_m=height_m)
+    ramps = {thing.name: _floor(thing) for thing in subject.things if thing.label == _RAMP}
+    floors = tuple(floor for floor in ramps.values() if floor is not None)
+    opened = [thing.name for thing in subject.things if thing.label in {_GATE, _RAMP}]
+    gates = ((solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
+    sides = (
+        (thing.name, shapely.MultiLineString(list(_sides(thing, floors, height_m))))
+        for thing in subject.things
+        if thing.label == _RAMP
+    )
+    standing = garage.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
+    portals = tuple(_portals(subject, floors, car))
+    return DrivenRoad(garage, standing, portals, floors)
+
+
+def _portals(subject: Subject, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
+    for number, node in enumerate(subject.nodes):
+        if not node.is_portal:
+            continue
+        outwards, edge_m = _outwards(subject, number)
+        is_entrance = node.kind == LaneKind.ENTRANCE
+        yaw = math.atan2(outwards[0] + 0.0, outwards[1] + 0.0)  # into the garage
+        x, z = (round(value, _DIGITS) for value in node.position)
+        ramp = next((ramp for ramp in ramps if _is_behind(ramp, (x, z), outwards, edge_m)), None)
+        if ramp is None:
+            end_m = edge_m - _FROM_DOOR_M
+        else:
+            top = ramp.top_m
+            end_m = (top[0] - x) * outwards[0] + (top[1] - z) * outwards[1] - _FROM_END_M
+        axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
+        pose = Pose(x + axle_m * outwards[0], z + axle_m * outwards[1], yaw if is_entrance else _about(yaw))
+        yield Portal(number, node.name, SquareUse.ENTRANCE if is_entrance else SquareUse.EXIT, pose)
+
+
+def _about(yaw_rad: float) -> float:
+    turned = yaw_rad + math.pi
+    return turned - math.tau if turned > math.pi else turned
+
+
+def _outwards(subject: Subject, number: int) -> tuple[Point, float]:
+    """The direction in which a portal's door lies, along an axis, and how far away its square's edge is there."""
+    node = subject.nodes[number]
+    ways = [door for door in (_towards(node, door.position) for door in subject.doors) if door is not None]
+    if ways:
+        outwards = min(ways)[1]
+    else:
+        lane = subject.nodes[min(subject.beside[number], default=number)]
+        dx, dz = node.position[0] - lane.position[0], node.position[1] - lane.position[1]
+        outwards = (math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz))
+    return outwards, _half_m(subject, number, outwards)
+
+
+def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
+    """How far away a door in the outer wall around a portal is, and in which direction; None if it is elsewhere."""
+    dx, dz = door[0] - node.position[0], door[1] - node.position[1]
+    along, aside, half = (
+        (abs(dx), abs(dz), node.widths_m[0]) if abs(dx) > abs(dz) else (abs(dz), abs(dx), node.widths_m[1])
+    )
+    if aside > _DOOR_REACH_M or along > half / 2 + _DOOR_REACH_M:
+        return None
+    return along, ((math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz)))
+
+
+def _half_m(subject: Subject, number: int, outwards: Point) -> float:
+    """From a portal's middle to where the clear floor ends."""
+    widths = subject.nodes[number].widths_m
+    return float(abs(outwards[0]) * widths[0] + abs(outwards[1]) * widths[1]) / 2
+
+
+def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -> bool:
+    """Whether a ramp begins where a portal's square ends, in line with it."""
+    away = ramp.foot_m[0] - middle[0], ramp.foot_m[1] - middle[1]
+    along = away[0] * outwards[0] + away[1] * outwards[1] + float(ramp.runs_m[0])
+    aside = abs(away[0] * outwards[1] - away[1] * outwards[0])
+    in_line = ramp.uphill[0] * outwards[0] + ramp.uphill[1] * outwards[1]
+    return in_line > 0.99 and aside < ramp.half_width_m / 2 and abs(along - edge_m) < _RAMP_REACH_M  # noqa: PLR2004
+
+
+def _faces(thing: Thing) -> Iterator[tuple[Array, Array]]:
+    """Unit normal and corners of each face with an area."""
+    for body in thing.bodies:
+        points = body.world_points()
+        starts = np.cumsum(body.shape.counts) - body.shape.counts
+        for start, count in zip(starts.tolist(), body.shape.counts.tolist(), strict=True):
+            edges = body.shape.edges[start : start + count]
+            normal = np.cross(points[edges[:, 0]], points[edges[:, 1]]).sum(axis=0)
+            length = float(np.linalg.norm(normal))
+            if length > 0:
+                yield normal / length, points[edges[:, 0]]
+
+
+def _floor(thing: Thing) -> RampFloor | None:
+    """The profile of a ramp's floor from its faces that look up, without its grooves; None if nothing slopes."""
+    faces = [(normal, corners) for normal, corners in _faces(thing) if normal[1] > _UPRIGHT]
+    sloping = [
+        (normal, corners)
+        for normal, corners in faces
+        if _LEVEL_SLOPE < math.hypot(normal[0], normal[2]) / normal[1] < _STEEPEST_SLOPE
+    ]
+    if not sloping:
+        return None
+    uphill = -sum(normal[[0, 2]] * np.ptp(corners[:, 1]) for normal, corners in sloping)
+    uphill = np.round(uphill / np.linalg.norm(uphill), _DIGITS + 2)
+    across = np.array([-uphill[1], uphill[0]])
+    wide_m = max(float(np.ptp(corners[:, [0, 2]] @ across)) for _, corners in sloping)
+    profile: dict[float, float] = {}
+    middle = None
+    for _, corners in sloping:
+        flat = corners[:, [0, 2]]
+        is_floor = np.ptp(flat @ across) > 0.9 * wide_m and np.ptp(flat @ uphill) > _LEAST_FLAT_M
+        if is_floor:
+            middle = float((flat @ across).min() + (flat @ across).max()) / 2
+            profile.update(
+                {
+                    round(run, _DIGITS): height
+                    for run, height in zip((flat @ uphill).tolist(), corners[:, 1].tolist(), strict=True)
+                }
+            )
+    if middle is None:
+        return None
+    runs = np.array(sorted(profile))
+    start = middle * across
+    return RampFloor(
+        (round(float(start[0]), _DIGITS), round(float(start[1]), _DIGITS)),
+        (float(uphill[0]), float(uphill[1])),
+        wide_m / 2,
+        runs,
+        np.array([profile[run] for run in runs.tolist()]),
+    )
+
+
+def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterator[Array]:
+    """Ends (x, z) of each upright face that is higher than a hand and begins lower over the floor than a car ends."""
+    for normal, corners in _faces(thing):
+        if abs(normal[1]) > _UPRIGHT or np.ptp(corners[:, 1]) < _LEAST_FACE_M:
+            continue
+        flat = corners[:, [0, 2]]
+        along = np.array([-normal[2], normal[0]])
+        ends = flat[[int((flat @ along).argmin()), int((flat @ along).argmax())]]
+        floor = heights_m(ramps, flat[:, 0], flat[:, 1])
+        if (corners[:, 1] - floor).min() < height_m:
+            yield np.round(ends, _DIGITS)

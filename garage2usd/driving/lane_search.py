@@ -1,0 +1,140 @@
+"""Smooth paths over lanes between a way into a stall or out of it and the portals: A* over the places of a roadmap."""
+
+import heapq
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import count, pairwise
+
+from garage2usd.driving.car import Pose
+from garage2usd.driving.lane_poses import DirectedEdge
+from garage2usd.driving.path import Path, Piece
+from garage2usd.driving.road import Portal
+from garage2usd.driving.roadmap import Grain, Roadmap, Spot
+
+__all__ = ["path_from_entrance", "path_to_exit"]
+
+_ASIDE_COST_M, _EDGE_COST_M = 2.0, 3.0
+"""What a place beside the middle costs, and each further edge between two, so that paths keep to the middle lines."""
+
+_Place = Spot | int | None
+"""A spot, a portal by its square, or the pose at which a search begins."""
+
+
+def path_to_exit(roadmap: Roadmap, start: Pose, exits: Sequence[Portal], grain: Grain) -> tuple[Path, Portal] | None:
+    """The shortest path found from a pose in line with a lane to where a car stands after one of some exits."""
+    edges = roadmap.edges_at(start, roadmap.directions.leaving)
+    return _Growth(roadmap, start, exits, grain, is_back=False).grown(edges)
+
+
+def path_from_entrance(
+    roadmap: Roadmap, end: Pose, entrances: Sequence[Portal], grain: Grain
+) -> tuple[Path, Portal] | None:
+    """The shortest path found to a pose in line with a lane from where a car stands before one of some entrances."""
+    edges = roadmap.edges_at(end, roadmap.directions.arriving)
+    return _Growth(roadmap, end, entrances, grain, is_back=True).grown(edges)
+
+
+@dataclass(order=True, slots=True)
+class _Candidate:
+    """A piece of road that may be driven next.
+
+    Attributes
+    ----------
+    estimate_m
+        Way from the root over it to the nearest portal, at least.
+    number
+        Which one it is.
+    target, origin
+        Where it leads, and from where.
+    driven_m
+        Way until its target.
+    """
+
+    estimate_m: float
+    number: int
+    target: "_Place" = field(compare=False)
+    origin: "_Place" = field(compare=False)
+    driven_m: float = field(compare=False)
+
+
+class _Growth:
+    """An A* from a pose at a stall to a portal, or back to one; a piece of road is looked at when its turn comes."""
+
+    def __init__(self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], grain: Grain, *, is_back: bool) -> None:
+        self._roadmap, self._grain, self._is_back = roadmap, grain, is_back
+        self._portals = {portal.square: portal for portal in portals}
+        self._poses: dict[_Place, Pose] = {None: root, **{portal.square: portal.pose for portal in portals}}
+        self._done: dict[_Place, tuple[Piece, ...]] = {}
+        self._waiting: list[_Candidate] = []
+        self._numbers = count()
+
+    def grown(self, edges: Iterable[DirectedEdge]) -> tuple[Path, Portal] | None:
+        """The path, and the portal that it begins or ends at."""
+        self._done[None] = ()
+        self._grow_from(None, edges, 0.0)
+        while self._waiting:
+            candidate = heapq.heappop(self._waiting)
+            target = candidate.target
+            pieces = None if target in self._done else self._pieces(candidate)
+            if pieces is None:
+                continue
+            self._done[target] = pieces
+            if isinstance(target, int):
+                portal = self._portals[target]
+                return Path(portal.pose if self._is_back else self._poses[None], pieces), portal
+            if target is not None:
+                if target.square in self._portals:
+                    self._offer(target.square, target, candidate.driven_m)
+                edges = self._roadmap.edges_from(target, is_back=self._is_back)
+                self._grow_from(target, edges, candidate.driven_m)
+        return None
+
+    def _pieces(self, candidate: _Candidate) -> tuple[Piece, ...] | None:
+        """What is driven between the root and a target; None if the last of it is not clear."""
+        there = self._done[candidate.origin]
+        ends = self._poses[candidate.origin], self._poses[candidate.target]
+        pieces = self._roadmap.joined(*(reversed(ends) if self._is_back else ends))
+        if pieces is None:
+            return None
+        return (*pieces, *there) if self._is_back else (*there, *pieces)
+
+    def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
+        usual = 2 if origin is None else 1
+        for first in edges:
+            for walk in self._roadmap.walks(first, is_back=self._is_back):
+                over_m = driven_m + _EDGE_COST_M * max(len(walk) - usual, 0)
+                places = list(self._roadmap.spots(walk[-1], self._grain, is_back=self._is_back))
+                portal = walk[-1][0 if self._is_back else 1]
+                if portal in self._portals:
+                    # rather straight through the door, by a place in line with it
+                    self._offer(portal, origin, over_m + _EDGE_COST_M, walk[:-1])
+                    places += self._roadmap.door_spots(self._portals[portal])
+                # a long straight between spots is put together of short ones
+                if origin is not None and len(walk) > 1 and self._roadmap.is_straight(walk):
+                    continue
+                for spot, pose in places:
+                    self._poses.setdefault(spot, pose)
+                    self._offer(spot, origin, over_m, walk[:-1])
+
+    def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()) -> None:
+        """Wait for a target, over edges all of which are driven whole."""
+        if target in self._done:
+            return
+        driven_m += max(_apart_m(self._poses[origin], self._poses[target]), self._over_m(origin, target, over))
+        driven_m += _ASIDE_COST_M if isinstance(target, Spot) and target.aside_m else 0.0
+        estimate_m = driven_m + self._left_m(target)
+        heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
+
+    def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[DirectedEdge]) -> float:
+        """Way along the middle lines, from turn to turn."""
+        turns = [self._roadmap.middle_m(edge[0 if self._is_back else 1]) for edge in over]
+        ends = [(pose.x_m, pose.z_m) for pose in (self._poses[origin], self._poses[target])]
+        return sum(math.dist(one, other) for one, other in pairwise([ends[0], *turns, ends[1]]))
+
+    def _left_m(self, place: "_Place") -> float:
+        return min(_apart_m(self._poses[place], portal.pose) for portal in self._portals.values())
+
+
+def _apart_m(one: Pose, other: Pose) -> float:
+    return math.hypot(other.x_m - one.x_m, other.z_m - one.z_m)

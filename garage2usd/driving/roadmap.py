@@ -1,0 +1,237 @@
+"""Places on lanes and ramps that smooth paths lead through, and which of them a car drives between clear of all."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from garage2usd.driving.car import DesignCar, Point, Pose
+from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, SquareUse
+from garage2usd.driving.obstacles import Obstacles
+from garage2usd.driving.path import Path, Piece
+from garage2usd.driving.proof import LanePose
+from garage2usd.driving.road import DrivenRoad, Portal
+from garage2usd.driving.turns import Steering, joining_pieces
+
+__all__ = ["GRAINS", "Grain", "Roadmap", "Spot"]
+
+_MOST_EDGES = 4
+"""Of a piece of road that is driven in two turns."""
+_SAME_WAY = 0.999
+_ROOM_KEPT_M = 0.2
+_MOST_ASIDE_M = 1.2
+_ROOM_TO_TURN_M = 0.1
+_BESIDE_M = 0.8
+"""Width of where a car may stand to turn."""
+_DOOR_SPOTS_M, _DOOR_SPOT_M = 12.0, 2.0
+"""Within the door, and how far apart."""
+_DIGITS = 4
+
+
+class Spot(NamedTuple):
+    """A place that paths lead through: the middle of a square, or a place beside it, in line with an edge.
+
+    Attributes
+    ----------
+    square
+        Its number.
+    along
+        Direction of driving, a unit vector (x, z).
+    aside_m, ahead_m
+        How far it lies to the right of the middle, and beyond it.
+    """
+
+    square: int
+    along: Point
+    aside_m: float = 0.0
+    ahead_m: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Grain:
+    """How finely places are spread.
+
+    Attributes
+    ----------
+    asides
+        Places across a lane, as shares of the room beside a car.
+    is_fine
+        Whether there are some between the middles of squares too.
+    """
+
+    asides: tuple[float, ...]
+    is_fine: bool
+
+
+GRAINS = (Grain((0.0,), is_fine=False), Grain((0.0, 1.0, -1.0), is_fine=True))
+"""The middles of squares alone, and many places more."""
+
+
+class Roadmap:
+    """Places on the lanes of a garage and smooth paths between them; what was found once is kept.
+
+    Parameters
+    ----------
+    road
+        The garage.
+    standing
+        What is in the way.
+    car
+        Which car drives.
+    steerings
+        How it may turn, the most comfortable way first.
+    margin_m
+        What is kept clear around it.
+    """
+
+    def __init__(
+        self, road: DrivenRoad, standing: Obstacles, car: DesignCar, steerings: Sequence[Steering], margin_m: float
+    ) -> None:
+        self._directions = road.garage.directions
+        self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
+        self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
+
+    @property
+    def directions(self) -> LaneDirections:
+        """The garage's lanes."""
+        return self._directions
+
+    def edges_at(self, pose: Pose, edges: Iterable[DirectedEdge]) -> list[DirectedEdge]:
+        """Those of some edges that a car is in line with and on."""
+        x, z = _middle(self._car, pose)
+        found = []
+        for edge in edges:
+            one = self._directions.squares[edge[0]].middle_m
+            along, length = self._along[edge]
+            run = (x - one[0]) * along[0] + (z - one[1]) * along[1]
+            aside = abs((x - one[0]) * along[1] - (z - one[1]) * along[0])
+            beyond = self._directions.squares[edge[1]].sides_m
+            far = length + abs(along[0]) * beyond[0] / 2 + abs(along[1]) * beyond[1] / 2
+            same = -math.sin(pose.yaw_rad) * along[0] - math.cos(pose.yaw_rad) * along[1]
+            if same > _SAME_WAY and aside <= self._directions.widths_m[edge] / 2 and -0.01 <= run <= far:  # noqa: PLR2004
+                found.append(edge)
+        return found
+
+    def roomy_poses(self, edges: Iterable[DirectedEdge], *, is_back: bool) -> list[LanePose]:
+        """Where a car has room to turn at the end of some edges, or has turned at their starts, its middle on them.
+
+        Notes
+        -----
+        Rectangles as long as that room, with the tightest turn of a quarter; none where an edge is too short. Where
+        traffic may drive straight on, or come straight, the whole edge counts.
+        """
+        tangent_m = float(abs(self._steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
+        used = self._directions.arriving if is_back else self._directions.leaving
+        poses = []
+        for edge in edges:
+            along, length_m = self._along[edge]
+            is_straight = any(self._along[next_][0] == along for next_ in self._joins[is_back][edge] if next_ in used)
+            low, high = 0.0, length_m
+            if not is_straight:
+                low, high = (tangent_m, high) if is_back else (low, high - tangent_m)
+            if high < low:
+                continue
+            x, z = self._directions.squares[edge[0]].middle_m
+            ahead = (low + high) / 2 + self._car.length_m / 2 - self._car.rear_overhang_m
+            room = min(_BESIDE_M, self._directions.widths_m[edge] - self._car.width_m)
+            if room >= 0:
+                yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
+                poses.append(LanePose((x + ahead * along[0], z + ahead * along[1]), yaw, high - low, room))
+        return poses
+
+    @cached_property
+    def _along(self) -> dict[DirectedEdge, tuple[Point, float]]:
+        """Direction and length of each edge."""
+        squares = self._directions.squares
+        along = {}
+        for edge in self._directions.widths_m:
+            (x, z), (to_x, to_z) = (squares[number].middle_m for number in edge)
+            length = math.hypot(to_x - x, to_z - z)
+            along[edge] = (round((to_x - x) / length, _DIGITS) + 0.0, round((to_z - z) / length, _DIGITS) + 0.0), length
+        return along
+
+    @cached_property
+    def _joins(self) -> tuple[dict[DirectedEdge, tuple[DirectedEdge, ...]], ...]:
+        """The edges that follow each, and those that it follows, without turning round or through a portal."""
+        entering: dict[int, list[DirectedEdge]] = {}
+        leaving: dict[int, list[DirectedEdge]] = {}
+        for edge in self._directions.widths_m:
+            leaving.setdefault(edge[0], []).append(edge)
+            entering.setdefault(edge[1], []).append(edge)
+        lanes = {number for number, square in enumerate(self._directions.squares) if square.use is SquareUse.LANE}
+
+        def beside(edge: DirectedEdge, square: int, others: dict[int, list[DirectedEdge]]) -> tuple[DirectedEdge, ...]:
+            return tuple(other for other in others.get(square, ()) if set(other) != set(edge) and square in lanes)
+
+        return (
+            {edge: beside(edge, edge[1], leaving) for edge in self._directions.widths_m},
+            {edge: beside(edge, edge[0], entering) for edge in self._directions.widths_m},
+        )
+
+    def walks(self, first: DirectedEdge, *, is_back: bool) -> Iterator[list[DirectedEdge]]:
+        """Walks over few edges that begin with one, or end with it where they are walked back."""
+        waiting = [[first]]
+        while waiting:
+            walk = waiting.pop()
+            yield walk
+            if len(walk) < _MOST_EDGES:
+                waiting += [[*walk, following] for following in self._joins[is_back][walk[-1]]]
+
+    def is_straight(self, walk: Sequence[DirectedEdge]) -> bool:
+        """Whether a walk turns nowhere."""
+        return len({self._along[edge][0] for edge in walk}) == 1
+
+    def spots(self, edge: DirectedEdge, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
+        """The places on an edge and at its end, or at its start where it is walked back."""
+        room_m = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
+        along, length_m = self._along[edge]
+        for share in grain.asides:
+            aside_m = round(share * max(room_m, 0.0), _DIGITS)
+            yield self._placed(Spot(edge[0 if is_back else 1], along, aside_m))
+            if grain.is_fine:
+                yield self._placed(Spot(edge[0], along, aside_m, round(length_m / 2, _DIGITS)))
+
+    def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
+        """Places between the middle of a portal's square and where cars stand outside, in line with that."""
+        x, z = self._directions.squares[portal.square].middle_m
+        along = -math.sin(portal.pose.yaw_rad), -math.cos(portal.pose.yaw_rad)
+        length_m = (portal.pose.x_m - x) * along[0] + (portal.pose.z_m - z) * along[1]
+        for ahead_m in np.arange(0.0, min(abs(length_m), _DOOR_SPOTS_M), _DOOR_SPOT_M).tolist():
+            yield self._placed(Spot(portal.square, along, 0.0, math.copysign(ahead_m, length_m)))
+
+    def _placed(self, spot: Spot) -> tuple[Spot, Pose]:
+        x, z = self._directions.squares[spot.square].middle_m
+        (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
+        yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
+        return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
+
+    def edges_from(self, spot: Spot, *, is_back: bool) -> list[DirectedEdge]:
+        """The edges in line with a place that lead on from it, or to it where they are walked back."""
+        at = 1 if is_back and not spot.ahead_m else 0
+        return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
+
+    def middle_m(self, square: int) -> Point:
+        """(x, z) of the middle of a square."""
+        return self._directions.squares[square].middle_m
+
+    def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
+        """A clear path from pose to pose in at most two turns."""
+        key = (start, end)
+        if key not in self._known:
+            self._known[key] = next(self._clear(start, end), None)
+        return self._known[key]
+
+    def _clear(self, start: Pose, end: Pose) -> Iterator[tuple[Piece, ...]]:
+        for steering in self._steerings:
+            for pieces in joining_pieces(start, end, steering):
+                if Path(start, pieces).clearance_m(self._car, self._standing) >= self._margin_m:
+                    yield pieces
+
+
+def _middle(car: DesignCar, pose: Pose) -> Point:
+    """(x, z) of the middle of a car's footprint."""
+    ahead = car.length_m / 2 - car.rear_overhang_m
+    return pose.x_m - math.sin(pose.yaw_rad) * ahead, pose.z_m - math.cos(pose.yaw_rad) * ahead

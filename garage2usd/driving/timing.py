@@ -1,0 +1,278 @@
+"""When a car is where on a path: as fast as the settings allow, standing where the steering or the gear jumps."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from garage2usd.config.maps import DriveConfig
+from garage2usd.driving.car import DesignCar
+from garage2usd.driving.path import Floats, Path, Piece
+from garage2usd.driving.road import RampFloor, heights_m
+from garage2usd.driving.trajectory import Trajectory
+
+__all__ = ["Motion", "timed"]
+
+_NODE_M, _LEAST_NODES = 0.05, 8
+"""Between the nodes of a run, in each of whose intervals the acceleration is constant, and how many at least."""
+_SAME_PER_M = 1e-9
+_SHORTEST_M = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """A stretch from standstill to standstill, in one gear.
+
+    Attributes
+    ----------
+    path
+        What is driven.
+    plan_m
+        Way at each node as seen from above; shape (nodes,).
+    way_m
+        Way along the floor; shape (nodes,).
+    speed_m_s
+        Without sign; shape (nodes,).
+    time_s
+        Since its start; shape (nodes,).
+    acceleration_m_s2
+        Of each interval, negative where the car brakes; shape (nodes - 1,).
+    """
+
+    path: Path
+    plan_m: Floats
+    way_m: Floats
+    speed_m_s: Floats
+    time_s: Floats
+    acceleration_m_s2: Floats
+
+    @property
+    def seconds(self) -> float:
+        return float(self.time_s[-1])
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A car on its path in time; `timed` makes it.
+
+    Attributes
+    ----------
+    runs
+        The stretches between standstills.
+    starts_s
+        When each begins.
+    ends_s
+        When the whole ends.
+    car
+        The car.
+    ramps
+        The floors that do not lie at 0.
+    steering_rate_rad_s
+        Of the front wheels at a standstill.
+    """
+
+    runs: tuple[_Run, ...]
+    starts_s: tuple[float, ...]
+    ends_s: float
+    car: DesignCar
+    ramps: tuple[RampFloor, ...]
+    steering_rate_rad_s: float
+
+    @property
+    def events_s(self) -> Floats:
+        """When the car starts or stops, or has turned its wheels at a standstill; ascending, without repetitions."""
+        stops = [start + run.seconds for start, run in zip(self.starts_s, self.runs, strict=True)]
+        steered = [stop + self._steering_s(number) for number, stop in enumerate(stops[:-1])]
+        events: Floats = np.unique(np.round([0.0, *self.starts_s, *stops, *steered, self.ends_s], 9))
+        return events
+
+    def sampled(self, step_s: float) -> Trajectory:
+        """At a fixed step, and at all events; steps that nearly coincide with an event are left out.
+
+        Parameters
+        ----------
+        step_s
+            More than 0.
+        """
+        events = self.events_s
+        steps = np.arange(0.0, self.ends_s, step_s)
+        after = np.searchsorted(events, steps)
+        nearest = np.minimum(
+            np.abs(steps - events[np.minimum(after, len(events) - 1)]), np.abs(steps - events[np.maximum(after - 1, 0)])
+        )
+        return self.at(np.sort(np.concatenate([events, steps[nearest > step_s / 10]])))
+
+    def at(self, time_s: ArrayLike) -> Trajectory:
+        """The states at some times, shape (n,), ascending; before the first run and after the last the car stands."""
+        times = np.asarray(time_s, dtype=np.float64)
+        number = np.clip(np.searchsorted(self.starts_s, times + 1e-9, side="right") - 1, 0, len(self.runs) - 1)
+        parts = [
+            self._part(index, times[number == index], driven)
+            for index, driven in enumerate(np.cumsum([0.0, *(run.way_m[-1] for run in self.runs[:-1])]).tolist())
+        ]
+        return Trajectory(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+
+    def _part(self, index: int, times: Floats, driven_m: float) -> tuple[NDArray[np.float64], ...]:
+        """The columns of a trajectory for times from the start of a run to the start of the next."""
+        run = self.runs[index]
+        since = np.clip(times - self.starts_s[index], 0.0, None)
+        stands = since >= run.seconds
+        node = np.clip(np.searchsorted(run.time_s, since, side="right") - 1, 0, len(run.time_s) - 2)
+        left = np.minimum(since, run.seconds) - run.time_s[node]
+        pace = np.where(stands, 0.0, run.acceleration_m_s2[node])
+        way = np.minimum(
+            run.way_m[node] + left * (run.speed_m_s[node] + run.acceleration_m_s2[node] * left / 2), run.way_m[-1]
+        )
+        speed = np.where(stands, 0.0, np.maximum(run.speed_m_s[node] + pace * left, 0.0))
+        points = run.path.at(np.interp(way, run.way_m, run.plan_m))
+        steering = np.arctan(self.car.wheelbase_m * points.curvature_per_m)
+        if index + 1 < len(self.runs):
+            target = self._angle(self.runs[index + 1].path.pieces[0].start_per_m)
+            turned = np.clip((since - run.seconds) * self.steering_rate_rad_s, 0.0, np.abs(target - steering))
+            steering = np.where(stands, steering + np.sign(target - steering) * turned, steering)
+        height, nose = (
+            heights_m(
+                self.ramps,
+                points.x_m - np.sin(points.yaw_rad) * ahead,
+                points.z_m - np.cos(points.yaw_rad) * ahead,
+            )
+            for ahead in (0.0, self.car.wheelbase_m)
+        )
+        sign = float(run.path.pieces[0].gear.sign)
+        return (
+            times,
+            points.x_m,
+            height,
+            points.z_m,
+            points.yaw_rad,
+            np.arctan2(nose - height, self.car.wheelbase_m),
+            sign * speed,
+            sign * pace,
+            np.tan(steering) / self.car.wheelbase_m,
+            steering,
+            np.full(len(times), sign),
+            driven_m + way,
+        )
+
+    def _angle(self, curvature_per_m: float) -> float:
+        return math.atan(self.car.wheelbase_m * curvature_per_m)
+
+    def _steering_s(self, number: int) -> float:
+        """How long the wheels are turned after a run."""
+        return _steering_s(self.runs[number].path, self.runs[number + 1].path, self.car, self.steering_rate_rad_s)
+
+
+def timed(
+    path: Path,
+    settings: DriveConfig,
+    *,
+    car: DesignCar | None = None,
+    ramps: Sequence[RampFloor] = (),
+    parked_after: int | None = None,
+) -> Motion:
+    """The motion along a path that begins and ends at a standstill.
+
+    Parameters
+    ----------
+    path
+        What is driven.
+    settings
+        Its limits.
+    car
+        Which car.
+    ramps
+        The floors that do not lie at 0.
+    parked_after
+        Number of the piece before which the car stands parked for as long as the settings say.
+
+    Notes
+    -----
+    Where the curvature of two pieces differs, the car stands while its wheels turn; where the gear does, at least as
+    long as shifting takes. In between it is as fast as its limits allow: node by node the speed is the least of those
+    of lane or parking, of the acceleration across the path, and of the steering; then the acceleration is limited
+    forwards and backwards along the way.
+    """
+    car = car or DesignCar()
+    groups, pauses = _groups(path, settings, parked_after)
+    start, runs = path.start, []
+    for pieces in groups:
+        part = Path(start, pieces)
+        runs.append(_run(part, settings, car, ramps))
+        start = part.end
+    starts, now = [], 0.0
+    for number, run in enumerate(runs):
+        starts.append(now)
+        now += run.seconds
+        if number + 1 < len(runs):
+            steering_s = _steering_s(run.path, runs[number + 1].path, car, settings.steering_rate_rad_s)
+            now += max(pauses[number], steering_s)
+    return Motion(tuple(runs), tuple(starts), now, car, tuple(ramps), settings.steering_rate_rad_s)
+
+
+def _groups(path: Path, settings: DriveConfig, parked_after: int | None) -> tuple[list[tuple[Piece, ...]], list[float]]:
+    """The pieces between standstills, and how long the car stands at least between these."""
+    groups: list[list[Piece]] = [[]]
+    pauses = []
+    for number, piece in enumerate(path.pieces):
+        if piece.length_m < _SHORTEST_M:
+            continue
+        if groups[-1]:
+            last = groups[-1][-1]
+            shifts, steers = last.gear is not piece.gear, abs(last.end_per_m - piece.start_per_m) > _SAME_PER_M
+            is_parked = number == parked_after
+            if shifts or steers or is_parked:
+                groups.append([])
+                pauses.append(max(settings.parked_s if is_parked else 0.0, settings.shift_s if shifts else 0.0))
+        groups[-1].append(piece)
+    return [tuple(group) for group in groups], pauses
+
+
+def _steering_s(one: Path, other: Path, car: DesignCar, rate_rad_s: float) -> float:
+    """How long the wheels take from the end of a path to the start of another."""
+    angles = [
+        math.atan(car.wheelbase_m * curvature) for curvature in (one.pieces[-1].end_per_m, other.pieces[0].start_per_m)
+    ]
+    return abs(angles[1] - angles[0]) / rate_rad_s
+
+
+def _run(path: Path, settings: DriveConfig, car: DesignCar, ramps: Sequence[RampFloor]) -> _Run:
+    """The fastest run over pieces that join smoothly."""
+    plan, limits = [0.0], []
+    for piece in path.pieces:
+        count = max(math.ceil(piece.length_m / _NODE_M), _LEAST_NODES)
+        ends = plan[-1] + piece.length_m * np.arange(1, count + 1) / count
+        curvatures = np.linspace(piece.start_per_m, piece.end_per_m, count + 1)
+        plan += ends.tolist()
+        limits += [_most_m_s(one, other, piece, count, settings, car) for one, other in pairwise(curvatures.tolist())]
+    plan_m = np.array(plan)
+    points = path.at(plan_m)
+    rise = np.diff(heights_m(ramps, points.x_m, points.z_m))
+    steps = np.hypot(np.diff(plan_m), rise)
+    square = np.append(np.array(limits) ** 2, 0.0)
+    square[1:-1] = np.minimum(square[:-2], square[1:-1])
+    square[0] = 0.0
+    gain = 2 * settings.acceleration_m_s2 * steps
+    for node in range(1, len(square)):
+        square[node] = min(square[node], square[node - 1] + gain[node - 1])
+    for node in range(len(square) - 2, -1, -1):
+        square[node] = min(square[node], square[node + 1] + gain[node])
+    speed = np.sqrt(square)
+    times = np.concatenate([[0.0], np.cumsum(2 * steps / (speed[1:] + speed[:-1]))])
+    way = np.concatenate([[0.0], np.cumsum(steps)])
+    return _Run(path, plan_m, way, speed, times, np.diff(square) / (2 * steps))
+
+
+def _most_m_s(one: float, other: float, piece: Piece, count: int, settings: DriveConfig, car: DesignCar) -> float:
+    """The most speed between two curvatures of a piece that is cut into so many intervals."""
+    most = settings.parking_speed_m_s if piece.is_parking else settings.lane_speed_m_s
+    tightest, widest = max(abs(one), abs(other)), min(abs(one), abs(other))
+    if tightest > 0:
+        most = min(most, math.sqrt(settings.lateral_acceleration_m_s2 / tightest))
+    sharpness = abs(other - one) / (piece.length_m / count)
+    if sharpness > 0:
+        turning = car.wheelbase_m * sharpness / (1 + (car.wheelbase_m * widest) ** 2)
+        most = min(most, settings.steering_rate_rad_s / turning)
+    return most

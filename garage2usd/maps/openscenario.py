@@ -1,0 +1,161 @@
+"""A drive as an OpenSCENARIO 1.2 scenario: the car follows its trajectory among the parked cars."""
+
+import math
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+from garage2usd.config.maps import DriveConfig
+from garage2usd.driving import DesignCar
+from garage2usd.driving.trajectory import Trajectory
+from garage2usd.errors import MissingExtraError
+from garage2usd.maps.frame import heading_rad, map_points
+from garage2usd.maps.parked_cars import ParkedCar
+from garage2usd.version import VERSION
+
+try:
+    from scenariogeneration import xosc
+except ModuleNotFoundError as error:
+    raise MissingExtraError("OpenSCENARIO", "maps", "scenariogeneration") from error
+
+__all__ = ["EGO", "write_scenario"]
+
+EGO = "Ego"
+"""Name of the car that drives."""
+_WRITTEN = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
+"""Stands for the time of writing, which would make two files of the same drive differ."""
+_MINOR = 2
+_HEIGHT_M, _WHEEL_M = 1.5, 0.62
+_AFTER_S = 1.0
+"""How long the scenario goes on when the car has come to its end."""
+_DIGITS = 6
+
+
+def write_scenario(
+    path: Path,
+    trajectory: Trajectory,
+    *,
+    car: DesignCar,
+    settings: DriveConfig,
+    road_file: str,
+    parked: Sequence[ParkedCar] = (),
+    name: str = "drive",
+    seed: int | None = None,
+) -> None:
+    """Write a scenario in the frame of all maps (`garage2usd.maps.frame`).
+
+    Parameters
+    ----------
+    path
+        The file.
+    trajectory
+        What the car drives; its last state ends the scenario a second later.
+    car, settings
+        The car, and the limits that it keeps to.
+    road_file
+        Name of the OpenDRIVE file, as it is found from the folder of the scenario.
+    parked
+        The other cars.
+    name, seed
+        Said in the header.
+
+    Notes
+    -----
+    Positions of the car that drives are those of its rear axle's middle on the floor, of parked cars the middle of
+    their footprints; the bounding boxes say where the bodies are.
+    """
+    entities = xosc.Entities()
+    entities.add_scenario_object(EGO, _design_car(car, settings))
+    init = xosc.Init()
+    positions = _positions(trajectory)
+    init.add_init_action(EGO, xosc.TeleportAction(positions[0]))
+    init.add_init_action(EGO, _speed(0.0))
+    for other in parked:
+        entities.add_scenario_object(other.name, _standing_car(other))
+        ((x, y),) = map_points([other.middle_m]).tolist()
+        place = xosc.WorldPosition(_number(x), _number(y), 0.0, _number(heading_rad(other.yaw_rad)), 0.0, 0.0)
+        init.add_init_action(other.name, xosc.TeleportAction(place))
+    times = [_number(time) for time in trajectory.time_s.tolist()]
+    way = xosc.Trajectory(name, closed=False)
+    way.add_shape(xosc.Polyline(times, positions))
+    follow = xosc.FollowTrajectoryAction(way, xosc.FollowingMode.position, xosc.ReferenceContext.relative, 1, 0)
+    storyboard = xosc.StoryBoard(init, _when("end", times[-1] + _AFTER_S, "stop"))
+    storyboard.add_act(_act(follow))
+    seeded = "" if seed is None else f", seed {seed}"
+    description = f"{name}, by garage2usd {VERSION}{seeded}"
+    scenario = xosc.Scenario(
+        description,
+        "garage2usd",
+        xosc.ParameterDeclarations(),
+        entities,
+        storyboard,
+        xosc.RoadNetwork(road_file),
+        xosc.Catalog(),
+        osc_minor_version=_MINOR,
+        creation_date=_WRITTEN,
+    )
+    scenario.write_xml(str(path))
+
+
+def _positions(trajectory: Trajectory) -> list["xosc.WorldPosition"]:
+    """The states as positions; a nose that looks up has a negative pitch there."""
+    places = map_points(np.stack([trajectory.x_m, trajectory.z_m], axis=1)).tolist()
+    # unbroken, so that what is interpolated between two of them takes the short way round
+    headings = (math.pi / 2 + trajectory.yaw_rad).tolist()
+    return [
+        xosc.WorldPosition(_number(x), _number(y), _number(height), _number(heading), _number(-pitch), 0.0)
+        for (x, y), height, heading, pitch in zip(
+            places, trajectory.y_m.tolist(), headings, trajectory.pitch_rad.tolist(), strict=True
+        )
+    ]
+
+
+def _design_car(car: DesignCar, settings: DriveConfig) -> "xosc.Vehicle":
+    middle_m = car.length_m / 2 - car.rear_overhang_m
+    box = xosc.BoundingBox(car.width_m, car.length_m, _HEIGHT_M, middle_m, 0.0, _HEIGHT_M / 2)
+    lock_rad = math.atan(car.wheelbase_m / car.rear_axle_radius_m)
+    front = xosc.Axle(_number(lock_rad), _WHEEL_M, car.track_m, car.wheelbase_m, _WHEEL_M / 2)
+    rear = xosc.Axle(0.0, _WHEEL_M, car.track_m, 0.0, _WHEEL_M / 2)
+    most = settings.acceleration_m_s2
+    return xosc.Vehicle("design_car", xosc.VehicleCategory.car, box, front, rear, settings.lane_speed_m_s, most, most)
+
+
+def _standing_car(parked: ParkedCar) -> "xosc.Vehicle":
+    width, length, height = (_number(value) for value in (parked.width_m, parked.length_m, parked.height_m))
+    box = xosc.BoundingBox(width, length, height, 0.0, 0.0, _number(height / 2))
+    # a scenario asks for axles, which the box of a car does not tell
+    wheelbase_m, track_m = _number(0.58 * length), _number(0.85 * width)
+    front = xosc.Axle(0.5, _WHEEL_M, track_m, wheelbase_m / 2, _WHEEL_M / 2)
+    rear = xosc.Axle(0.0, _WHEEL_M, track_m, -wheelbase_m / 2, _WHEEL_M / 2)
+    return xosc.Vehicle(parked.name, xosc.VehicleCategory.car, box, front, rear, 50.0, 5.0, 8.0)
+
+
+def _speed(speed_m_s: float) -> "xosc.AbsoluteSpeedAction":
+    at_once = xosc.TransitionDynamics(xosc.DynamicsShapes.step, xosc.DynamicsDimension.time, 0)
+    return xosc.AbsoluteSpeedAction(speed_m_s, at_once)
+
+
+def _act(action: "xosc.FollowTrajectoryAction") -> "xosc.Act":
+    event = xosc.Event("follow", xosc.Priority.override)
+    event.add_action("follow", action)
+    event.add_trigger(_when("begin", 0.0))
+    maneuver = xosc.Maneuver("drive")
+    maneuver.add_event(event)
+    group = xosc.ManeuverGroup("drive")
+    group.add_actor(EGO)
+    group.add_maneuver(maneuver)
+    act = xosc.Act("drive", _when("start", 0.0))
+    act.add_maneuver_group(group)
+    return act
+
+
+def _when(name: str, time_s: float, triggering: str = "start") -> "xosc.ValueTrigger":
+    """Once the simulation's time is later than a time."""
+    later = xosc.SimulationTimeCondition(_number(time_s), xosc.Rule.greaterOrEqual)
+    return xosc.ValueTrigger(name, 0, xosc.ConditionEdge.none, later, triggering)
+
+
+def _number(value: float) -> float:
+    return round(value, _DIGITS) + 0.0

@@ -1,0 +1,157 @@
+"""A car that drives a trajectory in time, in a layer to put over a garage's stage."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf, Kind, Sdf
+
+from garage2usd.assets import MATERIALS, Part, pascal_case
+from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.driving import DesignCar
+from garage2usd.driving.timing import Motion
+from garage2usd.driving.trajectory import Trajectory
+from garage2usd.objects.car import CarSpec
+from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
+from garage2usd.stage.cameras import FRAMES_PER_SECOND, bends, set_frames
+from garage2usd.stage.looks import define_material
+from garage2usd.stage.prototype_layer import define_mesh
+from garage2usd.stage.prototypes import asset_of
+
+__all__ = ["CAR_NAME", "body_within", "write_driving_car"]
+
+CAR_NAME = "DrivingCar"
+"""Name of the car below ``/Garage``."""
+_PAINT, _PAINT_LOOK = "car_paint", "blue"
+_TYPES = Sdf.ValueTypeNames
+
+
+def body_within(car: DesignCar) -> CarBody:
+    """The longest body of the catalogue that lies within a car where both have their rear axles at one place.
+
+    The mirrors stand out of it, as they do of the design car. Where none fits, the shortest.
+    """
+    fitting = [body for body in CAR_BODIES if _lies_within(body, car)]
+    return max(fitting, key=lambda body: body.length_m) if fitting else min(CAR_BODIES, key=lambda body: body.length_m)
+
+
+def _lies_within(body: CarBody, car: DesignCar) -> bool:
+    ahead_m = body.front_overhang_m + body.wheelbase_m
+    behind_m = body.length_m - ahead_m
+    return ahead_m <= car.ahead_m and behind_m <= car.rear_overhang_m and body.width_m <= car.width_m
+
+
+def write_driving_car(path: Path, motion: Motion) -> None:
+    """Write the layer: ``over /Garage`` with the car at ``/Garage/DrivingCar``, its wheels below it.
+
+    Notes
+    -----
+    24 frames a second, as the stage has; the first is 0. The car's origin is the middle of its rear axle on the floor.
+    Its wheels roll, and the front ones steer. Samples are left out where a value changes steadily, as USD interpolates
+    linearly.
+    """
+    last = math.ceil(motion.ends_s * FRAMES_PER_SECOND - 1e-6)
+    frames = np.arange(last + 1)
+    states = motion.at(frames / FRAMES_PER_SECOND)
+    body = body_within(motion.car)
+    with new_layer(path, default_prim="Garage") as layer:
+        set_frames(layer, last)
+        garage = Sdf.CreatePrimInLayer(layer, "/Garage")
+        garage.specifier = Sdf.SpecifierOver
+        car = define(layer, garage.path.AppendChild(CAR_NAME), "Xform", kind=Kind.Tokens.component, label="car")
+        _author_drive(layer, car, states)
+        _author_body(layer, car.path, body, states)
+
+
+def _author_drive(layer: Sdf.Layer, car: Sdf.PrimSpec, states: Trajectory) -> None:
+    places = np.stack([states.x_m, states.y_m, states.z_m], axis=1)
+    _sampled(layer, car, "translate", places)
+    _sampled(layer, car, "rotateY", np.degrees(states.yaw_rad)[:, None])
+    _sampled(layer, car, "rotateX", np.degrees(states.pitch_rad)[:, None])
+    order_operations(car, ["translate", "rotateY", "rotateX"])
+    for name in ("speed_m_s", "acceleration_m_s2", "steering_rad"):
+        values = getattr(states, name)
+        spec = attribute(car, f"garage:drive:{name.split('_', maxsplit=1)[0]}", _TYPES.Double, float(values[0]))
+        for frame in bends(values[:, None]):
+            layer.SetTimeSample(spec.path, float(frame), round(float(values[frame]), 6))
+
+
+def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Trajectory) -> None:
+    asset = asset_of(CarSpec(body.name, _PAINT_LOOK).shape)
+    axle_m = body.front_overhang_m + body.wheelbase_m - body.length_m / 2
+    looks = define(layer, car.AppendChild("Looks"), "Scope").path
+    for key in sorted({part.material for part in asset.parts}):
+        # the paint is that of one variant; the catalogue's own material has none
+        material = MATERIALS[asset.paints[_PAINT_LOOK] if key == _PAINT else key]
+        define_material(layer, looks.AppendChild(pascal_case(key)), material)
+    shell = define(layer, car.AppendChild("Body"), "Xform")
+    operation(shell, "translate", _TYPES.Float3, Gf.Vec3f(0, 0, -axle_m))
+    order_operations(shell, ["translate"])
+    wheels: dict[tuple[int, int], list[Part]] = {}
+    for part in asset.parts:
+        if part.material not in {"tyre", "rim"}:
+            define_mesh(layer, shell.path.AppendChild(part.name), replace(part, collider=None), looks)
+            continue
+        for corner, piece in _by_corner(part, axle_m - body.wheelbase_m / 2):
+            wheels.setdefault(corner, []).append(piece)
+    rolled = np.concatenate([[0.0], np.cumsum(states.gear[1:] * np.diff(states.arc_m))])
+    rolled_deg = -np.degrees(rolled / body.wheel_radius_m)
+    for (side, end), parts in sorted(wheels.items()):
+        name = f"{'Rear' if end > 0 else 'Front'}{'Right' if side > 0 else 'Left'}Wheel"
+        wheel = define(layer, car.AppendChild(name), "Xform")
+        points = np.concatenate([part.points for part in parts])
+        hub = ((points.min(axis=0) + points.max(axis=0)) / 2).astype(np.float32)
+        operation(wheel, "translate", _TYPES.Float3, Gf.Vec3f(float(hub[0]), float(hub[1]), float(hub[2]) - axle_m))
+        order = ["translate"]
+        if end < 0:
+            _sampled(layer, wheel, "rotateY", np.degrees(states.steering_rad)[:, None])
+            order.append("rotateY")
+        _sampled(layer, wheel, "rotateX", rolled_deg[:, None])
+        order_operations(wheel, [*order, "rotateX"])
+        for part in parts:
+            # tyres and rims have the names of their materials here
+            moved = replace(part, points=part.points - hub, collider=None)
+            define_mesh(layer, wheel.path.AppendChild(pascal_case(part.material)), moved, looks)
+
+
+def _by_corner(part: Part, middle_z_m: float) -> Iterator[tuple[tuple[int, int], Part]]:
+    """A part of several wheels as one part a wheel, by the signs of its x and of its z from the middle of the axles."""
+    starts = np.cumsum(part.face_counts) - part.face_counts
+    face_of = np.repeat(np.arange(len(starts)), part.face_counts)
+    first = part.points[part.face_indices[starts]]
+    corners = np.stack([np.sign(first[:, 0]), np.sign(first[:, 2] - middle_z_m)], axis=1).astype(int)
+    for corner in np.unique(corners, axis=0).tolist():
+        faces = (corners == corner).all(axis=1)
+        yield (corner[0], corner[1]), _with_faces(part, faces, faces[face_of])
+
+
+def _with_faces(part: Part, faces: NDArray[np.bool_], corners: NDArray[np.bool_]) -> Part:
+    """Some of a part's faces, with the points and normals that they use."""
+    used, indices = np.unique(part.face_indices[corners], return_inverse=True)
+    normals, normal_indices = np.unique(part.normal_indices[corners], return_inverse=True)
+    return replace(
+        part,
+        points=part.points[used],
+        face_counts=part.face_counts[faces],
+        face_indices=indices.astype(np.int32),
+        normals=part.normals[normals],
+        normal_indices=normal_indices.astype(np.int32),
+        st=part.st[:0],
+        st_indices=part.st_indices[:0],
+    )
+
+
+def _sampled(layer: Sdf.Layer, prim: Sdf.PrimSpec, name: str, values: NDArray[np.float64]) -> None:
+    """A transform operation with samples where its values, shape (frames, n), bend."""
+    is_vector = values.shape[1] > 1
+
+    def value(frame: int) -> object:
+        row = np.round(values[frame], 6).tolist()
+        return Gf.Vec3d(*row) if is_vector else row[0]
+
+    spec = operation(prim, name, _TYPES.Double3 if is_vector else _TYPES.Double, value(0))
+    for frame in bends(np.round(values, 6)):
+        layer.SetTimeSample(spec.path, float(frame), value(frame))

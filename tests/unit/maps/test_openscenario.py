@@ -1,0 +1,174 @@
+"""The scenario of a drive, read from its file alone and by ASAM's checker."""
+
+import math
+import os
+import subprocess
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+import shapely.affinity
+from support.sample_files import REPOSITORY
+from support.small_garage import SETTINGS
+
+import garage2usd
+from garage2usd.checks.layout_reader import layout_subject
+from garage2usd.maps.drives import DrivePlanner, Leg
+from garage2usd.maps.openscenario import EGO, write_scenario
+from garage2usd.maps.parked_cars import parked_cars
+
+JUDGES = REPOSITORY / ".venv/judges/bin"
+CHECKER = Path(os.environ.get("GARAGE2USD_QC_OPENSCENARIO", JUDGES / "qc_openscenario"))
+
+
+@pytest.fixture(scope="module")
+def garage():
+    return garage2usd.generate(garage2usd.GarageConfig(**SETTINGS))
+
+
+@pytest.fixture(scope="module")
+def subject(garage):
+    return layout_subject(garage.layout, garage.graph, source="garage", kind="plan")
+
+
+@pytest.fixture(scope="module")
+def drives(garage, subject):
+    planner = DrivePlanner(subject)
+    name = next(stall.name for stall in garage.layout.stalls if stall.use.takes_cars)
+    return {leg: planner.drive(name, leg=leg) for leg in Leg}
+
+
+@pytest.fixture(scope="module")
+def scenarios(drives, subject, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("scenarios")
+
+    def written(leg, name):
+        drive = drives[leg]
+        file = folder / name
+        write_scenario(
+            file,
+            drive.motion.sampled(0.1),
+            car=drive.car,
+            settings=drive.settings,
+            road_file="garage.xodr",
+            parked=parked_cars(subject, free=[drive.route.stall]),
+            name=f"{leg} {drive.route.stall}",
+            seed=2,
+        )
+        return file
+
+    return written
+
+
+def places(element):
+    return [[float(at.get(name)) for name in ("x", "y", "z", "h", "p", "r")] for at in element.iter("WorldPosition")]
+
+
+@pytest.mark.parametrize("leg", list(Leg))
+def test_the_car_follows_its_trajectory_in_the_map_s_frame(drives, scenarios, leg):
+    root = ET.parse(scenarios(leg, f"{leg}.xosc")).getroot()
+    (line,) = root.iter("Polyline")
+    vertices = line.findall("Vertex")
+    states = drives[leg].motion.sampled(0.1)
+    times = [float(vertex.get("time")) for vertex in vertices]
+    assert times == pytest.approx(states.time_s, abs=1e-6)
+    found = np.array(places(line))
+    # north is the stage's -Z; the nose of a car with yaw 0 looks there
+    assert found[:, 0] == pytest.approx(states.x_m, abs=1e-6)
+    assert found[:, 1] == pytest.approx(-states.z_m, abs=1e-6)
+    assert found[:, 2] == pytest.approx(states.y_m, abs=1e-6)
+    noses = np.stack([np.cos(found[:, 3]), np.sin(found[:, 3])])
+    assert noses[0] == pytest.approx(-np.sin(states.yaw_rad), abs=1e-5)
+    assert noses[1] == pytest.approx(np.cos(states.yaw_rad), abs=1e-5)
+    # a nose that looks up has a negative pitch in ISO 8855
+    assert found[:, 4] == pytest.approx(-states.pitch_rad, abs=1e-6)
+    init = next(private for private in root.iter("Private") if private.get("entityRef") == EGO)
+    assert places(init)[0] == pytest.approx(found[0])
+    (road,) = root.iter("LogicFile")
+    assert road.get("filepath") == "garage.xodr"
+
+
+def test_the_box_of_the_car_lies_about_its_rear_axle(drives, scenarios):
+    root = ET.parse(scenarios(Leg.IN, "box.xosc")).getroot()
+    ego = next(entity for entity in root.iter("ScenarioObject") if entity.get("name") == EGO)
+    centre, size = ego.find(".//BoundingBox/Center"), ego.find(".//BoundingBox/Dimensions")
+    x, length = float(centre.get("x")), float(size.get("length"))
+    car = drives[Leg.IN].car
+    assert (x - length / 2, x + length / 2) == pytest.approx((-car.rear_overhang_m, car.ahead_m))
+    assert float(ego.find(".//FrontAxle").get("positionX")) == car.wheelbase_m
+
+
+def test_parked_cars_stand_where_the_garage_has_them(garage, drives, scenarios):
+    root = ET.parse(scenarios(Leg.BOTH, "parked.xosc")).getroot()
+    parked = drives[Leg.BOTH].route.stall
+    cars = [car for car in garage.layout.of_kind("car") if car.stall != parked]
+    assert cars
+    inits = {private.get("entityRef"): places(private)[0] for private in root.iter("Private")}
+    del inits[EGO]
+    assert len(inits) == len(cars)
+    boxes = {}
+    for entity in root.iter("ScenarioObject"):
+        size = entity.find(".//BoundingBox/Dimensions")
+        boxes[entity.get("name")] = float(size.get("length")), float(size.get("width"))
+    found = []
+    for name, (x, y, _, heading, _, _) in inits.items():
+        length, width = boxes[name]
+        along = np.array([math.cos(heading), math.sin(heading)])
+        across = np.array([-along[1], along[0]])
+        corners = [
+            np.array([x, y]) + s * along * length / 2 + t * across * width / 2
+            for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
+        ]
+        found.append((shapely.Polygon(corners), along))
+    for car in cars:
+        ground = shapely.union_all([shapely.Polygon(outline) for outline in car.outlines()])
+        ground = shapely.affinity.scale(ground, 1, -1, origin=(0, 0))
+        box, along = max(found, key=lambda pair: pair[0].intersection(ground).area)
+        assert ground.difference(box.buffer(0.02)).is_empty
+        assert box.area < 1.35 * ground.convex_hull.area
+        nose = np.array([-math.sin(car.yaw_rad), math.cos(car.yaw_rad)])
+        assert nose @ along > 0.999
+
+
+def test_the_same_drive_has_the_same_bytes(scenarios):
+    one, other = (scenarios(Leg.IN, f"{name}.xosc").read_bytes() for name in ("one", "other"))
+    assert one == other
+    assert b"seed 2" in one
+
+
+@pytest.mark.client
+@pytest.mark.skipif(not CHECKER.exists(), reason="asam-qc-openscenarioxml is not installed beside the judges")
+@pytest.mark.parametrize("leg", list(Leg))
+def test_asam_s_checker_has_no_issue(scenarios, tmp_path, leg):
+    issues = judged(scenarios(leg, f"checked_{leg}.xosc"), tmp_path)
+    assert issues == []
+
+
+@pytest.mark.client
+@pytest.mark.skipif(not CHECKER.exists(), reason="asam-qc-openscenarioxml is not installed beside the judges")
+def test_asam_s_checker_sees_a_scenario_that_is_broken(scenarios, tmp_path):
+    text = (
+        scenarios(Leg.IN, "broken.xosc")
+        .read_text()
+        .replace("<ObjectController", "<Nothing", 1)
+        .replace('entityRef="Ego"', 'entityRef="Nobody"')
+    )
+    broken = tmp_path / "broken.xosc"
+    broken.write_text(text)
+    assert judged(broken, tmp_path)
+
+
+def judged(file, folder):
+    """Descriptions of the issues that the checker reports."""
+    settings, result = folder / "settings.xml", folder / "result.xqar"
+    settings.write_text(
+        f'<?xml version="1.0" encoding="UTF-8"?><Config><Param name="InputFile" value="{file}"/>'
+        f'<CheckerBundle application="xoscBundle"><Param name="resultFile" value="{result}"/></CheckerBundle></Config>'
+    )
+    subprocess.run([str(CHECKER), "-c", str(settings)], cwd=folder, check=True, capture_output=True, timeout=120)
+    report = ET.parse(result).getroot()
+    checkers = list(report.iter("Checker"))
+    assert len(checkers) > 10
+    return [issue.get("description") for checker in checkers for issue in checker.findall("Issue")]
