@@ -62,6 +62,10 @@ if [ ! -e "$stamp" ]; then
         validator=$(sed -n 's/^VALIDATOR_VERSION = "\(.*\)"$/\1/p' tests/support/gltf_validator.py)
         "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three" \
             "gltf-validator@$validator"
+        # programs that judge maps and scenarios, whose pins stay apart from ours
+        [ -x .venv/judges/bin/python ] || "$python" -m venv .venv/judges
+        .venv/judges/bin/python -m pip install --quiet --disable-pip-version-check \
+            "asam-qc-openscenarioxml==1.0.0" "ir-sim==2.12.0"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
     fi

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from garage2usd.config import GarageConfig, load_config
     from garage2usd.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
+    from garage2usd.exports import export
     from garage2usd.pipeline import Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum
     from garage2usd.structure.grid import Structure
@@ -25,6 +26,7 @@ __all__ = [
     "Structure",
     "UnreachableStallError",
     "build",
+    "export",
     "find_optimum",
     "generate",
     "load_config",
@@ -40,6 +42,7 @@ _HOME = {
     "Structure": "structure.grid",
     "UnreachableStallError": "errors",
     "build": "pipeline",
+    "export": "exports",
     "find_optimum": "planning.optimum",
     "generate": "pipeline",
     "load_config": "config",

@@ -9,6 +9,7 @@ from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
 from garage2usd.cli.drive import drive
+from garage2usd.cli.export import export
 from garage2usd.cli.meshes import meshes
 from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
@@ -37,7 +38,7 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, drive, meshes, plan, render, schema, textures, view):
+for _command in (build, check, drive, export, meshes, plan, render, schema, textures, view):
     main.add_command(_command)
 
 

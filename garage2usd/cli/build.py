@@ -35,6 +35,12 @@ _RULES_NAMED = 3
     help="Draw the N best plans as well (a_best.png).",
 )
 @click.option(
+    "--with",
+    "formats",
+    metavar="FORMAT,...",
+    help="Export the stage as well, beside it: glb, yaml, or both with a comma; see `garage2usd export`.",
+)
+@click.option(
     "--output",
     "-o",
     metavar="FILE",
@@ -51,6 +57,7 @@ def build(
     tape: str | None,
     learning_curve: bool,
     best_plans: int,
+    formats: str | None,
     output: Path,
 ) -> None:
     """Build the garage that CONFIG (TOML) describes, or without one the default: 7 x 9 squares, all of them inside.
@@ -71,6 +78,7 @@ def build(
         settings = load_config(config, profile=profile)
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
+    exports = _exports(output, formats)
     with Bars(sys.stderr) as progress:
         made = build_garage(
             settings,
@@ -81,7 +89,21 @@ def build(
             best_plans=best_plans,
             progress=progress,
         )
+        if exports:
+            from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
+
+            exports = export(made.stage, exports, settings=settings.maps, progress=progress)
     _describe(made)
+    echo_table(("export", str(file)) for file in exports)
+
+
+def _exports(output: Path, formats: str | None) -> tuple[Path, ...]:
+    """What is exported beside a stage; refused before the garage is made if it cannot be."""
+    if formats is None:
+        return ()
+    from garage2usd.exports import check_exports  # noqa: PLC0415 - most builds are not exported
+
+    return check_exports([output.with_name(f"{output.stem}.{name.strip()}") for name in formats.split(",")])
 
 
 def _describe(made: "Build") -> None:

@@ -13,7 +13,7 @@ from garage2usd.limits import enforce
 
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
-SUPERVISED = frozenset({"check", "drive", "plan", "render", "view"})
+SUPERVISED = frozenset({"check", "drive", "export", "plan", "render", "view"})
 """The commands that open stages from unknown sources."""
 CRASHES = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGKILL}
 _FAILED = 1
