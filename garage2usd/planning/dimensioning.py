@@ -46,9 +46,9 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
 
     Notes
     -----
-    A line of squares is an aisle's if cars drive along it on one of its squares. From aisles and shortest stalls on,
-    one line after the other takes the size that lowers the area per stall, until none does. A line's trial changes
-    only its own squares, so that only these are counted again.
+    A line of squares is an aisle's if cars drive along it on one of its squares. One line after the other takes the
+    size that lowers the area per stall, until none does: once from the shortest sizes and once from the longest, as
+    either may end better. A line's trial changes only its own squares, so that only these are counted again.
     """
     aisle, free_sizes = aisle_side_mm(bay), free_sides_mm(bay)
     door = round(bay.portal_side_m * _MM_PER_M)
@@ -67,14 +67,18 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
         if is_chosen
         for line in range(structure.shape[axis])
     ]
-    for axis, line, sizes in lines:
-        sides[axis][line] = sizes[0]
-    sized = _Sized(structure.cells, sides, [size for _, _, sizes in lines for size in sizes], bay)
     open_lines = [(axis, line, sizes) for axis, line, sizes in lines if len(sizes) > 1]
-    for _ in range(_PASSES):
-        if not sum(sized.improve(*line) for line in open_lines):
-            break
-    return Structure(structure.cells, sized.side_mm(1), sized.side_mm(0))
+    ends = []
+    for first in (0, -1):
+        for axis, line, sizes in lines:
+            sides[axis][line] = sizes[first]
+        sized = _Sized(structure.cells, sides, [size for _, _, sizes in lines for size in sizes], bay)
+        for _ in range(_PASSES):
+            if not sum(sized.improve(*line) for line in open_lines):
+                break
+        ends.append(sized)
+    best = min(ends, key=lambda sized: sized.area_per_stall_m2)
+    return Structure(structure.cells, best.side_mm(1), best.side_mm(0))
 
 
 def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
@@ -113,6 +117,11 @@ class _Sized:
         """Depths of the rows (0) or widths of the columns (1)."""
         sides: NDArray[np.int64] = self._sizes_mm[self._at[axis]]
         return sides
+
+    @property
+    def area_per_stall_m2(self) -> float:
+        """Floor over stalls; infinite without stalls."""
+        return self._area / _MM2_PER_M2 / self._stalls if self._stalls else float("inf")
 
     def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
         """Give a line the size with the least area per stall, if that is less than now."""

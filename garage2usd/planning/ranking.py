@@ -67,7 +67,7 @@ def least_floor_first(site: Structure, ground: Ground, ranked: list[Ranked], bay
 
 
 def apart(ranked: list[Ranked], count: int) -> list[Ranked]:
-    """The best few plans of which no two have most lanes in common, then the best of the rest."""
+    """The best few plans of which no two have most lanes in common; fewer where there are no more."""
     chosen: list[Ranked] = []
     for entry in ranked:
         common = max((int((entry[1] & lanes).sum()) / max(1, int(lanes.sum())) for _, lanes in chosen), default=0.0)

@@ -1,3 +1,4 @@
+import itertools
 import time
 
 import numpy as np
@@ -55,6 +56,18 @@ def test_no_single_line_can_be_chosen_better():
                 changed[axis][line] = size
                 other = Structure(sized.cells, changed[1], changed[0])
                 assert area_per_stall_m2(other, BAY) >= best - 1e-9
+
+
+def test_sizes_that_come_only_from_the_longest_stalls_are_found():
+    plan = structure(".#===\n....=\n....=\n.....")
+    rows = [(6700,), *[(5300, 5400, 7800)] * 3]
+    columns = [*[(5300, 5400, 7800)] * 4, (6700,)]
+    least = min(
+        area_per_stall_m2(Structure.from_arrays(plan.cells, np.divide(widths, 1000), np.divide(depths, 1000)), BAY)
+        for depths in itertools.product(*rows)
+        for widths in itertools.product(*columns)
+    )
+    assert area_per_stall_m2(dimension(plan, bay=BAY), BAY) == pytest.approx(least)
 
 
 def test_what_the_user_gives_is_kept():
