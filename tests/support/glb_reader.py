@@ -89,7 +89,7 @@ def assert_like_the_stage(data, stage_path, labels):
     glb, stage = Glb(data), Usd.Stage.Open(str(stage_path))
     number_of = {node["name"]: number for number, node in enumerate(glb.nodes)}
     assert len(number_of) == len(glb.nodes)
-    objects = {entry["path"]: entry for entry in labels["objects"]}
+    objects = {entry["path"]: entry for entry in labels}
     assert objects.keys() == {name for name in number_of if name.partition("/")[0] != "stalls"}
     seen, meshes, prototypes, judged = _Drawn(), defaultdict(set), set(), set()
     for path, entry in objects.items():
@@ -274,7 +274,7 @@ def assert_stalls(data, report, labels):
     glb, stalls = Glb(data), stalls_of(report)
     cars = {
         entry["path"]: re.sub(r".*/Tile_(r\d+_c\d+)/Car_(\d+)$", r"Stall_\1_\2", entry["path"])
-        for entry in labels["objects"]
+        for entry in labels
         if entry["class"] == "car"
     }
     nodes = {node["name"]: (number, node) for number, node in enumerate(glb.nodes)}

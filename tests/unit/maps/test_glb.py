@@ -9,6 +9,7 @@ from PIL import Image
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSemantics, UsdShade
 from scipy.spatial import KDTree
 from support.glb_reader import Glb, assert_like_the_stage, assert_stalls
+from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
 from support.places import MILLIMETRE, assert_same_places
 from support.sample_files import each_sample
@@ -28,7 +29,7 @@ def judge(write, built, folder):
     """Write a GLB of a build and compare it with the stage."""
     path = folder / "garage.glb"
     write(Usd.Stage.Open(str(built.stage)), path)
-    labels = json.loads(built.stage.with_name(f"{built.stage.stem}_labels.json").read_text())
+    labels = labelled_objects(built.stage.with_name(f"{built.stage.stem}_labels.json"))
     assert_like_the_stage(path.read_bytes(), built.stage, labels)
     assert_stalls(path.read_bytes(), json.loads(built.report.read_text()), labels)
 
@@ -56,10 +57,10 @@ def test_every_form_gives_the_same_garage(form, made, tmp_path):
     write_glb(Usd.Stage.Open(str(other.stage)), tmp_path / "other.glb")
     write_glb(Usd.Stage.Open(str(made.stage)), tmp_path / "made.glb")
     glbs = [Glb((tmp_path / f"{name}.glb").read_bytes()) for name in ("other", "made")]
-    table = json.loads((tmp_path / "other_labels.json").read_text())
+    objects = labelled_objects(tmp_path / "other_labels.json")
     said = {node["name"]: node["extras"] for node in glbs[0].nodes if "mesh" in node}
     assert {name: (own["class"], own["id"]) for name, own in said.items()} == {
-        entry["path"]: (entry["class"], entry["id"]) for entry in table["objects"]
+        entry["path"]: (entry["class"], entry["id"]) for entry in objects
     }
     for label in (
         "column",

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.driven_cells import covered
+from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
 from support.map_reader import FREE, OCCUPIED, UNKNOWN, read_map
 from support.sample_files import each_sample
@@ -41,8 +42,7 @@ def driven(built):
 
 def objects_of(built):
     """Class and corners (x, height, y) of the bounds of each object of the table of labels."""
-    table = json.loads(built.stage.with_name(f"{built.stage.stem}_labels.json").read_text())
-    for entry in table["objects"]:
+    for entry in labelled_objects(built.stage.with_name(f"{built.stage.stem}_labels.json")):
         (x0, low, z0), (x1, high, z1) = entry["min_m"], entry["max_m"]
         yield entry["class"], (x0, low, -z1), (x1, high, -z0)
 
