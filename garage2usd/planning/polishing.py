@@ -46,9 +46,9 @@ on what labels reach, and from which on it is large."""
 _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 
 # annealing of whole plans: how many plans, their flips times squares, which bounds the time on any site, and heats in
-# stalls; with R and C chosen, 80 sites of 7x9 take 29.00 m2 a stall, with ten plans 29.03, and 29.18 before, with six
-# and from 3.0 to 0.5; on middle sites cooler heats lose stalls: 220.8, 220.6, 219.9 and 219.8 on 40 sites of 12x16 from
-# 3.0 to 0.6, 2.0 to 0.4, 2.0 to 0.2 and 1.2 to 0.3
+# stalls; with R and C chosen, 80 sites of 7x9 take 29.00 m2 a stall, with ten plans 29.03; it was 29.18 with the six
+# best plans, from 3.0 to 0.5, and sizes from the shortest alone; of 40 sites of 12x16 the 24 middle ones come to 243.5
+# stalls on equal squares, and to 243.4 from 2.0 to 0.4, 242.3 from 2.0 to 0.2, 242.1 from 1.2 to 0.3
 _ANNEALED, _ANNEALED_MIDDLE = (12, 5_000_000, (3.0, 0.3)), (6, 48_000_000, (3.0, 0.6))
 
 # annealing under rules: how many runs, more while none keeps the rules, and how many moves in each; on large sites few,
