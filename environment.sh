@@ -23,7 +23,8 @@ if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
     need "$("$python" -c 'import sys; print(f"python{sys.version_info[0]}.{sys.version_info[1]}-venv")')"
 fi
 if [ "$goal" = test ]; then
-    # git for the tests' clean clone, a C# compiler, a browser for three.js, and what Blender's Python module links against
+    # git for the tests' clean clone, a C# compiler, a browser for three.js, and what Blender's Python module and Open3D
+    # link against
     command -v git >/dev/null || need git
     command -v mcs >/dev/null || need mono-mcs
     command -v mono >/dev/null || need mono-runtime
@@ -31,7 +32,7 @@ if [ "$goal" = test ]; then
         command -v google-chrome-stable >/dev/null || need chromium
     for library in libGL.so.1:libgl1 libEGL.so.1:libegl1 libX11.so.6:libx11-6 libXrender.so.1:libxrender1 \
         libXi.so.6:libxi6 libXxf86vm.so.1:libxxf86vm1 libXfixes.so.3:libxfixes3 libxkbcommon.so.0:libxkbcommon0 \
-        libSM.so.6:libsm6 libICE.so.6:libice6 libgomp.so.1:libgomp1; do
+        libSM.so.6:libsm6 libICE.so.6:libice6 libgomp.so.1:libgomp1 libusb-1.0.so.0:libusb-1.0-0; do
         /sbin/ldconfig -p | grep -q "${library%%:*} " || need "${library##*:}"
     done
 fi
@@ -65,7 +66,17 @@ if [ ! -e "$stamp" ]; then
         # programs that judge maps and scenarios, whose pins stay apart from ours
         [ -x .venv/judges/bin/python ] || "$python" -m venv .venv/judges
         .venv/judges/bin/python -m pip install --quiet --disable-pip-version-check \
-            "asam-qc-openscenarioxml==1.0.0" "ir-sim==2.12.0"
+            "asam-qc-opendrive==1.0.0" "asam-qc-openscenarioxml==1.0.0" "carla==0.9.16" "eclipse-sumo==1.28.0" \
+            "ir-sim==2.12.0" "lanelet2==1.2.3"
+        # those that judge what sensors record, which need other versions than the first
+        [ -x .venv/sensor_judges/bin/python ] || "$python" -m venv .venv/sensor_judges
+        .venv/sensor_judges/bin/python -m pip install --quiet --disable-pip-version-check \
+            "faster-coco-eval==1.8.0" "mcap-ros2-support==0.6.0" "nuscenes-devkit==1.2.0" "open3d==0.20.0" \
+            "panopticapi-lite==0.2.0" "pycocotools==2.0.11" "pypcd4==1.5.1"
+        # NVIDIA's validator of SimReady assets, which brings a usd-core of its own
+        [ -x .venv/simready/bin/python ] || "$python" -m venv .venv/simready
+        .venv/simready/bin/python -m pip install --quiet --disable-pip-version-check \
+            "simready-foundation-tier-core==2026.8.0" "simready-validate==2026.8.0"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
     fi

@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, rules, circulation, scale, stages, unity
-and compiled.
+Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, rules, circulation, scale, stages,
+exports, datasets, workers, lidar, unity and compiled.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -19,6 +19,9 @@ import time
 from pathlib import Path
 
 from circulation import circulation
+from datasets import datasets, workers
+from exports import exports
+from lidar import lidar
 from planning import planning
 from rules import rules
 from scale import scale
@@ -43,6 +46,10 @@ def main() -> None:
         "circulation": circulation,
         "scale": scale,
         "stages": stages,
+        "exports": exports,
+        "datasets": datasets,
+        "workers": workers,
+        "lidar": lidar,
         "unity": unity,
         "compiled": _compiled,
     }

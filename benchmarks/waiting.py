@@ -58,11 +58,13 @@ def waiting() -> str:
         ).stdout
         with tarfile.open(fileobj=BytesIO(archive)) as files:
             files.extractall(before, filter="data")
+        loads = [os.getloadavg()[0]]
         for turn in range(ROUNDS):
             for version, root in (("before", before), ("now", HERE.parent)):
                 with tempfile.TemporaryDirectory(dir=folder) as room:
                     for wait, seconds in _waits(root, Path(room)).items():
                         figures[wait][version].append(seconds)
+                loads.append(os.getloadavg()[0])
                 print(f"round {turn + 1} of {ROUNDS}, {version}", file=sys.stderr, flush=True)
     rows = [
         "## Waiting",
@@ -72,7 +74,8 @@ def waiting() -> str:
             "departed. First: with an empty cache of machine code, as after installing; the first 20 x 30 comes after "
             "the first 7 x 9. Second: a command that finds that cache. Warm: a build after the first of its process, "
             "each of another seed. This version's defaults do more: plans circulate and are dimensioned, garages have "
-            "stair cores and fire equipment, and each build is checked."
+            "stair cores and fire equipment, and each build is checked. The machine's load average was "
+            f"{min(loads):.1f} to {max(loads):.1f} meanwhile, which adds to the seconds of both alike."
         ),
         "",
         "| wait | before | now | now / before |",

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 __all__ = [
     "ConfigError",
+    "DataSetError",
     "Garage2UsdError",
     "GenerationError",
     "MissingExtraError",
@@ -18,6 +19,17 @@ __all__ = [
 
 class Garage2UsdError(Exception):
     """Base of every error that garage2usd raises on purpose."""
+
+    def __reduce__(self) -> "tuple[object, ...]":
+        """Go to other processes by message and attributes, as each error takes other arguments."""
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(kind: type[Garage2UsdError], args: tuple[object, ...], attributes: dict[str, object]) -> Garage2UsdError:
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(attributes)
+    return error
 
 
 class ConfigError(Garage2UsdError, ValueError):
@@ -38,6 +50,21 @@ class ConfigError(Garage2UsdError, ValueError):
         self.value = value
         self.allowed = allowed
         super().__init__(f"{field}: got {_brief(value)}; allowed: {allowed}")
+
+
+class DataSetError(Garage2UsdError):
+    """A data set that is not whole.
+
+    Parameters
+    ----------
+    path
+        Its folder.
+    reason
+        What is wrong.
+    """
+
+    def __init__(self, path: object, reason: str) -> None:
+        super().__init__(f"{path}: {reason}")
 
 
 class GenerationError(Garage2UsdError):

@@ -1,22 +1,38 @@
 """A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
 
-from collections.abc import Callable, Sequence
+import gc
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 
+from garage2usd.checks import Subject
 from garage2usd.checks.stage_reader import subject_of_stage
-from garage2usd.config.maps import MapsConfig
+from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.errors import ConfigError
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
+from garage2usd.maps.network import Network
 from garage2usd.maps.occupancy import write_grid
+from garage2usd.maps.opendrive import write_opendrive
+from garage2usd.maps.parked_cars import parked_cars
+from garage2usd.maps.road_builder import network_of
+from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.pipeline import build
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
+from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.report import read_report
+from garage2usd.reading.values import metres_y_up
+from garage2usd.reading.walk import placed_objects
 
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "export"]
 
-_REPORT = ".json"
+_REPORT, _LANELET2, _MAP, _SCENARIO = ".json", ".osm", ".xodr", ".xosc"
+_OF_EXTRA = {_LANELET2: "lanelet2", _SCENARIO: "openscenario"}
+"""Modules of `garage2usd.maps` that cannot be imported without the extra `maps`, by what they write."""
 _Write = Callable[["_Source", Path, MapsConfig], Sequence[Path]]
 
 
@@ -26,20 +42,74 @@ class _Source:
     def __init__(self, path: Path) -> None:
         self.path, self.stage = path, open_stage(path)
 
+    @cached_property
+    def objects(self) -> list[PlacedObject]:
+        """Everything that it draws, in metres, Y up."""
+        return placed_objects(self.stage, metres_y_up(self.stage))
+
+    @cached_property
+    def subject(self) -> Subject:
+        """Its lanes, stalls and objects."""
+        return subject_of_stage(self.stage, source=str(self.path), objects=self.objects, is_judged=False)
+
+    @cached_property
+    def network(self) -> Network:
+        """Its roads."""
+        return network_of(self.subject)
+
 
 def _glb(source: _Source, path: Path, _settings: MapsConfig) -> Sequence[Path]:
-    write_glb(source.stage, path)
+    write_glb(source.stage, path, objects=source.objects)
+    return (path,)
+
+
+def _opendrive(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+    write_opendrive(source.subject, path, settings, network=source.network)
     return (path,)
 
 
 def _grid(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
-    return write_grid(subject_of_stage(source.stage, source=str(source.path)), path, settings.grid)
+    return write_grid(source.subject, path, settings.grid)
 
 
-_WRITERS: dict[str, _Write] = {".glb": _glb, ".yaml": _grid}
+def _lanelet2(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+    from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
+
+    write_lanelet2(source.subject, path, settings, network=source.network)
+    return (path,)
+
+
+def _scenario(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+    from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
+
+    subject, asked = source.subject, settings.scenario
+    planner = DrivePlanner(subject, settings.drive)
+    drive = planner.drive(asked.stall, entrance=asked.entrance, exit=asked.exit, leg=asked.leg)
+    seed = stage_facts(source.stage).get("seed")
+    write_scenario(
+        path,
+        drive.trajectory,
+        car=drive.car,
+        settings=drive.settings,
+        road_file=path.with_suffix(_MAP).name,
+        parked=parked_cars(subject, free=[drive.route.stall]),
+        name=f"{drive.route.stall} {drive.leg}",
+        seed=None if seed is None else int(seed),
+    )
+    return (path,)
+
+
+_WRITERS: dict[str, _Write] = {
+    ".glb": _glb,
+    _LANELET2: _lanelet2,
+    _MAP: _opendrive,
+    _SCENARIO: _scenario,
+    ".yaml": _grid,
+}
 
 EXPORT_SUFFIXES = tuple(_WRITERS)
-"""What the files that `export` makes end in: GLB scenes, and the YAML files of occupancy grids."""
+"""What the files that `export` makes end in: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
+YAML files of occupancy grids."""
 
 
 def export(
@@ -47,6 +117,7 @@ def export(
     outputs: Sequence[str | Path],
     *,
     settings: MapsConfig | None = None,
+    scenario: ScenarioConfig | None = None,
     progress: Progress = silent,
 ) -> tuple[Path, ...]:
     """Write a garage in other formats.
@@ -57,28 +128,38 @@ def export(
         A stage, also one that other tools have edited, which is exported as it stands; or the report of a build
         (``.json``), whose garage is made again.
     outputs
-        The files, one or more. What they end in says what they are: ``.glb`` a scene as binary glTF 2.0, ``.yaml`` an
-        occupancy grid for robots with its picture (``.pgm``) beside it.
+        The files, one or more. What they end in says what they are: ``.glb`` a scene as binary glTF 2.0, ``.osm`` a
+        Lanelet2 map, ``.xodr`` an OpenDRIVE 1.8 map, ``.xosc`` an OpenSCENARIO 1.2 scenario with the map that it names,
+        a ``.xodr`` of the same stem beside it, ``.yaml`` an occupancy grid for robots with its picture (``.pgm``), and
+        the masks that the settings ask for, beside it.
     settings
-        Cells of the grid and the like; left out, those of a report's configuration, else the defaults.
+        Cells and masks of the grid and the like; left out, those of a report's configuration, else the defaults.
+    scenario
+        What the car of a scenario drives, in place of what the settings say.
     progress
         Told of each file, and how far the garage of a report is.
 
     Returns
     -------
     tuple of Path
-        All files that were written, in the order of `outputs`. They appear whole or not at all.
+        All files that were written, in the order of `outputs`, the map of a scenario after it if it is not asked for as
+        well. They appear whole or not at all.
 
     Raises
     ------
     ConfigError
-        If an output ends in something else, is asked for twice, or would be too large.
+        If an output ends in something else, is asked for twice, is brought by another, or would be too large; if a
+        scenario's stall, entrance or exit is none of the garage's, or no drive is found for it.
     StageError, ReportError
         If the source cannot be read, or lacks what a format needs.
     OutputError
         If the files cannot be written.
+    MissingExtraError
+        If a Lanelet2 map or a scenario is asked for, and the extra ``maps`` is not installed.
     """
     source, places = Path(source), check_exports(outputs)
+    if scenario is not None and not any(place.suffix == _SCENARIO for place in places):
+        raise ConfigError("output", ", ".join(map(str, places)), f"a path that ends in {_SCENARIO}, for a scenario")
     with staging_folder() as staging:
         stage = source
         if source.suffix.lower() == _REPORT:
@@ -87,20 +168,44 @@ def export(
             stage = build(config, staging / "source" / f"{source.stem}.usdc", progress=progress).stage
         elif source.suffix.lower() not in STAGE_SUFFIXES:
             raise ConfigError("PATH", str(source), f"a path that ends in {', '.join((*STAGE_SUFFIXES, _REPORT))}")
-        opened = _Source(stage)
+        settings = settings or MapsConfig()
+        if scenario is not None:
+            settings = settings.model_copy(update={"scenario": scenario})
         made: list[tuple[Path, list[Path]]] = []
-        for number, place in enumerate(places):
-            progress("export", number, len(places))
-            folder = staging / str(number)
-            folder.mkdir()
-            files = _WRITERS[place.suffix](opened, folder / place.name, settings or MapsConfig())
-            made.append((place.parent, list(files)))
+        with _without_collector():
+            opened = _Source(stage)
+            for number, place in enumerate(places):
+                progress("export", number, len(places))
+                folder = staging / str(number)
+                folder.mkdir()
+                files = _WRITERS[place.suffix](opened, folder / place.name, settings)
+                made.append((place.parent, list(files)))
         progress("export", len(places), len(places))
+        _refuse_twice([folder / file.name for folder, files in made for file in files])
         return tuple(place for folder, files in made for place in publish(files, folder))
 
 
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    """Python's collector of cycles waits: files are made of millions of small values, of which none is in a cycle."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
+
+def _refuse_twice(files: Sequence[Path]) -> None:
+    """Refuse outputs of which one is what another one brings, as a grid brings its masks."""
+    for number, file in enumerate(files):
+        if file in files[:number]:
+            raise ConfigError("output", str(file), "paths of which none is a file that another one brings with it")
+
+
 def check_exports(outputs: Sequence[str | Path]) -> tuple[Path, ...]:
-    """The paths of exports, which can be written; raises as `export`."""
+    """The paths of exports and of the maps that scenarios name, which can be written; raises as `export`."""
     places = tuple(map(Path, outputs))
     if not places:
         raise ConfigError("output", "", f"one or more paths that end in {', '.join(EXPORT_SUFFIXES)}")
@@ -111,4 +216,15 @@ def check_exports(outputs: Sequence[str | Path]) -> tuple[Path, ...]:
             raise ConfigError("output", str(place), "each file once")
         check_name(place)
         check_writable(place.parent)
-    return places
+    for suffix, module in _OF_EXTRA.items():
+        if any(place.suffix == suffix for place in places):
+            import_module(f"garage2usd.maps.{module}")  # raises here, and not after a build, if its extra is missing
+    return tuple(_with_maps(places))
+
+
+def _with_maps(places: Sequence[Path]) -> Iterator[Path]:
+    for place in places:
+        yield place
+        if place.suffix == _SCENARIO and (beside := place.with_suffix(_MAP)) not in places:
+            check_name(beside)
+            yield beside

@@ -1,4 +1,5 @@
 """The road: configuration to site, plan, lane graph, layout, stage and files."""
+# Over 300 lines: the whole road is told in one place, as far as the garage and as far as its files.
 
 import time
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from garage2usd.layout.tight import tight_stalls
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.progress import Progress, silent
-from garage2usd.report import write_report
+from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
 from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
@@ -27,7 +28,7 @@ from garage2usd.view.learning_picture import draw_learning_curve, draw_structure
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png
 
-__all__ = ["Build", "Garage", "build", "generate"]
+__all__ = ["Build", "Garage", "build", "generate", "generate_plan", "stage_metadata"]
 
 _MOST_CHECKED_STALLS = 1000
 
@@ -96,6 +97,7 @@ def generate(
     *,
     seed: int | None = None,
     tape: str | None = None,
+    plan: Plan | None = None,
     progress: Progress = silent,
 ) -> Garage:
     """Make a garage.
@@ -108,6 +110,8 @@ def generate(
         Takes the place of the configuration's seed.
     tape
         The tape of a plan, as its report has it: its lanes are made again on the site instead of learnt.
+    plan
+        What was planned before with these settings and this seed, which takes the place of tape and learning.
     progress
         Told how far long steps are.
 
@@ -120,7 +124,14 @@ def generate(
     UnreachableStallError
         If stalls of a given structure have no route from an entrance and to an exit.
     """
-    return _generate(config or GarageConfig(), seed=seed, tape=tape, progress=progress)[0]
+    return _generate(config or GarageConfig(), seed=seed, tape=tape, plan=plan, progress=progress)[0]
+
+
+def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
+    """Make a garage as far as its plan; raises as `generate`, which takes the plan from there."""
+    plan = _plan(_site(config), config, tape=None, progress=progress)
+    _graph(plan, config)
+    return plan
 
 
 def build(
@@ -175,7 +186,7 @@ def build(
             garage.graph,
             folder / path.name,
             arrangement=arrangement,
-            metadata=_metadata(garage),
+            metadata=stage_metadata(garage),
             config=garage.config.stage,
             shared=shared,
             progress=progress,
@@ -190,11 +201,9 @@ def build(
         report = staging / f"{path.stem}_report.json"
         write_report(
             report,
-            config=garage.config,
-            plan=garage.plan,
-            graph=garage.graph,
-            layout=garage.layout,
-            seconds=seconds,
+            make_report(
+                config=garage.config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds=seconds
+            ),
         )
         # the stage comes last: where it stands, all of it does
         files = [*filter(None, [made.assets]), *drawn, labels, report, made.stage]
@@ -216,33 +225,48 @@ def build(
 
 
 def _generate(
-    config: GarageConfig, *, seed: int | None, tape: str | None, progress: Progress
+    config: GarageConfig, *, seed: int | None, tape: str | None, progress: Progress, plan: Plan | None = None
 ) -> tuple[Garage, dict[str, float]]:
     if seed is not None:
         config = config.with_seed(seed)
     clock = [time.perf_counter()]
-    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
-    check_room(site, config.bay)
+    site = _site(config)
     clock.append(time.perf_counter())
-    if (site.cells == Cell.LANE).any():
-        if tape is not None:
-            raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
-        plan = given_plan(site, bay=config.bay, plan=config.plan)
-    elif tape is not None:
-        plan = given_plan(play(site, tape), bay=config.bay, plan=config.plan)
-    else:
-        plan = plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
+    if plan is None:
+        plan = _plan(site, config, tape=tape, progress=progress)
     clock.append(time.perf_counter())
-    graph = build_lane_graph(plan.structure, config.bay)
-    if not graph.stall_rows:
-        raise ConfigError(
-            "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
-        )
+    graph = _graph(plan, config)
     layout = lay_out(plan.structure, graph, config)
     layout = _driven(layout, graph, config, progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}
+
+
+def _site(config: GarageConfig) -> Structure:
+    site = make_site(config.site, bay=config.bay, seed=config.seed, fittings=config.fittings)
+    check_room(site, config.bay)
+    return site
+
+
+def _graph(plan: Plan, config: GarageConfig) -> LaneGraph:
+    graph = build_lane_graph(plan.structure, config.bay)
+    if not graph.stall_rows:
+        raise ConfigError(
+            "site.structure", str(plan.structure), "at least one free square beside a lane that takes a stall"
+        )
+    return graph
+
+
+def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: Progress) -> Plan:
+    """The lanes that are given, played from a tape, or learnt."""
+    if (site.cells == Cell.LANE).any():
+        if tape is not None:
+            raise ConfigError("tape", tape, "no tape beside a structure that has lanes")
+        return given_plan(site, bay=config.bay, plan=config.plan)
+    if tape is not None:
+        return given_plan(play(site, tape), bay=config.bay, plan=config.plan)
+    return plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
 
 
 def _findings(garage: Garage) -> tuple[Finding, ...] | None:
@@ -289,7 +313,8 @@ def _pictures(garage: Garage, *, learning_curve: bool, best_plans: int) -> dict[
     return pictures
 
 
-def _metadata(garage: Garage) -> dict[str, str | int]:
+def stage_metadata(garage: Garage) -> dict[str, str | int]:
+    """What a stage says of how its garage was made, which makes it again."""
     return {
         "generator": "garage2usd",
         "version": VERSION,

@@ -4,12 +4,12 @@ from enum import IntEnum, unique
 
 import numpy as np
 
-__all__ = ["Step", "generator"]
+__all__ = ["Step", "derived_seed", "generator"]
 
 
 @unique
 class Step(IntEnum):
-    """Every random step of the road with its fixed id; ids are never used again for another step."""
+    """Every random step of the road and of its sensors with its fixed id; ids are never used again for another step."""
 
     CONTOUR = 1
     PORTALS = 2
@@ -20,7 +20,12 @@ class Step(IntEnum):
     SPEED_BUMPS = 7
     CONES = 8
     FLOOR_STAINS = 12
+    NUMBER_PLATES = 13
     ARRANGEMENTS = 20
+    LIDAR = 30
+    GARAGES = 40
+    SETTINGS = 41
+    SPLITS = 42
 
 
 def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:
@@ -36,3 +41,23 @@ def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:
         Number of the restart, so that a restarted step draws anew.
     """
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, int(step), attempt])))
+
+
+def derived_seed(seed: int, step: Step, *numbers: int) -> int:
+    """A seed of its own for a part of some work, such as a garage of a data set.
+
+    Parameters
+    ----------
+    seed
+        The seed of the whole, 0 or more.
+    step
+        Which step has parts.
+    numbers
+        Which part it is, each 0 or more.
+
+    Returns
+    -------
+    int
+        At least 0 and less than 2**63.
+    """
+    return int(np.random.SeedSequence([seed, int(step), *numbers]).generate_state(1, np.uint64)[0] >> np.uint64(1))

@@ -36,22 +36,36 @@ from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph
 from garage2usd.version import VERSION
 
-__all__ = ["write_report"]
+__all__ = ["learning_figures", "make_report", "write_report"]
 
 _RETURN_DECIMALS = 6
 """Of the returns of episodes, which are sums of hundreds of rewards and would have 16 digits each."""
 
 
-def write_report(
-    path: Path,
+def write_report(path: Path, report: Report) -> None:
+    """Write a report as JSON."""
+    path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8")
+
+
+def make_report(
     *,
     config: GarageConfig,
     plan: Plan,
     graph: LaneGraph,
     layout: Layout,
     seconds: Mapping[str, float],
-) -> None:
-    """Write everything but ``seconds`` so that the same configuration, seed and version give the same text.
+    learning: LearningFigures | None = None,
+) -> Report:
+    """The report of a garage; but for ``seconds`` the same configuration, seed and version give the same one.
+
+    Parameters
+    ----------
+    config, plan, graph, layout
+        The garage.
+    seconds
+        What each step took.
+    learning
+        What learning found, for a plan that no longer has it.
 
     Notes
     -----
@@ -62,7 +76,7 @@ def write_report(
     """
     structure = plan.structure
     tape = _tape(structure)
-    report = Report(
+    return Report(
         version=VERSION,
         seed=config.seed,
         config_digest=config.digest(),
@@ -74,7 +88,7 @@ def write_report(
         R=tuple(structure.R[0].tolist()),
         C=tuple(structure.C[:, 0].tolist()),
         score=plan.score,
-        learning=_learning(plan, config),
+        learning=learning or learning_figures(plan, config),
         principles=principles(structure, bay=config.bay),
         circulation=_circulation(structure, config),
         area_per_stall_m2=round(layout.area_per_stall_m2, 3),
@@ -99,16 +113,16 @@ def write_report(
                 yaw_rad=stall.yaw_rad,
                 width_m=stall.width_m,
                 length_m=stall.length_m,
+                occupied=car >= 0,
             )
-            for stall in layout.stalls
+            for stall, car in zip(layout.stalls, layout.cars_in_stalls().tolist(), strict=True)
         ),
         learning_curve=tuple(np.round(plan.learning_curve, _RETURN_DECIMALS).tolist()),
         seconds={step: round(value, 4) for step, value in seconds.items()},
     )
-    path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8")
 
 
-def _learning(plan: Plan, config: GarageConfig) -> LearningFigures | None:
+def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None:
     """What learning alone found, and what polish added to it; None where nothing was learnt."""
     if plan.learnt is None:
         return None

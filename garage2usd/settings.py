@@ -1,13 +1,13 @@
 """What all models of files share."""
 
-from collections.abc import Iterator
-from typing import Any, get_args
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["Record", "Settings", "config_error", "first_fault"]
+__all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
 
 
 class Settings(BaseModel):
@@ -18,10 +18,36 @@ class Settings(BaseModel):
     )
 
 
+Model = TypeVar("Model", bound=Settings)
+
+
 class Record(BaseModel):
     """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
 
     model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+
+
+def validated(model: type[Model], settings: Mapping[str, Any], *, within: str = "") -> Model:
+    """Settings that are given as nested mappings, as TOML reads them.
+
+    Parameters
+    ----------
+    model
+        What they are settings of.
+    settings
+        The mappings.
+    within
+        Name of the setting that holds them, if one does.
+
+    Raises
+    ------
+    ConfigError
+        With the setting, its value and what is allowed.
+    """
+    try:
+        return model(**settings)
+    except ValidationError as error:
+        raise config_error(error, model, within=within) from None
 
 
 def config_error(error: ValidationError, model: type[Settings], *, within: str = "") -> ConfigError:
@@ -44,13 +70,18 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         fields = [group.model_fields[part] for group in models if part in group.model_fields]
         if fields:
             holders, models = models, [group for field in fields for group in _models(field.annotation)]
-        # else it names a branch of a union, which is no key of the user's
+        elif isinstance(part, str):  # it names a branch of a union, which is no key of the user's
+            models = [group for group in models if part in _kinds(group)] or models
         if fields or isinstance(part, int):
             keys.append(str(part))
     if finding["type"] == "extra_forbidden":
         known = dict.fromkeys(key for group in models for key in group.model_fields)
         place = ".".join([*keys, str(finding["loc"][-1])])
         return ConfigError(place, finding["input"], f"one of the keys {', '.join(known)}")
+    if finding["type"] in {"union_tag_invalid", "union_tag_not_found"}:
+        kinds = dict.fromkeys(tag for group in models for tag in _kinds(group))
+        given = finding["input"].get("kind", "nothing") if isinstance(finding["input"], dict) else finding["input"]
+        return ConfigError(".".join([*keys, "kind"]), given, f"one of {', '.join(kinds)}")
     place = ".".join(keys) or "configuration"
     if finding["type"] == "missing":
         needed = [key for group in holders for key, field in group.model_fields.items() if field.is_required()]
@@ -77,6 +108,11 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any
         yield annotation
     for part in get_args(annotation):
         yield from _models(part)
+
+
+def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
+    """What the key ``kind`` of a model may be, by which a union tells its branches apart."""
+    return get_args(model.model_fields["kind"].annotation) if "kind" in model.model_fields else ()
 
 
 def _allowed(message: str) -> str:

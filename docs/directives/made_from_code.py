@@ -16,7 +16,7 @@ from sphinx.util.docutils import SphinxDirective
 from garage2usd.checks import RULES
 from garage2usd.config import PlanConfig, config_schema
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.objects import KINDS
+from garage2usd.objects import CLASSES, CLASSES_VERSION, PieceClass
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
 
@@ -140,9 +140,11 @@ class ClassList(MadeFromCode):
 
     def lines(self) -> Iterator[str]:
         """One table."""
-        yield from ("| id | class | nearest Cityscapes class | kind of object |", "|---|---|---|---|")
-        for kind in KINDS:
-            yield f"| {kind.number} | `{kind.label}` | {kind.cityscapes} | `{kind.name}` |"
+        yield from (f"Version {CLASSES_VERSION} of the table.", "")
+        yield from ("| id | class | nearest Cityscapes class | kind of object, or piece of one |", "|---|---|---|---|")
+        for entry in CLASSES:
+            what = entry.what if isinstance(entry, PieceClass) else f"`{entry.name}`"
+            yield f"| {entry.number} | `{entry.label}` | {entry.cityscapes} | {what} |"
 
 
 class RuleList(MadeFromCode):

@@ -2,5 +2,19 @@
 
 from garage2usd.assets.materials import MATERIALS, VARYING, Material, Touch
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight, pascal_case
+from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
 
-__all__ = ["MATERIALS", "VARYING", "Asset", "Collider", "Material", "Part", "RectLight", "Touch", "pascal_case"]
+__all__ = [
+    "BASE_OF_TOUCH",
+    "MATERIALS",
+    "NON_VISUAL",
+    "VARYING",
+    "Asset",
+    "Collider",
+    "Material",
+    "NonVisual",
+    "Part",
+    "RectLight",
+    "Touch",
+    "pascal_case",
+]

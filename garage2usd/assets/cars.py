@@ -1,5 +1,5 @@
-"""Car bodies: a lofted shell with glass, lamps, trim and plates, on four wheels."""
-# Over 300 lines: a body's glass, lamps, trim and plates are cut from one shell.
+"""Car bodies: a lofted shell with glass, lamps, trim and the holders of plates, on four wheels."""
+# Over 300 lines: a body's glass, lamps, trim and plate holders are cut from one shell.
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -12,10 +12,14 @@ from garage2usd.assets.faces import box_faces, lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
-__all__ = ["car"]
+__all__ = ["PLATE_M", "car", "plate_places"]
 
 _TYRE_WIDTH_M = 0.21
-_PLATE_M = (0.52, 0.11)
+PLATE_M = (0.52, 0.11)
+"""Width and height of a number plate."""
+_PLATE_LIFT_M = 0.0012
+"""Of a plate over its holder."""
+_HOLDER_RIM_M = 0.006
 _SKIN_M = 0.006
 _HOUSING_SKIN_M = 0.008
 _LENS_SKIN_M = 0.012
@@ -58,10 +62,22 @@ def car(body: CarBody) -> Asset:
         make_part("Seams", _flat(_seams(shell)), "trim_black"),
         make_part("Handles", _flat(_handles(shell)), "car_paint"),
         make_part("Mirrors", _flat(_mirrors(shell)), "car_paint", crease_deg=50),
-        *_plates(shell),
+        *_plate_holders(shell),
         *_wheels(body),
     ]
     return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
+
+
+def plate_places(body: CarBody) -> list[tuple[float, float, float]]:
+    """Where the number plates of a car are, in its axes.
+
+    Returns
+    -------
+    list
+        Of the front plate and of the rear one: the way along Z that it looks, -1 or 1, and Y and Z of its middle in
+        metres.
+    """
+    return _plate_places(Shell(body, SHAPES[body.name]))
 
 
 def _flat(quads: Faces) -> list[Face]:
@@ -235,7 +251,7 @@ def _end_trim(shell: Shell) -> Faces:
     rear_top, bumper = shell.end_top(rear=True), shell.bumper_top(rear=True)
     plate = _rear_plate_m(shell)
     faces.append(
-        _end_patch(shell, _across(plate - 0.03, plate + _PLATE_M[1] + 0.03, 0.33 * half, 0.36 * half), rear=True)
+        _end_patch(shell, _across(plate - 0.03, plate + PLATE_M[1] + 0.03, 0.33 * half, 0.36 * half), rear=True)
     )
     valance = [(0.30, _depth_left(0.30), _depth(0.30)), (0.385, _depth_left(0.34), _depth(0.34))]
     faces.append(_end_patch(shell, valance, rear=True))
@@ -265,7 +281,7 @@ def _bright_trim(shell: Shell) -> Faces:
         for share in (0.2, 0.5, 0.8):
             y, reach = low + (high - low) * share, (0.34 + 0.095 * share) * half
             faces.append(_end_patch(shell, _across(y - 0.006, y + 0.006, reach, reach), rear=False, skin_m=0.009))
-    strip = _rear_plate_m(shell) + _PLATE_M[1] + 0.04
+    strip = _rear_plate_m(shell) + PLATE_M[1] + 0.04
     faces.append(_end_patch(shell, _across(strip, strip + 0.02, 0.30 * half, 0.30 * half), rear=True, skin_m=0.009))
     faces.append(
         _polygon_patch(
@@ -323,77 +339,27 @@ def _handles(shell: Shell) -> Faces:
     return both_sides(np.concatenate(faces))
 
 
-# a letter or digit as strokes: three level ones, left and right ones above and below the middle; not the letters of
-# `glyphs`, as a plate takes 28 to 32 of these rectangles and would take 75 to 130 triangles, and a car at most 150 KB
-_STROKES = {
-    "top": (0.0, 1.76, 1.0, 2.0),
-    "middle": (0.26, 0.88, 0.74, 1.12),
-    "bottom": (0.0, 0.0, 1.0, 0.24),
-    "upper_left": (0.0, 1.02, 0.24, 1.74),
-    "upper_right": (0.76, 1.02, 1.0, 1.74),
-    "lower_left": (0.0, 0.26, 0.24, 0.98),
-    "lower_right": (0.76, 0.26, 1.0, 0.98),
-}
-_MISSING_STROKES = {
-    "A": {"bottom"},
-    "C": {"middle", "upper_right", "lower_right"},
-    "E": {"upper_right", "lower_right"},
-    "F": {"upper_right", "lower_right", "bottom"},
-    "P": {"lower_right", "bottom"},
-    "U": {"top", "middle"},
-    "0": {"middle"},
-    "2": {"upper_left", "lower_right"},
-    "3": {"upper_left", "lower_left"},
-    "4": {"top", "lower_left", "bottom"},
-    "5": {"upper_right", "lower_left"},
-    "6": {"upper_right"},
-    "7": {"middle", "upper_left", "lower_left", "bottom"},
-    "8": set(),
-    "9": {"lower_left"},
-}
-_PLATE_TEXTS = {
-    "hatchback": "FA 2740",
-    "saloon": "CE 8365",
-    "suv": "PU 4927",
-    "van": "AC 6053",
-    "pickup": "UF 7482",
-    "compact_ev": "EP 3594",
-}
+def _plate_holders(shell: Shell) -> list[Part]:
+    """What the number plates in front and behind are on, a little larger than they are."""
+    half, high = PLATE_M[0] / 2 + _HOLDER_RIM_M, PLATE_M[1] / 2 + _HOLDER_RIM_M
+    holder = np.array(box_faces((-half, -high, -0.03), (half, high, 0.0)))
+    faces = [
+        holder * (toward, 1.0, toward) + (0.0, y, z - toward * _PLATE_LIFT_M) for toward, y, z in _plate_places(shell)
+    ]
+    return [make_part("PlateHolders", np.concatenate(faces), "trim_black")]
 
 
-def _lettering(text: str) -> Faces:
-    """Upright letters facing +Z, around the origin but for the band on the left, as rectangles."""
-    wide, high, gap = 0.042, 0.036, 0.016
-    left = -(len(text) * (wide + gap) - gap) / 2 + 0.02
-    faces = []
-    for place, letter in enumerate(text):
-        for name, (x0, y0, x1, y1) in _STROKES.items() if letter != " " else ():
-            if name not in _MISSING_STROKES[letter]:
-                x = left + place * (wide + gap) + np.array((x0, x1, x1, x0)) * wide
-                faces.append(np.stack([x, (np.array((y0, y0, y1, y1)) - 1) * high, np.zeros(4)], axis=1))
-    return np.array(faces)
-
-
-def _plates(shell: Shell) -> list[Part]:
-    """Number plates in front and behind, with their letters and a band."""
-    half, high = _PLATE_M[0] / 2, _PLATE_M[1]
-    sheet = np.array(box_faces((-half, -high / 2, -0.03), (half, high / 2, 0.0)))
-    band = np.array([[(x, y, 0.0006) for x, y in ((-half, -1), (-half + 0.042, -1), (-half + 0.042, 1), (-half, 1))]])
-    band *= (1.0, high / 2, 1.0)
-    letters = _lettering(_PLATE_TEXTS[shell.body.name]) + np.array((0.0, 0.0, 0.0006))
-    found: dict[str, list[Faces]] = {"Plates": [], "PlateBands": [], "PlateLetters": []}
+def _plate_places(shell: Shell) -> list[tuple[float, float, float]]:
+    """Of the plates in front and behind: -1 or 1 by the end where it is, and Y and Z of its middle."""
+    half, high = PLATE_M[0] / 2, PLATE_M[1]
+    places = []
     for rear, low in ((False, 0.385), (True, _rear_plate_m(shell))):
         outermost = max(
             abs(_end_z(shell, x, low + y, rear=rear)) for x in np.linspace(0.0, half, 5) for y in (0.0, high / 2, high)
         )
-        turn = (1.0, 1.0, 1.0) if rear else (-1.0, 1.0, -1.0)
-        for name, faces in zip(found, (sheet, band, letters), strict=True):
-            found[name].append(faces * turn + (0.0, low + high / 2, turn[2] * (outermost + 0.008)))
-    materials = ("number_plate", "sign_blue", "trim_black")
-    return [
-        make_part(name, np.concatenate(faces), material)
-        for (name, faces), material in zip(found.items(), materials, strict=True)
-    ]
+        toward = 1.0 if rear else -1.0
+        places.append((toward, low + high / 2, toward * (outermost + 0.008)))
+    return places
 
 
 def _end_z(shell: Shell, x: float, y: float, *, rear: bool) -> float:

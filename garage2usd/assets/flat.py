@@ -19,10 +19,11 @@ def flat_part(
     *,
     height_m: float = 0.0,
     collider: Collider | None = Collider.MESH,
+    piece: str = "",
 ) -> Part:
     """A level sheet that looks up, of an (x, z) area."""
     faces = [np.insert(corners, 1, height_m, axis=1) for corners in level_triangles(area)]
-    return make_part(name, faces, material, collider=collider, project=_from_above)
+    return make_part(name, faces, material, collider=collider, piece=piece, project=_from_above)
 
 
 def level_triangles(area: shapely.Geometry) -> NDArray[np.float64]:

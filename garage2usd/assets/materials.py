@@ -191,7 +191,7 @@ MATERIALS: dict[str, Material] = {
     "lamp_rear": Material(colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
     "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
     "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0, touch=Touch.STEEL),
-    "number_plate": Material(colour_rgb=(0.75, 0.75, 0.72), roughness=0.5, touch=Touch.PLASTIC),
+    "number_plate": Material(colour_texture="plate_characters.png", roughness=0.5, touch=Touch.PLASTIC),
     "car_paint": Material(roughness=0.32, clearcoat=1.0, touch=Touch.STEEL),
     **{
         f"car_paint_{paint}": Material(

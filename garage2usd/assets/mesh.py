@@ -58,6 +58,8 @@ class Part:
         Key of `garage2usd.assets.materials.MATERIALS`.
     collider
         Approximation for physics; None for what nothing can touch.
+    piece
+        Semantic class of the piece that it belongs to; empty where that is its asset's.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Part:
     st_indices: NDArray[np.int32]
     material: str
     collider: Collider | None = None
+    piece: str = ""
 
 
 @dataclass(frozen=True)
@@ -122,6 +125,7 @@ def make_part(
     material: str,
     *,
     collider: Collider | None = None,
+    piece: str = "",
     crease_deg: float = 30.0,
     project: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
 ) -> Part:
@@ -129,7 +133,7 @@ def make_part(
 
     Parameters
     ----------
-    name, material, collider
+    name, material, collider, piece
         Of the part.
     faces
         Planar polygons; corners that coincide are welded, faces without area dropped.
@@ -165,6 +169,7 @@ def make_part(
         st_indices=st_indices.astype(np.int32),
         material=material,
         collider=collider,
+        piece=piece,
     )
 
 

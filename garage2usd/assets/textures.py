@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.assets.plate_texture import bake_plates
 from garage2usd.assets.stain_texture import bake_stains
 from garage2usd.config.stage import TextureQuality
 
@@ -22,6 +23,9 @@ _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIG
 _JPEG_QUALITY = 90
 _RGBA = 4
 _ALPHA_STEPS = 28
+_DRAWN_IN_FEW_COLOURS = frozenset({"plate_characters"})
+"""Saved with a palette, in half the bytes."""
+_COLOUR_STEP, _PALETTE_BYTES = 12, 768
 
 
 def texture_folder(quality: TextureQuality) -> Path:
@@ -56,6 +60,12 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         picture = Image.fromarray(index.reshape(opaque.shape).astype(np.uint8))
         picture.putpalette(entries[:, :3].tobytes())
         picture.save(path, format="PNG", optimize=True, transparency=entries[:, 3].tobytes())
+    elif path.stem in _DRAWN_IN_FEW_COLOURS:
+        colours = np.rint(np.asarray(picture) / _COLOUR_STEP).astype(np.uint8) * np.uint8(_COLOUR_STEP)
+        entries, index = np.unique(colours.reshape(-1, 3), axis=0, return_inverse=True)
+        picture = Image.fromarray(index.reshape(colours.shape[:2]).astype(np.uint8))
+        picture.putpalette(entries.tobytes() + bytes(_PALETTE_BYTES - entries.size))
+        picture.save(path, format="PNG", optimize=True)
     elif path.suffix == ".jpg":
         # colours that meet at sharp edges need all their pixels
         subsampling = "4:4:4" if path.stem == "hazard" else "4:2:0"
@@ -307,4 +317,5 @@ _BAKERS: dict[str, Callable[[np.random.Generator], Pixels]] = {
     "steel_colour.jpg": _steel_colour,
     "steel_packed.png": _steel_packed,
     "stains.png": bake_stains,
+    "plate_characters.png": bake_plates,
 }

@@ -78,7 +78,7 @@ def _aisle_beside(stall: StallOutline, subject: Subject) -> float:
     """Width of the widest access aisle that shares a long side with a stall; 0 without one."""
     beside = stall.polygon.buffer(_BESIDE_M, cap_style="flat", join_style="mitre")
     widths = [0.0]
-    for index in subject.stall_tree.query(beside, predicate="intersects").tolist():
+    for index in subject.stall_grounds.tree.query(beside, predicate="intersects").tolist():
         other = subject.stalls[index]
         shared = other.polygon.intersection(beside).area / _BESIDE_M
         if other.use is StallUse.ACCESS_AISLE and shared > stall.length_m / 2:

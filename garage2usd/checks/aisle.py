@@ -82,7 +82,7 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 def _is_parked(solid: Solid, subject: Subject) -> bool:
-    return solid.label == "car" and subject.home_of(solid.footprint) is not None
+    return solid.label == "car" and subject.stall_grounds.home_of(solid.footprint) is not None
 
 
 def _serving_edges(subject: Subject) -> list[LaneEdge]:

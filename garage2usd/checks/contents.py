@@ -1,8 +1,8 @@
 """All objects and lights of a stage in metres, Y up, as the rules look at them."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Collection, Hashable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -11,8 +11,9 @@ from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.errors import StageError
+from garage2usd.objects import PIECE_LABELS
 from garage2usd.reading.objects import PlacedObject, once_for_each_look
-from garage2usd.reading.values import READ_AT, metres_y_up, number_of
+from garage2usd.reading.values import READ_AT, metres_y_up, number_of, opinions_of
 from garage2usd.reading.walk import placed_objects
 
 __all__ = ["Contents", "PlacedLight", "read_contents"]
@@ -48,30 +49,51 @@ class Contents:
     lights: tuple[PlacedLight, ...]
 
 
-def read_contents(stage: Usd.Stage) -> Contents:
+def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = None) -> Contents:
     """Read all objects of a stage, each with its meshes, and its rectangular lights.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    objects
+        What `garage2usd.reading.walk.placed_objects` finds there in metres, Y up, if that is known already.
 
     Notes
     -----
-    See `garage2usd.reading.walk.placed_objects` for what an object is.
+    See `garage2usd.reading.walk.placed_objects` for what an object is. What has a class of pieces, as paint has,
+    counts as part of the object above it: paint is floor.
 
     Raises
     ------
     StageError
         If something lies more than 1000 km from the origin, where geometry loses its millimetres.
     """
-    things: list[Thing] = []
+    things: dict[str, Thing] = {}
     lights: list[PlacedLight] = []
-    shape_of = cache(_shape)
-    look_of = once_for_each_look(lambda placed: _look(placed, shape_of))
-    for placed in placed_objects(stage, metres_y_up(stage)):
+    look_of = once_for_each_look(partial(_look, shapes=_Shapes()))
+    for placed in placed_objects(stage, metres_y_up(stage)) if objects is None else objects:
         look = look_of(placed)
         lights += [_light(light, matrix @ placed.matrix) for light, matrix in look.lights]
         if look.bodies:
-            bodies = (Body(shape, matrix @ placed.matrix, touches) for shape, matrix, touches in look.bodies)
-            things.append(Thing(placed.path, placed.label, tuple(bodies)))
-    _check_reach(stage, things, lights)
-    return Contents(tuple(things), tuple(lights))
+            bodies = look.placed(placed.matrix)
+            whole = _whole(placed, things)
+            if whole is None:
+                things[placed.path] = Thing(placed.path, placed.label, bodies)
+            else:
+                things[whole.name] = replace(whole, bodies=whole.bodies + bodies)
+    _check_reach(stage, things.values(), lights)
+    return Contents(tuple(things.values()), tuple(lights))
+
+
+def _whole(placed: PlacedObject, things: Mapping[str, Thing]) -> Thing | None:
+    """The object that a labelled piece is part of, such as the floor that is painted; None for all other objects."""
+    if placed.label not in PIECE_LABELS:
+        return None
+    path = placed.path
+    while path and path not in things:
+        path = path.rpartition("/")[0]
+    return things.get(path)
 
 
 class _Look(NamedTuple):
@@ -79,21 +101,47 @@ class _Look(NamedTuple):
 
     bodies: list[Body]
     lights: list[tuple[UsdLux.RectLight, Array]]
+    matrices: Array
+
+    def placed(self, matrix: Array) -> tuple[Body, ...]:
+        """The bodies, moved by a matrix."""
+        matrices = self.matrices @ matrix
+        return tuple(Body(body.shape, place, body.touches) for body, place in zip(self.bodies, matrices, strict=True))
 
 
-def _look(placed: PlacedObject, shape_of: Callable[[Usd.Prim], MeshShape | None]) -> _Look:
-    look = _Look([], [])
+def _look(placed: PlacedObject, shapes: "_Shapes") -> _Look:
+    bodies: list[Body] = []
+    lights: list[tuple[UsdLux.RectLight, Array]] = []
     for prim, _, matrix in placed.parts:
         if prim.IsA(UsdLux.RectLight):
-            look.lights.append((UsdLux.RectLight(prim), matrix))
+            lights.append((UsdLux.RectLight(prim), matrix))
         elif prim.IsA(UsdGeom.Gprim):
-            shape = shape_of(prim)
+            shape = shapes.of(prim)
             if shape is not None:
-                look.bodies.append(Body(shape, matrix, prim.HasAPI(UsdPhysics.CollisionAPI)))
-    return look
+                bodies.append(Body(shape, matrix, prim.HasAPI(UsdPhysics.CollisionAPI)))
+    return _Look(bodies, lights, np.array([body.matrix for body in bodies]).reshape(-1, 4, 4))
 
 
-def _check_reach(stage: Usd.Stage, things: list[Thing], lights: list[PlacedLight]) -> None:
+class _Shapes:
+    """The meshes of prims; equal ones are one, so that what is asked of them is found out once."""
+
+    def __init__(self) -> None:
+        self._of_opinions: dict[Hashable, MeshShape | None] = {}
+        self._known: dict[tuple[bytes, ...], MeshShape] = {}
+
+    def of(self, prim: Usd.Prim) -> MeshShape | None:
+        """The mesh of a prim."""
+        key = opinions_of(prim)
+        if key not in self._of_opinions:
+            shape = _shape(prim)
+            if shape is not None:
+                arrays = shape.points, shape.counts, shape.indices
+                shape = self._known.setdefault(tuple(array.tobytes() for array in arrays), shape)
+            self._of_opinions[key] = shape
+        return self._of_opinions[key]
+
+
+def _check_reach(stage: Usd.Stage, things: Collection[Thing], lights: list[PlacedLight]) -> None:
     placed = [(thing.name, body.matrix, body.shape.reach) for thing in things for body in thing.bodies]
     placed += [("a light", light.matrix, 0.0) for light in lights]
     if not placed:

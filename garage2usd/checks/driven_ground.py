@@ -1,22 +1,25 @@
 """A garage that is checked, as plain geometry that a car drives in."""
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from garage2usd.checks.aisle import dead_ends
 from garage2usd.checks.openings import section_of
+from garage2usd.checks.placed_pieces import placed_pieces
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.subject import Subject
 from garage2usd.driving import DrivenGarage
 from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
+from garage2usd.layout.grounds import Grounds
 from garage2usd.limits import allow_seconds
 from garage2usd.reading.ground import Point, StallOutline
 
-__all__ = ["CAR_HEIGHT_M", "driven_garage"]
+__all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]
 
 CAR_HEIGHT_M = 2.0
 """Height of the design car where a profile gives none."""
@@ -54,8 +57,8 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     """
     allow_seconds(_COMPILING_S + _STALL_S * len(subject.parking_stalls))
     garage = assembled(
-        ((stall.name, _rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
-        ((_rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),
+        ((stall.name, rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
+        ((rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),
         (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in subject.edges),
         dead_ends(subject),
         (thing for thing in _standing(subject, height_m) if thing.name not in left_out),
@@ -65,65 +68,114 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
 
 def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
     """Each thing that a car could touch; doors and ramps by their sections."""
-    cars = {thing.name: thing for thing in subject.things if thing.label == _CAR}
-    for name, label, pieces in subject.solids.grounds(height_m):
-        if label not in _DRIVEN_THROUGH | _DRIVEN_OVER:
-            ground = _simple(pieces)
-            if name in cars:
-                ground = shapely.GeometryCollection(
-                    [*shapely.get_parts(ground), *_standing_out(cars[name], ground, height_m)]
-                )
-            home = subject.home_of(ground.convex_hull) if label in BELONGINGS else None
-            yield StandingThing(name, label, ground, home.name if home else None)
+    grounds = [ground for ground in subject.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
+    owner = np.repeat(np.arange(len(grounds)), [len(pieces) for _, _, pieces in grounds])
+    pieces = np.array([piece for _, _, pieces in grounds for piece in pieces], dtype=object)
+    owner, pieces = _simple(owner, pieces)
+    hulls = _hulls(owner, pieces)
+    things = {thing.name: thing for thing in subject.things if thing.label == _CAR}
+    cars = {number: things[name] for number, (name, _, _) in enumerate(grounds) if name in things}
+    out_of, mirrors = _standing_out(cars, hulls, height_m)
+    owner = np.concatenate([owner, out_of])
+    order = np.argsort(owner, kind="stable")
+    owner, pieces = owner[order], np.concatenate([pieces, mirrors])[order]
+    covered = shapely.geometrycollections(pieces, indices=owner) if len(pieces) else pieces
+    belongings = [number for number, (_, label, _) in enumerate(grounds) if label in BELONGINGS]
+    homes = dict(zip(belongings, subject.stall_grounds.homes_of(_hulls(owner, pieces)[belongings]), strict=True))
+    for number, ((name, label, _), ground) in enumerate(zip(grounds, covered, strict=True)):
+        home = homes.get(number)
+        yield StandingThing(name, label, ground, home.name if home else None)
     for thing in subject.things:
         if thing.label in _DRIVEN_THROUGH:
             cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
             yield StandingThing(thing.name, thing.label, cuts)
 
 
-def _standing_out(car: Thing, ground: shapely.Geometry, height_m: float) -> Iterator[shapely.Geometry]:
-    """The pieces of a car that stand out of the ground of its colliders, which are its mirrors."""
-    within = shapely.convex_hull(ground).buffer(_SKIN_M)
+def _standing_out(cars: Mapping[int, Thing], hulls: Grounds, height_m: float) -> tuple[NDArray[np.int64], Grounds]:
+    """The pieces of cars that stand out of the ground of their colliders, which are their mirrors.
+
+    Parameters
+    ----------
+    cars
+        By their number.
+    hulls
+        The convex ground of the colliders of what has a number.
+    height_m
+        What begins higher touches no car.
+
+    Returns
+    -------
+    tuple
+        Number of the car of each piece, and its ground.
+    """
+    bodies = [(number, body) for number, car in cars.items() for body in car.bodies if not body.touches]
+    numbers, within = [*cars], np.full(len(hulls), None, dtype=object)
+    within[numbers] = shapely.buffer(hulls[numbers], _SKIN_M)
     shapely.prepare(within)
-    for body in car.bodies:
-        if body.touches or shapely.contains_xy(within, body.world_points()[:, [0, 2]]).all():
-            continue
-        for outline, low, _ in body.pieces():
-            piece = shapely.convex_hull(shapely.multipoints(outline))
-            if low < height_m and not within.covers(piece):
-                yield shapely.oriented_envelope(piece)
+    car = np.array([number for number, _ in bodies], dtype=np.int64)
+    # what is convex holds a mesh where it holds the convex outline of that
+    whole = placed_pieces([body for _, body in bodies], np.ones(len(bodies), dtype=bool))
+    corner = whole.owner[whole.piece]
+    inside = np.ones(len(bodies), dtype=bool)
+    np.logical_and.at(inside, corner, shapely.contains_xy(within[car[corner]], whole.corners))
+    rest = np.flatnonzero(~inside)
+    pieces = placed_pieces([bodies[index][1] for index in rest.tolist()], np.zeros(len(rest), dtype=bool))
+    pieces = pieces.kept(pieces.low_m < height_m)
+    car, grounds = car[rest][pieces.owner], pieces.hulls
+    stands_out = ~shapely.covers(within[car], grounds)
+    return car[stands_out], shapely.oriented_envelope(grounds[stands_out])
 
 
-def _simple(pieces: list[shapely.Polygon]) -> shapely.Geometry:
+def _hulls(owner: NDArray[np.int64], pieces: Grounds) -> Grounds:
+    """The convex hulls of the pieces of each owner; all have some."""
+    if not len(pieces):
+        return pieces
+    hulls: Grounds = shapely.convex_hull(shapely.geometrycollections(pieces, indices=owner))
+    return hulls
+
+
+def _simple(owner: NDArray[np.int64], pieces: Grounds) -> tuple[NDArray[np.int64], Grounds]:
     """Convex pieces as fewer ones that hold them: one where they nearly fill it, none with more than eight corners."""
-    if len(pieces) > 1:
-        whole = shapely.union_all(pieces)
-        hull = whole.convex_hull
-        # what is as thin as a line has no area to be filled
-        if isinstance(hull, shapely.Polygon) and hull.area - whole.area <= _SLACK_M2:
-            pieces = [hull]
-    return shapely.GeometryCollection([_eight_cornered(piece) for piece in pieces])
+    counts = np.bincount(owner)
+    number = np.arange(len(owner)) - (np.cumsum(counts) - counts)[owner]
+    table = np.full((len(counts), counts.max(initial=1)), None, dtype=object)
+    table[owner, number] = pieces
+    several = np.flatnonzero(counts > 1)
+    wholes = shapely.union_all(table[several], axis=1)
+    hulls = shapely.convex_hull(wholes)
+    # what is as thin as a line has no area to be filled
+    are_filled = shapely.get_type_id(hulls) == shapely.GeometryType.POLYGON
+    are_filled &= shapely.area(hulls) - shapely.area(wholes) <= _SLACK_M2
+    kept = np.isin(owner, several[are_filled], invert=True)
+    owner = np.concatenate([owner[kept], several[are_filled]])
+    order = np.argsort(owner, kind="stable")
+    return owner[order], _eight_cornered(np.concatenate([pieces[kept], hulls[are_filled]])[order])
 
 
-def _eight_cornered(piece: shapely.Polygon) -> shapely.Geometry:
-    """A convex polygon, or the tightest one around it with eight sides along and halfway between those of its box.
+def _eight_cornered(pieces: Grounds) -> Grounds:
+    """Convex polygons, or the tightest ones around them with eight sides, along and halfway between those of a box.
 
     One that is as thin as a line becomes that line.
     """
-    hull = piece.convex_hull
-    if not isinstance(hull, shapely.Polygon):
-        return hull
-    corners = np.asarray(piece.exterior.coords)[:-1]
-    if len(corners) <= _CORNERS:
-        return piece
-    box = np.asarray(shapely.oriented_envelope(piece).exterior.coords)
-    angles = math.atan2(*(box[1] - box[0])[::-1]) + np.arange(_DIRECTIONS) * math.tau / _DIRECTIONS
-    normals = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    reach = (corners @ normals.T).max(axis=0)
-    meets = [
-        np.linalg.solve(normals[[side, side - 1]], reach[[side, side - 1]]).tolist() for side in range(_DIRECTIONS)
-    ]
-    return shapely.Polygon(meets).convex_hull
+    hulls = shapely.convex_hull(pieces)
+    are_flat = shapely.get_type_id(hulls) != shapely.GeometryType.POLYGON
+    simple = np.where(are_flat, hulls, pieces)
+    many = np.flatnonzero(~are_flat & (shapely.get_num_coordinates(pieces) - 1 > _CORNERS))
+    if not len(many):
+        return simple
+    boxes = shapely.get_coordinates(shapely.oriented_envelope(pieces[many])).reshape(-1, 5, 2)
+    sides = boxes[:, 1] - boxes[:, 0]
+    turns = np.arange(_DIRECTIONS) * math.tau / _DIRECTIONS
+    angles = np.arctan2(sides[:, 1], sides[:, 0])[:, None] + turns
+    normals = np.stack([np.cos(angles), np.sin(angles)], axis=2)
+    corners, piece = shapely.get_coordinates(pieces[many], return_index=True)
+    reaches = (corners[:, None] * normals[piece]).sum(axis=2)
+    reach = np.maximum.reduceat(reaches, np.searchsorted(piece, np.arange(len(many))))
+    before = np.arange(_DIRECTIONS) - 1
+    lines = np.stack([normals, normals[:, before]], axis=2)
+    meets = np.linalg.solve(lines, np.stack([reach, reach[:, before]], axis=2)[..., None])[..., 0]
+    simple[many] = shapely.convex_hull(shapely.polygons(meets))
+    return simple
 
 
 def _yaw_rad(stall: StallOutline) -> float:
@@ -135,5 +187,6 @@ def _quarter_rad(x: float, z: float) -> float:
     return math.atan2(round(x) + 0.0, round(z) + 0.0)
 
 
-def _rounded(point: Point) -> Point:
+def rounded(point: Point) -> Point:
+    """A point to a tenth of a millimetre, as single precision keeps it."""
     return round(point[0], _DIGITS), round(point[1], _DIGITS)

@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage
+from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
+from garage2usd.checks.openings import Door
 from garage2usd.checks.shapes import Array, Thing
 from garage2usd.checks.subject import Subject
 from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, SquareUse, heights_m
 from garage2usd.reading.ground import LaneNode, Point
 from garage2usd.structure.lane_graph import LaneKind
 
-__all__ = ["driven_road"]
+__all__ = ["Mouth", "driven_road", "portal_mouths"]
 
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
@@ -28,6 +30,38 @@ _FROM_DOOR_M = 0.3
 """Between a car and the door that it has come through, or will go through, where there is no ramp."""
 _DOOR_REACH_M, _RAMP_REACH_M = 1.5, 2.0
 _DIGITS = 4
+_AXES: tuple[Point, ...] = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
+
+
+class Mouth(NamedTuple):
+    """Where a portal opens to the outside.
+
+    Attributes
+    ----------
+    number
+        Of its node.
+    outwards
+        Unit vector (x, z) along an axis.
+    edge_m
+        From the node's middle to where the clear floor of its square ends.
+    width_m
+        Of the way: the ramp's, else the opening of the door, else that between the columns.
+    ramp
+        The floor that begins there; None where a ramp is missing.
+    """
+
+    number: int
+    outwards: Point
+    edge_m: float
+    width_m: float
+    ramp: RampFloor | None
+
+    def top_m(self, middle: Point) -> float:
+        """From the node's middle to where the way ends: the top of the ramp, else the edge of the floor."""
+        if self.ramp is None:
+            return self.edge_m
+        top = self.ramp.top_m
+        return (top[0] - middle[0]) * self.outwards[0] + (top[1] - middle[1]) * self.outwards[1]
 
 
 def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
@@ -49,8 +83,7 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
     """
     car = car or DesignCar()
     garage = driven_garage(subject, height_m=height_m)
-    ramps = {thing.name: _floor(thing) for thing in subject.things if thing.label == _RAMP}
-    floors = tuple(floor for floor in ramps.values() if floor is not None)
+    floors = _ramp_floors(subject)
     opened = [thing.name for thing in subject.things if thing.label in {_GATE, _RAMP}]
     gates = ((solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
     sides = (
@@ -63,23 +96,36 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
     return DrivenRoad(garage, standing, portals, floors)
 
 
-def _portals(subject: Subject, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
+def portal_mouths(subject: Subject) -> tuple[Mouth, ...]:
+    """Where each portal of a garage opens to the outside, in the order of the nodes."""
+    return tuple(_mouths(subject, _ramp_floors(subject)))
+
+
+def _mouths(subject: Subject, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
     for number, node in enumerate(subject.nodes):
         if not node.is_portal:
             continue
-        outwards, edge_m = _outwards(subject, number)
+        door, outwards, edge_m = _outwards(subject, number)
+        middle = rounded(node.position)
+        ramp = next((ramp for ramp in ramps if _is_behind(ramp, middle, outwards, edge_m)), None)
+        width_m = node.widths_m[0] if outwards[0] == 0 else node.widths_m[1]
+        if ramp is not None:
+            width_m = 2 * ramp.half_width_m
+        elif door is not None and door.clear_width_m is not None:
+            width_m = door.clear_width_m
+        yield Mouth(number, outwards, edge_m, width_m, ramp)
+
+
+def _portals(subject: Subject, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
+    for mouth in _mouths(subject, ramps):
+        node = subject.nodes[mouth.number]
         is_entrance = node.kind == LaneKind.ENTRANCE
-        yaw = math.atan2(outwards[0] + 0.0, outwards[1] + 0.0)  # into the garage
-        x, z = (round(value, _DIGITS) for value in node.position)
-        ramp = next((ramp for ramp in ramps if _is_behind(ramp, (x, z), outwards, edge_m)), None)
-        if ramp is None:
-            end_m = edge_m - _FROM_DOOR_M
-        else:
-            top = ramp.top_m
-            end_m = (top[0] - x) * outwards[0] + (top[1] - z) * outwards[1] - _FROM_END_M
+        yaw = math.atan2(mouth.outwards[0] + 0.0, mouth.outwards[1] + 0.0)  # into the garage
+        x, z = rounded(node.position)
+        end_m = mouth.top_m((x, z)) - (_FROM_DOOR_M if mouth.ramp is None else _FROM_END_M)
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
-        pose = Pose(x + axle_m * outwards[0], z + axle_m * outwards[1], yaw if is_entrance else _about(yaw))
-        yield Portal(number, node.name, SquareUse.ENTRANCE if is_entrance else SquareUse.EXIT, pose)
+        pose = Pose(x + axle_m * mouth.outwards[0], z + axle_m * mouth.outwards[1], yaw if is_entrance else _about(yaw))
+        yield Portal(mouth.number, node.name, SquareUse.ENTRANCE if is_entrance else SquareUse.EXIT, pose)
 
 
 def _about(yaw_rad: float) -> float:
@@ -87,17 +133,24 @@ def _about(yaw_rad: float) -> float:
     return turned - math.tau if turned > math.pi else turned
 
 
-def _outwards(subject: Subject, number: int) -> tuple[Point, float]:
-    """The direction in which a portal's door lies, along an axis, and how far away its square's edge is there."""
+def _outwards(subject: Subject, number: int) -> tuple[Door | None, Point, float]:
+    """A portal's door, the direction in which it lies, along an axis, and how far away its square's edge is there."""
     node = subject.nodes[number]
-    ways = [door for door in (_towards(node, door.position) for door in subject.doors) if door is not None]
+    ways = [(way, door) for door in subject.doors if (way := _towards(node, door.position)) is not None]
     if ways:
-        outwards = min(ways)[1]
+        (_, outwards), door = min(ways, key=lambda found: found[0])
     else:
-        lane = subject.nodes[min(subject.beside[number], default=number)]
-        dx, dz = node.position[0] - lane.position[0], node.position[1] - lane.position[1]
-        outwards = (math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz))
-    return outwards, _half_m(subject, number, outwards)
+        door = None
+        ways_in = [_axis(subject.nodes[other].position, node.position) for other in sorted(subject.beside[number])]
+        taken = {(-x, -z) for x, z in ways_in}
+        outwards = next((way for way in (*ways_in, *_AXES) if way not in taken), _AXES[0])
+    return door, outwards, _half_m(subject, number, outwards)
+
+
+def _axis(start: Point, end: Point) -> Point:
+    """The direction along an axis that leads nearest from a point to another."""
+    dx, dz = end[0] - start[0], end[1] - start[1]
+    return (math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz))
 
 
 def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
@@ -108,7 +161,7 @@ def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
     )
     if aside > _DOOR_REACH_M or along > half / 2 + _DOOR_REACH_M:
         return None
-    return along, ((math.copysign(1.0, dx), 0.0) if abs(dx) > abs(dz) else (0.0, math.copysign(1.0, dz)))
+    return along, _axis(node.position, door)
 
 
 def _half_m(subject: Subject, number: int, outwards: Point) -> float:
@@ -126,46 +179,43 @@ def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -
     return in_line > 0.99 and aside < ramp.half_width_m / 2 and abs(along - edge_m) < _RAMP_REACH_M  # noqa: PLR2004
 
 
-def _faces(thing: Thing) -> Iterator[tuple[Array, Array]]:
-    """Unit normal and corners of each face with an area."""
-    for body in thing.bodies:
-        points = body.world_points()
-        starts = np.cumsum(body.shape.counts) - body.shape.counts
-        for start, count in zip(starts.tolist(), body.shape.counts.tolist(), strict=True):
-            edges = body.shape.edges[start : start + count]
-            normal = np.cross(points[edges[:, 0]], points[edges[:, 1]]).sum(axis=0)
-            length = float(np.linalg.norm(normal))
-            if length > 0:
-                yield normal / length, points[edges[:, 0]]
+def _ramp_floors(subject: Subject) -> tuple[RampFloor, ...]:
+    floors = (_floor(thing) for thing in subject.things if thing.label == _RAMP)
+    return tuple(floor for floor in floors if floor is not None)
 
 
 def _floor(thing: Thing) -> RampFloor | None:
     """The profile of a ramp's floor from its faces that look up, without its grooves; None if nothing slopes."""
-    faces = [(normal, corners) for normal, corners in _faces(thing) if normal[1] > _UPRIGHT]
+    faces = [face for face in thing.faces() if face.normal[1] > _UPRIGHT]
     sloping = [
-        (normal, corners)
-        for normal, corners in faces
-        if _LEVEL_SLOPE < math.hypot(normal[0], normal[2]) / normal[1] < _STEEPEST_SLOPE
+        face
+        for face in faces
+        if _LEVEL_SLOPE < math.hypot(face.normal[0], face.normal[2]) / face.normal[1] < _STEEPEST_SLOPE
     ]
     if not sloping:
         return None
     uphill = -sum(normal[[0, 2]] * np.ptp(corners[:, 1]) for normal, corners in sloping)
     uphill = np.round(uphill / np.linalg.norm(uphill), _DIGITS + 2)
     across = np.array([-uphill[1], uphill[0]])
-    wide_m = max(float(np.ptp(corners[:, [0, 2]] @ across)) for _, corners in sloping)
+    # the grooves of a ramp are very many faces
+    points = np.concatenate([corners for _, corners in sloping])
+    starts = np.cumsum([0, *(len(corners) for _, corners in sloping[:-1])])
+    aside, along = points[:, [0, 2]] @ across, points[:, [0, 2]] @ uphill
+    low, high = np.minimum.reduceat(aside, starts), np.maximum.reduceat(aside, starts)
+    wide_m = float((high - low).max())
+    lengths = np.maximum.reduceat(along, starts) - np.minimum.reduceat(along, starts)
+    are_floor = (high - low > 0.9 * wide_m) & (lengths > _LEAST_FLAT_M)
     profile: dict[float, float] = {}
     middle = None
-    for _, corners in sloping:
-        flat = corners[:, [0, 2]]
-        is_floor = np.ptp(flat @ across) > 0.9 * wide_m and np.ptp(flat @ uphill) > _LEAST_FLAT_M
-        if is_floor:
-            middle = float((flat @ across).min() + (flat @ across).max()) / 2
-            profile.update(
-                {
-                    round(run, _DIGITS): height
-                    for run, height in zip((flat @ uphill).tolist(), corners[:, 1].tolist(), strict=True)
-                }
-            )
+    for face in np.flatnonzero(are_floor).tolist():
+        own = slice(starts[face], starts[face] + len(sloping[face].corners))
+        middle = float(low[face] + high[face]) / 2
+        profile.update(
+            {
+                round(run, _DIGITS): height
+                for run, height in zip(along[own].tolist(), points[own, 1].tolist(), strict=True)
+            }
+        )
     if middle is None:
         return None
     runs = np.array(sorted(profile))
@@ -181,7 +231,7 @@ def _floor(thing: Thing) -> RampFloor | None:
 
 def _sides(thing: Thing, ramps: Sequence[RampFloor], height_m: float) -> Iterator[Array]:
     """Ends (x, z) of each upright face that is higher than a hand and begins lower over the floor than a car ends."""
-    for normal, corners in _faces(thing):
+    for normal, corners in thing.faces():
         if abs(normal[1]) > _UPRIGHT or np.ptp(corners[:, 1]) < _LEAST_FACE_M:
             continue
         flat = corners[:, [0, 2]]

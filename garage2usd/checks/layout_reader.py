@@ -75,10 +75,11 @@ def _things(layout: Layout) -> tuple[Thing, ...]:
     objects = layout.placements
     rows = objects.rows_of(*(kind.name for kind in KINDS if kind.is_solid))
     things = []
-    for row, placement in zip(rows.tolist(), objects.at(rows), strict=True):
-        matrix = turned_about_y(placement.yaw_rad, placement.position_m)
-        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(placement.spec.shape))
-        things.append(Thing(paths[row], placement.spec.kind.label, bodies))
+    matrices = turned_about_y(objects.yaw_rad[rows], objects.position_m[rows])
+    for row, number, matrix in zip(rows.tolist(), objects.spec[rows].tolist(), matrices, strict=True):
+        spec = objects.specs[number]
+        bodies = tuple(Body(shape, matrix, touches) for shape, touches in _shapes(spec.shape))
+        things.append(Thing(paths[row], spec.kind.label, bodies))
     return tuple(things)
 
 

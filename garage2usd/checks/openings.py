@@ -154,63 +154,49 @@ def _widest_gap(spans: list[tuple[float, float]]) -> tuple[float, float] | None:
     return best
 
 
-class _Slope(NamedTuple):
-    """A sloping face: its runs, how wide it is, and its slope."""
+class _Slopes(NamedTuple):
+    """Sloping faces: their runs, how wide they are, and their slopes; float64, shape (faces,) each."""
 
-    start_m: float
-    end_m: float
-    width_m: float
-    slope: float
+    start_m: Array
+    end_m: Array
+    width_m: Array
+    slope: Array
 
 
 def _ramp(thing: Thing) -> Ramp:
     points = np.concatenate([body.world_points() for body in thing.bodies])
     middle = (points.min(axis=0) + points.max(axis=0))[[0, 2]] / 2
-    normals, corners = _upward_faces(thing)
-    slopes = np.linalg.norm(normals[:, [0, 2]], axis=1) / normals[:, 1] if len(normals) else np.zeros(0)
+    facets = [body.facets() for body in thing.bodies]
+    normals, counts, corners = (np.concatenate(part) for part in zip(*facets, strict=True))
+    slopes = np.full(len(normals), np.inf)
+    np.divide(np.linalg.norm(normals[:, [0, 2]], axis=1), normals[:, 1], out=slopes, where=normals[:, 1] > 0)
     sloping = (slopes > _LEVEL_SLOPE) & (slopes < _STEEPEST_SLOPE)
     if not sloping.any():
         return Ramp(thing.name, _point(middle), ())
     uphill = -normals[sloping][:, [0, 2]].sum(axis=0)
     uphill /= np.linalg.norm(uphill) or 1.0
     across = np.array([-uphill[1], uphill[0]])
-    faces = [
-        _Slope(
-            float((flat @ uphill).min()),
-            float((flat @ uphill).max()),
-            float(np.ptp(flat @ across)),
-            float(slope),
-        )
-        for flat, slope in zip(
-            (corners[index][:, [0, 2]] for index in np.flatnonzero(sloping)), slopes[sloping], strict=True
-        )
-    ]
+    flat = corners[np.repeat(sloping, counts)][:, [0, 2]]
+    starts = np.cumsum(counts[sloping]) - counts[sloping]
+    along, aside = flat @ uphill, flat @ across
+    faces = _Slopes(
+        np.minimum.reduceat(along, starts),
+        np.maximum.reduceat(along, starts),
+        np.maximum.reduceat(aside, starts) - np.minimum.reduceat(aside, starts),
+        slopes[sloping],
+    )
     return Ramp(thing.name, _point(middle), tuple(_stretches(faces)))
 
 
-def _upward_faces(thing: Thing) -> tuple[Array, list[Array]]:
-    """Unit normals of the faces that look up, shape (n, 3), and their corners."""
-    normals, corners = [], []
-    for body in thing.bodies:
-        points = body.world_points()
-        starts = np.cumsum(body.shape.counts) - body.shape.counts
-        begin, end = (points[body.shape.edges[:, side]] for side in (0, 1))
-        sums = np.add.reduceat(np.cross(begin, end), starts)
-        lengths = np.linalg.norm(sums, axis=1)
-        for face in np.flatnonzero((lengths > 0) & (sums[:, 1] > 0)).tolist():
-            normals.append(sums[face] / lengths[face])
-            corners.append(begin[starts[face] : starts[face] + body.shape.counts[face]])
-    return np.array(normals).reshape(-1, 3), corners
-
-
-def _stretches(faces: list[_Slope]) -> Iterator[Stretch]:
+def _stretches(faces: _Slopes) -> Iterator[Stretch]:
     """The slope of the widest face along the run, where equal slopes are one stretch."""
-    start = min(face.start_m for face in faces)
-    runs = np.arange(start + _STEP_M / 2, max(face.end_m for face in faces), _STEP_M)
-    best_width, slope = np.zeros(len(runs)), np.zeros(len(runs))
-    for face in faces:
-        better = (runs >= face.start_m) & (runs <= face.end_m) & (face.width_m > best_width)
-        best_width[better], slope[better] = face.width_m, face.slope
+    runs = np.arange(faces.start_m.min() + _STEP_M / 2, faces.end_m.max(), _STEP_M)
+    first, end = np.searchsorted(runs, faces.start_m, side="left"), np.searchsorted(runs, faces.end_m, side="right")
+    slope = np.zeros(len(runs))
+    # the widest comes last and stays, of equal ones the first
+    order = np.argsort(-faces.width_m, kind="stable")[::-1]
+    for face in order[(faces.width_m[order] > 0) & (first[order] < end[order])].tolist():
+        slope[first[face] : end[face]] = faces.slope[face]
     done = 0
     for percent, samples in groupby(np.round(100 * slope, 1).tolist()):
         count = len(list(samples))

@@ -1,16 +1,30 @@
 """Meshes as what stands or hangs in a garage: convex pieces with an outline seen from above and two heights."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from garage2usd.layout.grounds import hulls_around
 from garage2usd.structure.pieces import joined
 
-__all__ = ["Body", "MeshShape", "Piece", "Thing", "box_shape", "turned_about_y"]
+__all__ = [
+    "Body",
+    "Face",
+    "Facets",
+    "MeshShape",
+    "Outlines",
+    "Piece",
+    "Thing",
+    "are_upright",
+    "box_shape",
+    "outlines_of",
+    "turned_about_y",
+]
 
 Array = NDArray[np.float64]
 
@@ -36,6 +50,25 @@ class Piece(NamedTuple):
     outline: Array
     low_m: float
     high_m: float
+
+
+class Outlines(NamedTuple):
+    """Pieces in columns.
+
+    Attributes
+    ----------
+    corners
+        Of the outlines of all pieces, one after the other; float64, shape (n, 2).
+    counts
+        How many corners each piece has; int64, shape (pieces,).
+    low_m, high_m
+        Its least and greatest height; float64, shape (pieces,).
+    """
+
+    corners: Array
+    counts: NDArray[np.int64]
+    low_m: Array
+    high_m: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,11 +121,32 @@ class MeshShape:
         starts = np.unique(first[order], return_index=True)[1]
         return _pieces(self.points[used[order]], starts)
 
+    def outlines(self, *, whole: bool) -> Outlines:
+        """The connected pieces in columns, or all of it as one."""
+        return self._whole_outline if whole else self._outlines
+
+    @cached_property
+    def _outlines(self) -> Outlines:
+        return outlines_of([piece[1:] for piece in self.pieces])
+
+    @cached_property
+    def _whole_outline(self) -> Outlines:
+        return outlines_of([self.whole[1:]])
+
+
+def outlines_of(pieces: Sequence[tuple[Array, float, float]]) -> Outlines:
+    """Pieces in columns, each given by its outline and its least and greatest height."""
+    return Outlines(
+        np.concatenate([outline for outline, _, _ in pieces]) if pieces else np.zeros((0, 2)),
+        np.array([len(outline) for outline, _, _ in pieces], dtype=np.int64),
+        np.array([low for _, low, _ in pieces], dtype=np.float64),
+        np.array([high for _, _, high in pieces], dtype=np.float64),
+    )
+
 
 def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
     """Pieces of points, each from its start on; the outline of what has none, as a line or a point, is all of it."""
-    owner = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(points)))
-    hulls = shapely.convex_hull(shapely.multipoints(points[:, [0, 2]], indices=owner))
+    hulls = hulls_around(points[:, [0, 2]], np.diff(starts, append=len(points)))
     corners, hull = shapely.get_coordinates(hulls, return_index=True)
     outlines = np.split(corners, np.searchsorted(hull, np.arange(1, len(starts))))
     are_flat = shapely.get_type_id(hulls) != shapely.GeometryType.POLYGON
@@ -109,14 +163,49 @@ def box_shape(low: Array, high: Array) -> MeshShape:
     return MeshShape(corners.astype(np.float64), np.full(6, 4), faces)
 
 
-def turned_about_y(yaw_rad: float, position_m: tuple[float, float, float]) -> Array:
-    """The matrix for row vectors of a turn about +Y and a move; float64, shape (4, 4)."""
-    cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
-    matrix = np.eye(4)
-    matrix[0, [0, 2]] = cos, -sin
-    matrix[2, [0, 2]] = sin, cos
-    matrix[3, :3] = position_m
-    return matrix
+def turned_about_y(yaw_rad: ArrayLike, position_m: ArrayLike) -> Array:
+    """The matrices for row vectors, float64 of shape (..., 4, 4), of turns about +Y and moves, shape (..., 3)."""
+    yaw = np.asarray(yaw_rad, dtype=np.float64)
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    matrices = np.zeros((*yaw.shape, 4, 4))
+    matrices[..., 0, 0] = matrices[..., 2, 2] = cos
+    matrices[..., 0, 2], matrices[..., 2, 0] = -sin, sin
+    matrices[..., 1, 1] = matrices[..., 3, 3] = 1.0
+    matrices[..., 3, :3] = position_m
+    return matrices
+
+
+class Face(NamedTuple):
+    """A face of a placed mesh.
+
+    Attributes
+    ----------
+    normal
+        Unit vector, out of the mesh where its corners are counter-clockwise seen from outside; float64, shape (3,).
+    corners
+        float64, shape (n, 3), in the world.
+    """
+
+    normal: Array
+    corners: Array
+
+
+class Facets(NamedTuple):
+    """Faces of placed meshes in columns.
+
+    Attributes
+    ----------
+    normals
+        As of `Face`; float64, shape (F, 3).
+    counts
+        How many corners each has; int64, shape (F,).
+    corners
+        Of one face after the other, in the world; float64, shape (n, 3).
+    """
+
+    normals: Array
+    counts: NDArray[np.int64]
+    corners: Array
 
 
 class Body(NamedTuple):
@@ -158,12 +247,33 @@ class Body(NamedTuple):
             (piece.outline @ flat + shift, piece.low_m * rise + lift, piece.high_m * rise + lift) for piece in pieces
         ]
 
+    def faces(self) -> Iterator[Face]:
+        """Each face that has an area, with its normal by Newell's method."""
+        found = self.facets()
+        for normal, corners in zip(found.normals, np.split(found.corners, np.cumsum(found.counts)[:-1]), strict=True):
+            yield Face(normal, corners)
+
+    def facets(self) -> "Facets":
+        """All of them at once."""
+        counts = self.shape.counts
+        points, starts = self.world_points(), np.cumsum(counts) - counts
+        begin, end = (points[self.shape.edges[:, side]] for side in (0, 1))
+        normals = np.add.reduceat(np.cross(begin, end), starts) if len(counts) else np.zeros((0, 3))
+        lengths = np.linalg.norm(normals, axis=1)
+        has_area = lengths > 0
+        return Facets(normals[has_area] / lengths[has_area, None], counts[has_area], begin[np.repeat(has_area, counts)])
+
     @property
     def _is_upright(self) -> bool:
         """Whether it is turned about the vertical only."""
-        turn = self.matrix
-        tilt = max(abs(turn[1, 0]), abs(turn[1, 2]), abs(turn[0, 1]), abs(turn[2, 1]))
-        return bool(tilt < _LEVEL and turn[1, 1] > 0)
+        return bool(are_upright(self.matrix))
+
+
+def are_upright(matrices: Array) -> NDArray[np.bool_]:
+    """Whether matrices for row vectors, float64 of shape (..., 4, 4), turn about the vertical only; shape (...)."""
+    tilts = np.abs(matrices[..., (1, 1, 0, 2), (0, 2, 1, 1)]).max(axis=-1)
+    upright: NDArray[np.bool_] = (tilts < _LEVEL) & (matrices[..., 1, 1] > 0)
+    return upright
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,3 +293,7 @@ class Thing:
     name: str
     label: str
     bodies: tuple[Body, ...]
+
+    def faces(self) -> Iterator[Face]:
+        """Each face of its meshes that has an area."""
+        return (face for body in self.bodies for face in body.faces())

@@ -8,9 +8,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from garage2usd.checks.placed_pieces import lows_m, placed_pieces
 from garage2usd.checks.shapes import Thing
-from garage2usd.layout.grounds import Grounds, grounds_of
-from garage2usd.objects import KINDS
+from garage2usd.layout.grounds import Grounds
+from garage2usd.objects import KINDS, PIECE_LABELS
 
 __all__ = ["HANGS_FROM_M", "Solid", "Solids"]
 
@@ -19,7 +20,7 @@ HANGS_FROM_M = 1.0
 _FLAT_M = 0.03
 _ROUNDING_M = 1e-4
 """Of heights in a stage, which keeps single precision."""
-_NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid}
+_NOT_SOLID = {kind.label for kind in KINDS if not kind.is_solid} | PIECE_LABELS
 
 
 class Solid(NamedTuple):
@@ -60,28 +61,22 @@ class Solids:
 
     def __init__(self, things: Iterable[Thing]) -> None:
         """Take the pieces of all objects apart from what lies on the floor or clads a column."""
-        self._names: list[str] = []
-        self._labels: list[str] = []
-        corners, owners, lows, highs, hangs = [], [], [], [], []
-        for thing in things:
-            if thing.label in _NOT_SOLID:
-                continue
-            hanging = min((body.low_m() for body in thing.bodies), default=0.0) > HANGS_FROM_M
-            touched = [body for body in thing.bodies if body.touches]
-            bodies = thing.bodies if hanging or not touched else touched
-            for outline, low, high in (piece for body in bodies for piece in body.pieces(whole=hanging)):
-                if len(outline) >= 3 and high >= _FLAT_M:  # noqa: PLR2004
-                    corners.append(outline)
-                    owners.append(len(self._names))
-                    lows.append(low)
-                    highs.append(high)
-                    hangs.append(hanging)
-            self._names.append(thing.name)
-            self._labels.append(thing.label)
-        self._owner = np.array(owners, dtype=np.int64)
-        self._low, self._high = np.array(lows), np.array(highs)
-        self._hangs = np.array(hangs, dtype=bool)
-        self._footprints = grounds_of(corners)
+        things = [thing for thing in things if thing.label not in _NOT_SOLID]
+        self._names = [thing.name for thing in things]
+        self._labels = [thing.label for thing in things]
+        bodies = [body for thing in things for body in thing.bodies]
+        owner = np.repeat(np.arange(len(things)), [len(thing.bodies) for thing in things])
+        least, touched = np.full(len(things), np.inf), np.zeros(len(things), dtype=bool)
+        np.minimum.at(least, owner, lows_m(bodies))
+        hanging = (least > HANGS_FROM_M) & np.isfinite(least)
+        touches = np.array([body.touches for body in bodies], dtype=bool)
+        touched[owner[touches]] = True
+        counted = np.flatnonzero(hanging[owner] | ~touched[owner] | touches)
+        found = placed_pieces([bodies[index] for index in counted.tolist()], hanging[owner[counted]])
+        found = found.kept(found.have_area & (found.high_m >= _FLAT_M))
+        self._owner = owner[counted][found.owner]
+        self._low, self._high, self._footprints = found.low_m, found.high_m, found.footprints
+        self._hangs = hanging[self._owner]
 
     @cached_property
     def _tree(self) -> shapely.STRtree:

@@ -16,6 +16,7 @@ from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.ground import Point
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
+from garage2usd.reading.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
@@ -39,11 +40,25 @@ def stage_subject(path: Path) -> Subject:
         raise StageError(str(path), "its prims are nested too deeply to be read") from None
 
 
-def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
-    """Read a stage that is open, as it is composed now."""
-    ground, contents = read_lanes(stage), read_contents(stage)
+def subject_of_stage(
+    stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
+) -> Subject:
+    """Read a stage that is open, as it is composed now.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    source
+        Its file.
+    objects
+        As for `garage2usd.checks.contents.read_contents`.
+    is_judged
+        Whether what only rules look at is read too: how bright it is, and which stalls were moved without outlines.
+    """
+    ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
-    lane_lux, stall_lux = _illuminances(ground, contents.lights, structure)
+    lane_lux, stall_lux = _illuminances(ground, contents.lights, structure) if is_judged else (None, None)
     return Subject(
         source=source,
         kind="stage",
@@ -55,7 +70,7 @@ def subject_of_stage(stage: Usd.Stage, *, source: str) -> Subject:
         compartments=_compartments(stage, structure),
         lane_lux=lane_lux,
         stall_lux=stall_lux,
-        faults=(*ground.faults, *moved_stalls(stage, ground)),
+        faults=(*ground.faults, *(moved_stalls(stage, ground) if is_judged else ())),
         stage=stage,
     )
 

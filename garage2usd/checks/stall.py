@@ -43,7 +43,7 @@ def _short(subject: Subject, clause: Length | None, side: str, word: str) -> Ite
 @BOOK.rule("stall-overlap", asks="stalls do not overlap")
 def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
     stalls = subject.stalls
-    shrunk = shapely.buffer(subject.stall_grounds, -_TOUCH_M)
+    shrunk = shapely.buffer(subject.stall_grounds.polygons, -_TOUCH_M)
     first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
     for one, other in zip(first.tolist(), second.tolist(), strict=True):
         if one < other:

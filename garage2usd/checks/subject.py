@@ -12,7 +12,7 @@ from pxr import Usd
 from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.checks.shapes import Thing
 from garage2usd.checks.solids import Solid, Solids
-from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.checks.stall_grounds import StallGrounds
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
@@ -22,7 +22,6 @@ __all__ = ["Subject"]
 
 _LINE_M = 0.06
 """Half the width of a line, which is painted on the border of a stall."""
-_AT_HOME = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,19 +89,14 @@ class Subject:
         return tuple(stall for stall in self.stalls if stall.takes_cars)
 
     @cached_property
-    def stall_grounds(self) -> Grounds:
-        """The ground of each stall; shape (stalls,)."""
-        return grounds_of([stall.corners for stall in self.stalls])
-
-    @cached_property
-    def stall_tree(self) -> shapely.STRtree:
-        """The ground of all stalls, by place."""
-        return shapely.STRtree(self.stall_grounds)
+    def stall_grounds(self) -> StallGrounds:
+        """The grounds of all stalls."""
+        return StallGrounds(self.stalls)
 
     @cached_property
     def standing_in_stalls(self) -> dict[StallOutline, list[Solid]]:
         """For each stall, the pieces of what stands in it, not only on its lines."""
-        inside = shapely.buffer(self.stall_grounds, -_LINE_M)
+        inside = shapely.buffer(self.stall_grounds.polygons, -_LINE_M)
         return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
 
     @cached_property
@@ -114,17 +108,16 @@ class Subject:
         owner = np.array([number_of[solid.name] for solid in pieces], dtype=np.int64)
         order = np.argsort(owner, kind="stable")
         parts = np.array([solid.footprint for solid in pieces], dtype=object)[order]
-        grounds = shapely.convex_hull(shapely.multipolygons(parts, indices=owner[order])) if pieces else ()
-        return {name: (ground, self.home_of(ground)) for name, ground in zip(names, grounds, strict=True)}
+        if not pieces:
+            return {}
+        grounds = shapely.convex_hull(shapely.multipolygons(parts, indices=owner[order]))
+        homes = self.stall_grounds.homes_of(grounds)
+        return {name: (ground, home) for name, ground, home in zip(names, grounds, homes, strict=True)}
 
-    def home_of(self, ground: shapely.Polygon) -> StallOutline | None:
-        """The stall that more than half of a ground lies in."""
-        best, most = None, _AT_HOME * ground.area
-        for index in self.stall_tree.query(ground, predicate="intersects").tolist():
-            area = self.stalls[index].polygon.intersection(ground).area
-            if area > most:
-                best, most = self.stalls[index], area
-        return best
+    @cached_property
+    def taken_stalls(self) -> frozenset[StallOutline]:
+        """The stalls that cars stand in."""
+        return frozenset(home for _, home in self.cars.values() if home is not None)
 
     @cached_property
     def onward(self) -> tuple[tuple[int, ...], ...]:

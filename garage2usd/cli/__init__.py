@@ -8,6 +8,7 @@ import click
 from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
+from garage2usd.cli.dataset import dataset
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
 from garage2usd.cli.meshes import meshes
@@ -38,7 +39,7 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, drive, export, meshes, plan, render, schema, textures, view):
+for _command in (build, check, dataset, drive, export, meshes, plan, render, schema, textures, view):
     main.add_command(_command)
 
 

@@ -18,10 +18,19 @@ _COMPILED = {"garage2usd.planning": ("the planner", 10), "garage2usd.driving": (
 
 
 class Bars:
-    """One progress bar for each step that reports, and a line where the compiler has to run; on a terminal only."""
+    """One progress bar for each step that reports, and a line where the compiler has to run; on a terminal only.
 
-    def __init__(self, stream: TextIO) -> None:
+    Parameters
+    ----------
+    stream
+        The terminal, or what stands in its place.
+    unit
+        What is counted, in steps that take long enough for a rate to be told.
+    """
+
+    def __init__(self, stream: TextIO, *, unit: str | None = None) -> None:
         self._stream = stream
+        self._unit = unit
         self._step = ""
         self._bar: ProgressBar[int] | None = None
 
@@ -47,9 +56,21 @@ class Bars:
         if step != self._step or self._bar is None:
             self._end()
             self._step = step
-            self._bar = click.progressbar(length=total, label=f"{step:>10}", file=self._stream)
+            self._bar = click.progressbar(
+                length=total,
+                label=f"{step:>10}",
+                file=self._stream,
+                show_pos=self._unit is not None,
+                item_show_func=self._rate,
+            )
             self._bar.__enter__()
-        self._bar.update(done - self._bar.pos)
+        self._bar.update(done - self._bar.pos, 0)
+
+    def _rate(self, item: int | None) -> str | None:
+        """How fast it goes, beside the time that is left."""
+        if self._unit is None or item is None or self._bar is None or not self._bar.time_per_iteration:
+            return None
+        return f"{1 / self._bar.time_per_iteration:.2g} {self._unit}/s"
 
     def _announce(self, room: str) -> None:
         """Say what is compiled; the bar begins anew after it, as its rate is not that of compiling."""

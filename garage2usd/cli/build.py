@@ -38,7 +38,8 @@ _RULES_NAMED = 3
     "--with",
     "formats",
     metavar="FORMAT,...",
-    help="Export the stage as well, beside it: glb, yaml, or both with a comma; see `garage2usd export`.",
+    help="Export the stage as well, beside it: glb, osm, xodr, xosc, yaml, several with commas; see "
+    "`garage2usd export`.",
 )
 @click.option(
     "--output",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, refuse_seed, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, refuse_seed, seed_option
 from garage2usd.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from garage2usd.config.maps import DriveConfig
     from garage2usd.driving import StallProof
     from garage2usd.maps.drives import Drive
+    from garage2usd.pipeline import Garage
     from garage2usd.progress import Progress
 
 __all__ = ["drive"]
 
 _FORMATS = (".json", ".usda", ".usdc")
 _TRAJECTORY_FORMATS, _ANIMATION_FORMATS = (".csv", ".json"), (".usda", ".usdc")
-_STEP_S = 0.05
 
 
 @click.command(short_help="Prove that a car gets into each stall and out again.")
@@ -38,19 +38,7 @@ _STEP_S = 0.05
     help="Write the ways: .json with poses and moves, .usda or .usdc as curves to put over the stage. With --stall the "
     "trajectory: .csv or .json; with --animate .usda or .usdc.",
 )
-@click.option(
-    "--stall",
-    metavar="NAME",
-    help="Drive from an entrance to this stall, park, and drive to an exit: its name, or the number painted in it.",
-)
-@click.option("--entrance", type=int, metavar="N", help="With --stall: the entrance, from 1 on in reading order.")
-@click.option("--exit", "exit_", type=int, metavar="N", help="With --stall: the exit, from 1 on in reading order.")
-@click.option(
-    "--leg",
-    type=click.Choice(["both", "in", "out"]),
-    default="both",
-    help="With --stall: only come, only leave, or both, which is the default.",
-)
+@drive_options("With --stall", "Drive from an entrance to this stall, park, and drive to an exit")
 @click.option("--animate", is_flag=True, help="With --stall: write the car in time, to put over the stage.")
 def drive(
     *,
@@ -60,7 +48,7 @@ def drive(
     stall: str | None,
     entrance: int | None,
     exit_: int | None,
-    leg: str,
+    leg: str | None,
     animate: bool,
 ) -> None:
     """Prove that a car drives into each stall and out again without a touch.
@@ -71,7 +59,7 @@ def drive(
     are named with what is in the way, and the exit code is 1.
 
     With --stall the car drives the whole way, on ramps and lanes as well, as fast as the settings `maps.drive` allow:
-    those of PATH where it is a configuration, else the defaults. Gates open to it.
+    those of PATH where it is a configuration or a report, else the defaults. Gates open to it.
 
     \b
     Examples:
@@ -81,12 +69,9 @@ def drive(
       garage2usd drive garage.usdz --stall A1-08 --animate -o car.usdc
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
     if stall is None:
-        _refuse_without_stall(
-            entrance=entrance, exit=exit_, leg=None if leg == "both" else leg, animate=animate or None
-        )
+        _refuse_without_stall(entrance=entrance, exit=exit_, leg=leg, animate=animate or None)
     elif animate and output is None:
         raise ConfigError("output", None, f"a path that ends in {', '.join(_ANIMATION_FORMATS)}, with --animate")
     if output is not None:
@@ -97,14 +82,10 @@ def drive(
         check_name(output)
         check_writable(output.parent)
     if stall is not None:
-        _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg, output=output)
+        _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output)
         return
     with Bars(sys.stderr) as progress:
-        if path is not None and path.suffix.lower() in (*STAGE_SUFFIXES, ".json"):
-            refuse_seed(seed)
-            proofs = _proofs_of_file(path, progress)
-        else:
-            proofs = _proofs_of_config(path, seed, progress)
+        proofs = _proofs_of(path, seed, progress)
     if output is not None:
         _write(output, proofs)
     _describe(proofs)
@@ -129,14 +110,15 @@ def _drive_to(
     output: Path | None,
 ) -> None:
     """Drive to one stall and tell of it."""
-    from garage2usd.maps.drives import DrivePlanner, Leg  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
 
     with Bars(sys.stderr) as progress:
         subject, settings = _subject_of(path, seed, progress)
         driven = DrivePlanner(subject, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven)
-    route, states = driven.route, driven.motion.sampled(_STEP_S)
+    route, states = driven.route, driven.trajectory
     ways = {"in": ("arrival", route.arrival), "out": ("departure", route.departure)}
     for name, (word, way) in ways.items():
         if leg in {"both", name}:
@@ -151,18 +133,51 @@ def _drive_to(
 
 def _subject_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[Subject, DriveConfig]":
     """The garage, and the settings of drives."""
+    from garage2usd.checks.layout_reader import layout_subject  # noqa: PLC0415 - keeps --help instant
+
+    if path is not None and _is_made(path):
+        return _read(path, seed)
+    garage = _generated(path, seed, progress)
+    subject = layout_subject(garage.layout, garage.graph, source=str(path or ""), kind="plan")
+    return subject, garage.config.maps.drive
+
+
+def _proofs_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":
+    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.driving import prove_garage, prove_stalls  # noqa: PLC0415
+
+    if path is not None and _is_made(path):
+        return prove_garage(driven_garage(_read(path, seed)[0]), progress=progress)
+    garage = _generated(path, seed, progress)
+    return prove_stalls(garage.layout, garage.graph, progress=progress)
+
+
+def _is_made(path: Path) -> bool:
+    """Whether a file holds a garage, and not what one is made of."""
+    from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415 - keeps --help instant
+
+    return path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}
+
+
+def _read(path: Path, seed: int | None) -> "tuple[Subject, DriveConfig]":
+    """The garage of a stage or a report, and the settings of drives: the report's own; a stage says nothing of them."""
     from garage2usd.checks import read_subject  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.checks.layout_reader import layout_subject  # noqa: PLC0415
-    from garage2usd.config import GarageConfig, load_config  # noqa: PLC0415
-    from garage2usd.pipeline import generate  # noqa: PLC0415
+    from garage2usd.checks.plan_reader import plan_subject  # noqa: PLC0415
+    from garage2usd.config.maps import DriveConfig  # noqa: PLC0415
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
-    if path is not None and path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}:
-        refuse_seed(seed)
-        return read_subject(path)[0], GarageConfig().maps.drive
-    config = load_config(path) if path else GarageConfig()
-    garage = generate(config, seed=seed, progress=progress)
-    return layout_subject(garage.layout, garage.graph, source=str(path or ""), kind="plan"), config.maps.drive
+    refuse_seed(seed)
+    if path.suffix.lower() in STAGE_SUFFIXES:
+        return read_subject(path)[0], DriveConfig()
+    subject, config = plan_subject(path)
+    return subject, config.maps.drive
+
+
+def _generated(path: Path | None, seed: int | None, progress: "Progress") -> "Garage":
+    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.pipeline import generate  # noqa: PLC0415
+
+    return generate(load_config(path) if path else None, seed=seed, progress=progress)
 
 
 def _write_drive(output: Path, driven: "Drive") -> None:
@@ -173,29 +188,12 @@ def _write_drive(output: Path, driven: "Drive") -> None:
     with staging_folder() as staging:
         file = staging / output.name
         if output.suffix == ".csv":
-            write_trajectory_csv(file, driven.motion.sampled(_STEP_S))
+            write_trajectory_csv(file, driven.trajectory)
         elif output.suffix == ".json":
-            write_trajectory_json(file, driven.motion.sampled(_STEP_S), driven.car, driven.facts)
+            write_trajectory_json(file, driven.trajectory, driven.car, driven.facts)
         else:
             write_driving_car(file, driven.motion)
         publish([file], output.parent)
-
-
-def _proofs_of_config(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":
-    from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.driving import prove_stalls  # noqa: PLC0415
-    from garage2usd.pipeline import generate  # noqa: PLC0415
-
-    garage = generate(load_config(path) if path else None, seed=seed, progress=progress)
-    return prove_stalls(garage.layout, garage.graph, progress=progress)
-
-
-def _proofs_of_file(path: Path, progress: "Progress") -> "tuple[StallProof, ...]":
-    from garage2usd.checks import read_subject  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415
-    from garage2usd.driving import prove_garage  # noqa: PLC0415
-
-    return prove_garage(driven_garage(read_subject(path)[0]), progress=progress)
 
 
 def _write(output: Path, proofs: "Sequence[StallProof]") -> None:

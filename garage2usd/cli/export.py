@@ -6,12 +6,12 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_table
 
 __all__ = ["export"]
 
 
-@click.command(short_help="Export a stage as GLB or as an occupancy grid.")
+@click.command(short_help="Export a stage as a map, a scene or a grid.")
 @click.argument("path", type=INPUT_FILE)
 @click.option(
     "--output",
@@ -21,7 +21,9 @@ __all__ = ["export"]
     type=click.Path(path_type=Path),
     multiple=True,
     required=True,
-    help="A file: .glb for a scene, .yaml for a robot's occupancy grid with its picture beside it; may be repeated.",
+    help="A file: .glb for a scene, .osm for a Lanelet2 map, .xodr for an OpenDRIVE map, .xosc for an OpenSCENARIO "
+    "scenario with the map it names beside it, .yaml for a robot's occupancy grid with its picture beside it, and the "
+    "masks that maps.grid asks for; may be repeated.",
 )
 @click.option(
     "--config",
@@ -29,21 +31,39 @@ __all__ = ["export"]
     type=INPUT_FILE,
     help="A configuration (TOML) whose section [maps] holds, in place of the report's or the defaults.",
 )
-def export(*, path: Path, outputs: tuple[Path, ...], config: Path | None) -> None:
+@drive_options("Of a scenario", "Where the car of a scenario parks, in place of the first free stall")
+def export(
+    *,
+    path: Path,
+    outputs: tuple[Path, ...],
+    config: Path | None,
+    stall: str | None,
+    entrance: int | None,
+    exit_: int | None,
+    leg: str | None,
+) -> None:
     """Export a garage for programs that read no USD.
 
     PATH is a stage, also one that other tools have edited, which is exported as it stands; or the report of a build,
     whose garage is made again.
 
+    The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as `garage2usd drive
+    --stall` has it. Its options, one or more, stand in place of the whole section maps.scenario of the configuration.
+
     \b
     Examples:
-      garage2usd export garage.usdz -o garage.glb
+      garage2usd export garage.usdz -o garage.glb -o garage.xodr
       garage2usd export garage_report.json -o garage.glb -o garage.yaml
+      garage2usd export garage.usdz -o garage.xosc --stall A1-08 --leg in
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
 
     settings = load_config(config).maps if config else None
+    asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}
+    given = {name: value for name, value in asked.items() if value is not None}
+    scenario = ScenarioConfig.model_validate(given) if given else None
     with Bars(sys.stderr) as progress:
-        files = export_garage(path, outputs, settings=settings, progress=progress)
+        files = export_garage(path, outputs, settings=settings, scenario=scenario, progress=progress)
     echo_table(("file", str(file)) for file in files)

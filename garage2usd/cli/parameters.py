@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["INPUT_FILE", "echo_table", "profile_option", "refuse_seed", "seed_option"]
+__all__ = ["INPUT_FILE", "drive_options", "echo_table", "profile_option", "refuse_seed", "seed_option"]
 
 INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
 """A file that is read; one that is missing or damaged ends in 1, as whatever reads it says."""
@@ -24,6 +24,32 @@ def profile_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., An
     """The standard; `text` says what for."""
     names = "cn-jgj100, de-garvo, uk-istructe, us-ada or a TOML file"
     return click.option("--profile", metavar="NAME|FILE", shell_complete=_profiles, help=f"{text}: {names}.")
+
+
+def drive_options(where: str, stall: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """What a car drives; `where` says when that is asked, `stall` what happens at the stall of that name."""
+    number = click.IntRange(min=1)
+    options = [
+        click.option("--stall", metavar="NAME", help=f"{stall}: its name, or the number painted in it."),
+        click.option(
+            "--entrance", metavar="N", type=number, help=f"{where}: the entrance, from 1 on in reading order."
+        ),
+        click.option(
+            "--exit", "exit_", metavar="N", type=number, help=f"{where}: the exit, from 1 on in reading order."
+        ),
+        click.option(
+            "--leg",
+            type=click.Choice(["both", "in", "out"]),
+            help=f"{where}: only come, only leave, or both, which is the default.",
+        ),
+    ]
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
 
 
 def echo_table(lines: Iterable[tuple[str, str]]) -> None:

@@ -3,17 +3,26 @@
 import re
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_table
+from garage2usd.errors import ConfigError
+
+if TYPE_CHECKING:
+    from garage2usd.render import Picture, SlotFormat
+    from garage2usd.sensors.birds_eye import BirdsEye
 
 __all__ = ["render"]
 
 _SIZE = re.compile(r"(\d{1,5})x(\d{1,5})")
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
+_POINTS = ("pcd", "bin", "npz")
+_SEQUENCES = ("nuscenes", "ros2")
+_SLOT_FORMATS = ("json", "coco", "panoptic", "dmpr-ps")
 
 
 class _Size(click.ParamType[tuple[int, int]]):
@@ -31,25 +40,34 @@ class _Size(click.ParamType[tuple[int, int]]):
         return int(found[1]), int(found[2])
 
 
-class _Pictures(click.ParamType[tuple[str, ...]]):
-    """Kinds of pictures, with commas."""
+class _Several(click.ParamType[tuple[str, ...]]):
+    """Some of several words, with commas."""
 
-    name = "KIND,..."
+    def __init__(self, name: str, words: tuple[str, ...]) -> None:
+        self.name, self._words = name, words
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
         """Split at commas."""
         if isinstance(value, tuple):
             return value
         kinds = tuple(part.strip() for part in str(value).split(","))
-        unknown = [kind for kind in kinds if kind not in _PICTURES]
+        unknown = [kind for kind in kinds if kind not in self._words]
         if unknown:
-            self.fail(f"{unknown[0]!r} is not one of {', '.join(_PICTURES)}", param, ctx)
+            self.fail(f"{unknown[0]!r} is not one of {', '.join(self._words)}", param, ctx)
         return kinds
 
     def shell_complete(self, _ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         """The kinds that the last word may become."""
         begun, comma, last = incomplete.rpartition(",")
-        return [CompletionItem(f"{begun}{comma}{kind}") for kind in _PICTURES if kind.startswith(last)]
+        return [CompletionItem(f"{begun}{comma}{kind}") for kind in self._words if kind.startswith(last)]
+
+
+def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """The shipped rigs that begin so, else whatever file the shell finds."""
+    from garage2usd.sensors.rig import RIG_NAMES  # noqa: PLC0415 - keeps --help instant
+
+    names = [CompletionItem(name) for name in RIG_NAMES if name.startswith(incomplete)]
+    return names or [CompletionItem(incomplete, type="file")]
 
 
 @click.command(short_help="Render a stage's cameras with ground truth, by Blender.")
@@ -62,7 +80,7 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
     metavar="FRAMES",
     help="Frames of cameras that move: 0, 0:96, 0:960x24, several with commas.  [default: every 48th]",
 )
-@click.option("--size", type=_Size(), default="1280x720", show_default=True, help="Width and height in pixels.")
+@click.option("--size", type=_Size(), help="Width and height in pixels of a stage's cameras.  [default: 1280x720]")
 @click.option(
     "--samples",
     metavar="N",
@@ -80,8 +98,55 @@ class _Pictures(click.ParamType[tuple[str, ...]]):
     help="Seed of the samples, not of the garage.",
 )
 @click.option(
-    "--only", "pictures", type=_Pictures(), default=_PICTURES, help=f"Some of {', '.join(_PICTURES)}.  [default: all]"
+    "--only",
+    "pictures",
+    type=_Several("KIND,...", _PICTURES),
+    default=_PICTURES,
+    help=f"Some of {', '.join(_PICTURES)}.  [default: all]",
 )
+@click.option(
+    "--slots",
+    type=_Several("FORMAT,...", _SLOT_FORMATS),
+    help=f"Tell the slots of each frame: slots.json, and some of {', '.join(_SLOT_FORMATS[1:])}.",
+)
+@click.option(
+    "--rig",
+    metavar="NAME|FILE",
+    shell_complete=_rigs,
+    help="Record with the sensors of a rig: avp_surround, column_camera, lidar_32, woodscape_like or a TOML file.",
+)
+@click.option(
+    "--along",
+    metavar="ENTRANCE:STALL|CAMERA",
+    help="With --rig: the proven way from an entrance (1, 2 ...; left out, the nearest) to a stall, as 1:A1-08, or a "
+    "camera that moves.",
+)
+@click.option(
+    "--every-m", metavar="M", type=click.FloatRange(0.01), help="With --rig: metres between two places.  [default: 1]"
+)
+@click.option(
+    "--scale",
+    metavar="X",
+    type=click.FloatRange(0, 16, min_open=True),
+    help="With --rig: of the pictures' sides.  [default: 1]",
+)
+@click.option(
+    "--points",
+    type=_Several("FORMAT,...", _POINTS),
+    help=f"With --rig: what the points of LiDARs are written as, some of {', '.join(_POINTS)}.  [default: all]",
+)
+@click.option(
+    "--also",
+    type=_Several("KIND,...", _SEQUENCES),
+    help="With --rig: what the whole is written as too: nuscenes for its tables, ros2 for a bag.",
+)
+@click.option(
+    "--birds-eye",
+    metavar="M",
+    type=click.FloatRange(0.001, 1),
+    help="With --rig: a bird's-eye view at each place too, of 600 x 600 pixels that are M metres wide.",
+)
+@click.option("--without-cars", is_flag=True, default=None, help="With --birds-eye: it looks through parked cars.")
 @click.option(
     "--output",
     "-o",
@@ -96,10 +161,19 @@ def render(
     stage: Path,
     cameras: tuple[str, ...],
     frames: str | None,
-    size: tuple[int, int],
+    size: tuple[int, int] | None,
     samples: int,
     seed: int,
     pictures: tuple[str, ...],
+    slots: tuple[str, ...] | None,
+    rig: str | None,
+    along: str | None,
+    every_m: float | None,
+    scale: float | None,
+    points: tuple[str, ...] | None,
+    also: tuple[str, ...] | None,
+    birds_eye: float | None,
+    without_cars: bool | None,
     output: Path,
 ) -> None:
     """Draw what the cameras of the stage PATH see: colour, depth, normals, instances and classes.
@@ -107,26 +181,108 @@ def render(
     Needs the extra `blender`, which is for Python 3.11. frames.json in the folder says where each camera
     stood and what can be seen.
 
+    With --rig it is what the sensors of a car see on its way, or one on a column; needs the extra `sensors` too,
+    and no Blender for LiDARs alone. The car itself is left out, and so is what is parked where it goes. Pictures that
+    are finished when it is interrupted stand in FOLDER.unfinished, and the same command goes on from there.
+
     \b
     Examples:
       garage2usd render garage.usdz --camera Inside --samples 32
       garage2usd render garage.usdz --camera Drive --frames 0:480x24 --only colour,depth -o drive
+      garage2usd render garage.usdz --camera Drive --slots coco
+      garage2usd render garage.usdz --rig lidar.toml --along 1:A1-08 --points npz --also nuscenes -o drive
+      garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --scale 0.5 -o drive
+      garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --birds-eye 0.02 --slots coco,dmpr-ps -o drive
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.render import Picture, render_stage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.render import Picture, SlotFormat, render_stage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.sensors.birds_eye import BirdsEye  # noqa: PLC0415
 
+    kinds = [Picture(kind) for kind in pictures]
+    told = None if slots is None else [SlotFormat(each) for each in slots]
+    if rig is not None:
+        _refuse({"camera": cameras or None, "frames": frames, "size": size}, "without --rig, which has its own")
+        if along is None:
+            raise ConfigError(
+                "along", None, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves, with --rig"
+            )
+        if birds_eye is None:
+            _refuse({"without-cars": without_cars}, "only with --birds-eye")
+        above = None if birds_eye is None else BirdsEye(metres_per_px=birds_eye, cars=not without_cars)
+        formats, too, places = points or _POINTS, also or (), every_m or 1.0
+        _record(stage, rig, along, places, scale or 1.0, samples, seed, kinds, told, above, formats, too, output)
+        return
+    with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
+    _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
     with Bars(sys.stderr) as progress:
         made = render_stage(
             stage,
             output,
             cameras=cameras,
             frames=frames,
-            size_px=size,
+            size_px=size or (1280, 720),
             samples=samples,
             seed=seed,
-            pictures=[Picture(kind) for kind in pictures],
+            slots=told,
+            pictures=kinds,
             progress=progress,
         )
     names = made.names
     drawn = f"{len(names)} ({names[0]} to {names[-1]})" if len(names) > 1 else names[0]
-    kinds, folder = ", ".join(made.pictures), f"{made.folder}/"
-    echo_table([("frames", drawn), ("pictures", kinds), ("folder", folder), ("table", str(made.frames))])
+    listed, folder = ", ".join(made.pictures), f"{made.folder}/"
+    echo_table([("frames", drawn), ("pictures", listed), ("folder", folder), ("table", str(made.frames))])
+
+
+def _refuse(options: "dict[str, object]", allowed: str) -> None:
+    for option, value in options.items():
+        if value is not None:
+            raise ConfigError(option, value, allowed)
+
+
+def _record(
+    stage: Path,
+    rig: str,
+    along: str,
+    every_m: float,
+    scale: float,
+    samples: int,
+    seed: int,
+    pictures: "list[Picture]",
+    slots: "list[SlotFormat] | None",
+    birds_eye: "BirdsEye | None",
+    points: tuple[str, ...],
+    also: tuple[str, ...],
+    output: Path,
+) -> None:
+    """Record a drive."""
+    from garage2usd.recordings import CloudFormat, Sequence, record  # noqa: PLC0415 - keeps --help instant
+
+    with Bars(sys.stderr) as progress:
+        made = record(
+            stage,
+            output,
+            rig=rig,
+            along=along,
+            every_m=every_m,
+            scale=scale,
+            samples=samples,
+            seed=seed,
+            pictures=pictures,
+            slots=slots,
+            birds_eye=birds_eye,
+            points=[CloudFormat(kind) for kind in points],
+            sequences=[Sequence(kind) for kind in also],
+            progress=progress,
+        )
+    shots = made.recording.shots
+    places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))
+    echo_table(
+        [
+            ("places", f"{places} in {shots[-1].time_s:.1f} s"),
+            ("sensors", ", ".join(sensors)),
+            ("frames", str(len(shots))),
+            ("files", ", ".join(dict.fromkeys(kind for shot in shots for kind in shot.files))),
+            *(("also", f"{made.folder / kind}/") for kind in also),
+            ("folder", f"{made.folder}/"),
+            ("table", str(made.frames)),
+        ]
+    )

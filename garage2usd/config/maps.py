@@ -1,10 +1,20 @@
 """Settings of maps and scenarios; none of them decides what the garage is."""
 
+from enum import StrEnum
+
 from pydantic import Field, ValidationInfo, field_validator
 
 from garage2usd.settings import Settings
 
-__all__ = ["DriveConfig", "GridConfig", "MapsConfig"]
+__all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ScenarioConfig"]
+
+
+class Leg(StrEnum):
+    """Which part of a visit is driven."""
+
+    BOTH = "both"
+    IN = "in"
+    OUT = "out"
 
 
 class GridConfig(Settings):
@@ -16,6 +26,10 @@ class GridConfig(Settings):
     """What ends lower is driven over."""
     high_m: float = Field(1.8, gt=0.0, le=10.0)
     """What begins higher is driven under."""
+    keepout: bool = False
+    """Whether a mask for nav2's keep-out filter is written beside it: of hatched ground, where robots are not to go."""
+    speed: bool = False
+    """Whether a mask for nav2's speed filter is written beside it: slower on ramps and around speed bumps."""
 
     @field_validator("high_m")
     @classmethod
@@ -44,6 +58,20 @@ class DriveConfig(Settings):
     """Standstill in the stall, where a scenario parks and leaves."""
 
 
+class ScenarioConfig(Settings):
+    """What the car of an OpenSCENARIO scenario drives."""
+
+    stall: str | None = None
+    """Its name, or the number painted in it; without one the first stall in the stage's order that is free and that a
+    drive is found for, or where there is none the first that a drive is found for, whose parked car is left out."""
+    entrance: int | None = Field(None, ge=1)
+    """From 1 on in reading order; without one that of the shortest way."""
+    exit: int | None = Field(None, ge=1)
+    """From 1 on in reading order; without one that of the shortest way."""
+    leg: Leg = Leg.BOTH
+    """Whether the car comes (``"in"``), leaves (``"out"``), or comes, parks and leaves (``"both"``)."""
+
+
 class MapsConfig(Settings):
     """Maps, scenarios and grids that are made of the stage."""
 
@@ -51,7 +79,11 @@ class MapsConfig(Settings):
     """Of the stage's origin on the WGS 84 ellipsoid, where UTM reaches; north is the stage's -Z."""
     longitude_deg: float = Field(9.0, ge=-180.0, lt=180.0)
     """Of the stage's origin."""
+    speed_limit_km_h: float = Field(10.0, gt=0.0, le=50.0)
+    """Said of all lanes and ramps."""
     grid: GridConfig = GridConfig()
     """The occupancy grid of robots."""
     drive: DriveConfig = DriveConfig()
     """How the car of scenarios drives."""
+    scenario: ScenarioConfig = ScenarioConfig()
+    """What it drives."""

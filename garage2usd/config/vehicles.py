@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-__all__ = ["CAR_BODIES", "PAINTS", "CarBody"]
+__all__ = ["CAR_BODIES", "DRIVEN_PAINT", "DRIVEN_PLATE", "PAINTS", "CarBody"]
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,16 @@ class CarBody:
     front_overhang_m: float
     wheel_radius_m: float
 
+    @property
+    def ahead_m(self) -> float:
+        """From the rear axle to the nose."""
+        return self.front_overhang_m + self.wheelbase_m
+
+    @property
+    def rear_axle_m(self) -> float:
+        """From the middle of the body back to the rear axle."""
+        return self.ahead_m - self.length_m / 2
+
 
 CAR_BODIES: tuple[CarBody, ...] = (
     CarBody("hatchback", 4.05, 1.74, 1.47, 1.96, 2.55, 0.80, 0.31),
@@ -53,3 +63,8 @@ PAINTS: tuple[str, ...] = (
     "champagne",
     "orange",
 )
+
+DRIVEN_PAINT = "blue"
+"""Of the car that drives."""
+DRIVEN_PLATE = "G47 B16"
+"""What is to be read on its number plates, and on no other car's."""

@@ -2,7 +2,6 @@
 
 A garage is plain geometry here: stalls, lanes by direction, and obstacles.
 """
-# Over 300 lines: the proof of a stall and the search for what is in its way share the lanes and the obstacles.
 
 import math
 from collections.abc import Iterable, Sequence

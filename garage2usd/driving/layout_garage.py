@@ -24,6 +24,7 @@ def prove_stalls(
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
+    most_explained: int | None = None,
     progress: Progress = silent,
 ) -> tuple[StallProof, ...]:
     """Drive a car into each stall of a layout that takes one and out again.
@@ -32,7 +33,7 @@ def prove_stalls(
     ----------
     layout, graph
         The garage.
-    car, limits, progress
+    car, limits, most_explained, progress
         As for `garage2usd.driving.prove_garage`.
 
     Returns
@@ -40,7 +41,8 @@ def prove_stalls(
     tuple of StallProof
         One for each stall that takes cars, in the order of the stalls.
     """
-    return prove_garage(layout_garage(layout, graph), car=car, limits=limits, progress=progress)
+    garage = layout_garage(layout, graph)
+    return prove_garage(garage, car=car, limits=limits, most_explained=most_explained, progress=progress)
 
 
 def without_unreachable(

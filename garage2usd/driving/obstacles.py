@@ -1,6 +1,6 @@
 """What a car must not touch, as named convex pieces in arrays."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -42,17 +42,10 @@ class Obstacles:
         -----
         A hole in a polygon stays one. Empty shapes keep their name and have no piece.
         """
-        names: list[str] = []
-        owner: list[int] = []
-        pieces: list[Floats] = []
-        for number, (name, shape) in enumerate(shapes):
-            names.append(name)
-            for part in shapely.get_parts(shape, return_index=False):
-                cut = _convex(part)
-                pieces += cut
-                owner += [number] * len(cut)
-        stacked = np.array(pieces, dtype=np.float64).reshape(-1, _CORNERS, 2)
-        return cls(tuple(names), np.array(owner, dtype=np.int64), stacked)
+        named = list(shapes)
+        parts, owner = shapely.get_parts(np.array([shape for _, shape in named], dtype=object), return_index=True)
+        number, pieces = _convex(parts)
+        return cls(tuple(name for name, _ in named), owner[number].astype(np.int64), pieces)
 
     @cached_property
     def boxes(self) -> Floats:
@@ -100,24 +93,33 @@ class Obstacles:
         return Obstacles(self.names, self.owner, np.stack([x * cos - z * sin, x * sin + z * cos], axis=-1))
 
 
-def _convex(shape: shapely.Geometry) -> list[Floats]:
-    """A shape of one part in convex pieces."""
-    if shape.is_empty:
-        return []
-    if isinstance(shape, shapely.Polygon):
-        corners = np.array(shape.exterior.coords)[:-1, :2]
-        is_convex = shape.convex_hull.area - shape.area <= _ROUNDING_M2
-        if is_convex:
-            fan = range(1, len(corners) - 1, _CORNERS - 2)
-            return [_padded(np.concatenate([corners[:1], corners[at : at + _CORNERS - 1]])) for at in fan]
-        triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(shape))
-        return [_padded(np.array(triangle.exterior.coords)[:-1, :2]) for triangle in triangles]
-    points = np.array(shape.coords)[:, :2]
-    if len(points) == 1:
-        return [_padded(points)]
-    return [_padded(points[start : start + 2]) for start in range(len(points) - 1)]
+def _convex(parts: NDArray[np.object_]) -> tuple[NDArray[np.int64], Floats]:
+    """Shapes of one part each in convex pieces: the number of the shape of each, shape (pieces,), and its corners."""
+    kinds, counts = shapely.get_type_id(parts), shapely.get_num_coordinates(parts)
+    are_areas = (kinds == shapely.GeometryType.POLYGON) & (counts > 0)
+    are_convex = are_areas & (shapely.area(shapely.convex_hull(parts)) - shapely.area(parts) <= _ROUNDING_M2)
+    own: list[NDArray[np.int64]] = [np.zeros(0, dtype=np.int64)]
+    cut: list[Floats] = [np.zeros((0, _CORNERS, 2))]
+    for count in np.unique(counts[counts > 0]).tolist():
+        alike = np.flatnonzero((counts == count) & are_convex)
+        corners = shapely.get_coordinates(parts[alike]).reshape(-1, count, 2)[:, :-1]
+        for start in range(1, count - 2, _CORNERS - 2):
+            own.append(alike)
+            cut.append(_padded(np.concatenate([corners[:, :1], corners[:, start : start + _CORNERS - 1]], axis=1)))
+        alike = np.flatnonzero((counts == count) & ~are_areas)
+        corners = shapely.get_coordinates(parts[alike]).reshape(-1, count, 2)
+        for start in range(max(count - 1, 1)):
+            own.append(alike)
+            cut.append(_padded(corners[:, start : start + 2]))
+    for index in np.flatnonzero(are_areas & ~are_convex).tolist():
+        triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[index]))
+        own.append(np.full(len(triangles), index))
+        cut.append(_padded(shapely.get_coordinates(triangles).reshape(-1, _CORNERS, 2)[:, :-1]))
+    number = np.concatenate(own)
+    order = np.argsort(number, kind="stable")
+    return number[order], np.concatenate(cut)[order]
 
 
-def _padded(corners: Sequence[Sequence[float]] | Floats) -> Floats:
-    points = np.asarray(corners, dtype=np.float64)
-    return np.concatenate([points, np.repeat(points[-1:], _CORNERS - len(points), axis=0)])
+def _padded(corners: Floats) -> Floats:
+    """Corners of pieces, shape (n, up to 4, 2), the last repeated where there are fewer than four."""
+    return np.concatenate([corners, np.repeat(corners[:, -1:], _CORNERS - corners.shape[1], axis=1)], axis=1)

@@ -173,9 +173,9 @@ class Path:
         """
         counts = np.maximum(np.ceil(self._table[:, 0] / _STEP_M).astype(np.int64), 1)
         owner = np.repeat(np.arange(len(counts)), counts)
-        within = np.concatenate([np.arange(count) / count for count in counts])
+        within = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[owner]
         length, _, curvature, rate = self._table[owner].T
-        points = self.at(np.append(self._ends[owner] + within * length, self.length_m))
+        points = self._within(np.append(owner, owner[-1]), np.append(within * length, length[-1]))
         poses = np.stack([points.x_m, points.z_m, points.yaw_rad], axis=1)
         body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
         reach = float(np.hypot(max(body[:2]), body[2]))
@@ -188,7 +188,11 @@ class Path:
 
 def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:
     """How far pieces lead (x - iz) within some of their lengths, by Gauss's quadrature of the heading."""
-    at = into[:, None] / 2 * (1 + GAUSS)
-    heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
-    moved: NDArray[np.complex128] = signs * into / 2 * (np.exp(1j * heading) @ WEIGHTS)
+    moved: NDArray[np.complex128] = signs * into * np.exp(1j * (np.pi / 2 + yaws))
+    bends = (curvatures != 0) | (rates != 0)
+    if bends.any():
+        into, signs, curvatures, rates, yaws = (values[bends] for values in (into, signs, curvatures, rates, yaws))
+        at = into[:, None] / 2 * (1 + GAUSS)
+        heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
+        moved[bends] = signs * into / 2 * (np.exp(1j * heading) @ WEIGHTS)
     return moved

@@ -3,9 +3,11 @@
 The turns are those of Scheuer and Fraichard, "Continuous-curvature path planning for car-like vehicles" (IROS 1997).
 """
 
+import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +24,7 @@ _MOST_RAD = 2.4
 """Most that a car turns on one of the two turns."""
 _SCAN_RAD = math.radians(2.0)
 _SAME_M, _SAME_RAD = 1e-6, 1e-9
+_PLACES, _WEIGHTS = GAUSS.tolist(), WEIGHTS.tolist()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +75,48 @@ class Steering:
         chords: NDArray[np.complex128] = length * np.exp(0.5j * deflections_rad)
         return chords
 
+    def chord(self, deflection_rad: float) -> complex:
+        """The same for one turn: where roots are looked for, arrays of one number take most of the time."""
+        size = abs(deflection_rad)
+        sharpness, most = self.sharpness_per_m2, self.curvature_per_m
+        peak = min(math.sqrt(size * sharpness), most)
+        if peak == 0.0:
+            return 0j
+        half_turn = max(size - peak**2 / sharpness, 0.0) / 2 if peak >= most else 0.0
+        eased = peak**2 / sharpness / 2
+        half_arc = 2 * math.sin(half_turn / 2) / peak
+        first_half = _easing(peak, sharpness) + cmath.rect(half_arc, eased + half_turn / 2)
+        length = 2 * (first_half * cmath.rect(1.0, -size / 2)).real
+        return cmath.rect(length, deflection_rad / 2)
+
     def _shape(self, size_rad: Floats) -> tuple[Floats, Floats]:
         """Greatest curvature and length of the arc for turns of some size."""
         peak = np.minimum(np.sqrt(size_rad * self.sharpness_per_m2), self.curvature_per_m)
         arc_turn = np.maximum(size_rad - peak**2 / self.sharpness_per_m2, 0.0)
         return peak, np.where(peak < self.curvature_per_m, 0.0, arc_turn / self.curvature_per_m)
+
+
+@lru_cache(maxsize=1024)
+def _easing(peak_per_m: float, sharpness_per_m2: float) -> complex:
+    """Where a clothoid leads to on which the curvature grows from 0 to its peak; all long turns have the same."""
+    half_m = peak_per_m / sharpness_per_m2 / 2
+    headings = [sharpness_per_m2 / 2 * (half_m * (1 + place)) ** 2 for place in _PLACES]
+    return half_m * sum(cmath.rect(weight, heading) for weight, heading in zip(_WEIGHTS, headings, strict=True))
+
+
+@lru_cache(maxsize=256)
+def _scanned(
+    steering: Steering, turned_rad: float
+) -> tuple[Floats, NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]:
+    """First turns at which roots are looked for, their chords, what turns to the heading there, and the second chords.
+
+    Nearly all paths turn by a quarter or not at all.
+    """
+    low, high = max(-_MOST_RAD, turned_rad - _MOST_RAD), min(_MOST_RAD, turned_rad + _MOST_RAD)
+    # where the path changes form, so that no root lies unseen between two of the same sign
+    steps = np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD))
+    scan = np.unique(np.concatenate([steps, [0.0, turned_rad]]))
+    return scan, steering.chords(scan), np.exp(-1j * scan), steering.chords(turned_rad - scan)
 
 
 def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple[Piece, ...]]:
@@ -89,33 +129,27 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
     steering
         How it turns.
     """
-    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * np.exp(-1j * (start.yaw_rad + math.pi / 2))
+    across = complex(end.x_m - start.x_m, start.z_m - end.z_m) * cmath.rect(1.0, -(start.yaw_rad + math.pi / 2))
     turned = math.remainder(end.yaw_rad - start.yaw_rad, math.tau)
     if abs(turned) < _SAME_RAD and abs(across.imag) < _SAME_M:
         if across.real >= 0:
             yield (Piece(Gear.FORWARD, across.real),) if across.real > 0 else ()
         return
 
-    def straight(first_rad: Floats) -> NDArray[np.complex128]:
+    def straight_at(first_rad: float) -> complex:
         """The straight between the turns, along the heading there; real where the path meets the end."""
-        first = steering.chords(first_rad)
-        left: NDArray[np.complex128] = (across - first) * np.exp(-1j * first_rad) - steering.chords(turned - first_rad)
-        return left
+        ahead = (across - steering.chord(first_rad)) * cmath.rect(1.0, -first_rad)
+        return ahead - steering.chord(turned - first_rad)
 
-    def miss(first_rad: float) -> float:
-        return float(straight(np.array([first_rad])).imag[0])
-
-    low, high = max(-_MOST_RAD, turned - _MOST_RAD), min(_MOST_RAD, turned + _MOST_RAD)
-    # where the path changes form, so that no root lies unseen between two of the same sign
-    scan = np.unique(np.concatenate([np.linspace(low, high, math.ceil((high - low) / _SCAN_RAD)), [0.0, turned]]))
-    misses = straight(scan).imag
+    scan, first, onto, last = _scanned(steering, turned)
+    misses = ((across - first) * onto - last).imag
     roots = scan[np.abs(misses) < _SAME_M].tolist()
     for (one, other), (miss_one, miss_other) in zip(pairwise(scan.tolist()), pairwise(misses.tolist()), strict=True):
         if miss_one * miss_other < 0 and min(abs(miss_one), abs(miss_other)) >= _SAME_M:
-            roots.append(brentq(miss, one, other, xtol=1e-13, rtol=1e-13))
+            roots.append(brentq(lambda first_rad: straight_at(first_rad).imag, one, other, xtol=1e-13, rtol=1e-13))
     found = []
     for root in roots:
-        straight_m = float(straight(np.array([root])).real[0])
+        straight_m = straight_at(root).real
         if straight_m >= 0:
             ahead = (Piece(Gear.FORWARD, straight_m),) if straight_m > _SAME_M else ()
             found.append((*steering.turn(root), *ahead, *steering.turn(turned - root)))

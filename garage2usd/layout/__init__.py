@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
 from garage2usd.layout.lighting import LightLevels, light_up
 from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
+from garage2usd.layout.number_plates import number_plates
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Placement, Stall, StallUse
@@ -31,6 +33,7 @@ from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
 from garage2usd.objects import KINDS
+from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.grid import Cell, Structure
@@ -88,6 +91,29 @@ class Layout:
         """Number of objects of each kind."""
         counts = np.bincount(self.placements.kind, minlength=len(KINDS)).tolist()
         return {kind.name: count for kind, count in zip(KINDS, counts, strict=True)}
+
+    def plates_of_cars(self) -> Iterator[tuple[int, int, str]]:
+        """Rows in `placements` of the number plates of each car and of the car, and what is to be read on them."""
+        objects = self.placements
+        cars, plates = objects.rows_of("car"), objects.rows_of("number_plate")
+        car_of = dict(zip(_places(objects.square[cars], objects.ordinal[cars]), cars.tolist(), strict=True))
+        for row, spec, place in zip(
+            plates.tolist(),
+            objects.spec[plates].tolist(),
+            _places(objects.square[plates], objects.ordinal[plates]),
+            strict=True,
+        ):
+            shape = objects.specs[spec]
+            if isinstance(shape, NumberPlateSpec):
+                yield row, car_of[place], shape.text
+
+    def cars_in_stalls(self) -> NDArray[np.intp]:
+        """Row in `placements` of the car in each stall, -1 where none stands; shape (stalls,)."""
+        objects, stalls = self.placements, self.stalls
+        rows = objects.rows_of("car")
+        car_of = dict(zip(_places(objects.square[rows], objects.ordinal[rows]), rows.tolist(), strict=True))
+        found = [car_of.get(place, -1) for place in _places(stalls.square, stalls.ordinal)]
+        return np.array(found, dtype=np.intp)
 
     @property
     def area_per_stall_m2(self) -> float:
@@ -167,7 +193,7 @@ def lay_out(
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
         yield wheel_stops(stalls, fittings)
-        yield (cars := parked_cars(stalls, config.parking, draws))
+        yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
@@ -203,6 +229,13 @@ def lay_out(
         compartments,
         frozenset(unreachable),
     )
+
+
+def _places(
+    square: NDArray[np.signedinteger[Any]], ordinal: NDArray[np.integer[Any]]
+) -> Iterator[tuple[int, int, int]]:
+    """(row, col, number on that square) of stalls or of what belongs to them."""
+    return zip(*square.T.tolist(), ordinal.tolist(), strict=True)
 
 
 def _used_stalls(

@@ -10,7 +10,7 @@ from garage2usd.config import ParkingConfig
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
-from garage2usd.objects.panel import Marking, Surface
+from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.profiles import Profile
 
 __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
@@ -87,9 +87,9 @@ def use_symbol(use: StallUse) -> tuple[Marking, ...]:
     """The white symbol of a stall's use, upright for a driver who enters; empty for a standard stall."""
     if use is StallUse.EV:
         bolt = ((0.12, -0.75), (-0.38, 0.12), (-0.04, 0.12), (-0.16, 0.75), (0.38, -0.18), (0.03, -0.18))
-        return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE),)
+        return (Marking(tuple((x, z + _SYMBOL_Z_M) for x, z in bolt), Surface.PAINT_WHITE, Paint.STALL_SYMBOL),)
     if use is StallUse.ACCESSIBLE:
-        return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in _wheelchair())
+        return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_SYMBOL) for shape in _wheelchair())
     return ()
 
 

@@ -6,7 +6,7 @@ import shapely
 
 from garage2usd.layout.placement import box_inside
 from garage2usd.objects.outline import Polygon, rectangle
-from garage2usd.objects.panel import Marking, Surface
+from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.stalls import Edge
 
 __all__ = [
@@ -44,7 +44,7 @@ def stall_lines(width_m: float, length_m: float) -> tuple[Marking, ...]:
         rectangle(-half_width, rear, -half_width + half_line, half_length),
         rectangle(half_width - half_line, rear, half_width, half_length),
     )
-    return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in shapes)
+    return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_LINE) for shape in shapes)
 
 
 @lru_cache(maxsize=4096)
@@ -55,7 +55,7 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
     """
     half, (low, high) = half_x if edge.along_x else half_z, trims
     box = box_inside(edge, (half_x, half_z), (low - half, half - high), (setback, setback + LINE_WIDTH_M))
-    return Marking(rectangle(*box), Surface.PAINT_YELLOW)
+    return Marking(rectangle(*box), Surface.PAINT_YELLOW, Paint.LANE_LINE)
 
 
 @lru_cache(maxsize=4096)
@@ -68,7 +68,7 @@ def corner_lines(vertical: Edge, horizontal: Edge, half_x: float, half_z: float,
     def piece(x0: float, x1: float, z0: float, z1: float) -> Marking:
         xs = sorted((sign_x * (half_x - x0), sign_x * (half_x - x1)))
         zs = sorted((sign_z * (half_z - z0), sign_z * (half_z - z1)))
-        return Marking(rectangle(xs[0], zs[0], xs[1], zs[1]), Surface.PAINT_YELLOW)
+        return Marking(rectangle(xs[0], zs[0], xs[1], zs[1]), Surface.PAINT_YELLOW, Paint.LANE_LINE)
 
     return piece(0, inner, setback, inner), piece(setback, inner, 0, setback)
 
@@ -87,7 +87,7 @@ def dashes(half_x: float, half_z: float, *, along_x: bool) -> tuple[Marking, ...
             shapes.append(rectangle(middle - half_dash, -half_line, middle + half_dash, half_line))
         else:
             shapes.append(rectangle(-half_line, middle - half_dash, half_line, middle + half_dash))
-    return tuple(Marking(shape, Surface.PAINT_WHITE) for shape in shapes)
+    return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.LANE_LINE) for shape in shapes)
 
 
 def arrow(x: float, z: float, towards: Edge) -> Marking:
@@ -100,7 +100,7 @@ def arrow(x: float, z: float, towards: Edge) -> Marking:
         Edge.RIGHT: lambda p: (-p[1], p[0]),
     }
     turned = (turns[towards](point) for point in outline)
-    return Marking(tuple((x + px, z + pz) for px, pz in turned), Surface.PAINT_WHITE)
+    return Marking(tuple((x + px, z + pz) for px, pz in turned), Surface.PAINT_WHITE, Paint.LANE_ARROW)
 
 
 def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, Marking]:
@@ -126,7 +126,7 @@ def zebra(half_x: float, half_z: float, setback: float, *, along_x: bool, offset
         across, along = (middle - half_bar, middle + half_bar), (offset_m - half_length, offset_m + half_length)
         (x0, x1), (z0, z1) = (along, across) if along_x else (across, along)
         bars.append(rectangle(x0, z0, x1, z1))
-    return tuple(Marking(bar, Surface.PAINT_WHITE) for bar in bars)
+    return tuple(Marking(bar, Surface.PAINT_WHITE, Paint.CROSSING) for bar in bars)
 
 
 @lru_cache(maxsize=256)
@@ -141,7 +141,10 @@ def stripes(left: float, top: float, right: float, bottom: float) -> tuple[Marki
         corners += [(x + bottom - top, bottom) for x, _ in reversed(corners)]
         bars.append(shapely.Polygon(corners).intersection(area))
     shapes = [bar.exterior.coords[:-1] for bar in bars if bar.geom_type == "Polygon" and bar.area > 1e-6]  # noqa: PLR2004
-    return tuple(Marking(tuple((round(x, 6), round(z, 6)) for x, z in shape), Surface.PAINT_YELLOW) for shape in shapes)
+    return tuple(
+        Marking(tuple((round(x, 6), round(z, 6)) for x, z in shape), Surface.PAINT_YELLOW, Paint.HATCHING)
+        for shape in shapes
+    )
 
 
 @lru_cache(maxsize=256)
@@ -169,4 +172,6 @@ def hatching(
         rectangle(x - LINE_WIDTH_M, -z + LINE_WIDTH_M, x, z - LINE_WIDTH_M),
     )
     shapes = [*frame, *(tuple(s.exterior.coords)[:-1] for s in stripes if s.geom_type == "Polygon" and s.area > 1e-6)]  # noqa: PLR2004
-    return tuple(Marking(tuple((round(px, 6), round(pz, 6)) for px, pz in shape), surface) for shape in shapes)
+    return tuple(
+        Marking(tuple((round(px, 6), round(pz, 6)) for px, pz in shape), surface, Paint.HATCHING) for shape in shapes
+    )

@@ -24,7 +24,7 @@ from garage2usd.layout.placement import Placement, box_inside, stall_name
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.outline import Box, Point, Polygon, rectangle
-from garage2usd.objects.panel import Marking, Surface
+from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge, StallRow
@@ -250,7 +250,7 @@ def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig) -> tupl
         ends = [start - LINE_WIDTH_M / 2] * place.is_first + [start + bay.stall_width_m] * place.is_last
         for end in ends:
             shape = _row_rectangle(tile, place.row.edge, end, end + LINE_WIDTH_M / 2, bay.stall_length_m)
-            lines.append(Marking(shape, Surface.PAINT_WHITE))
+            lines.append(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_LINE))
     return tuple(lines)
 
 

@@ -2,29 +2,23 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
+from functools import cached_property
 
 from garage2usd.checks.driven_road import driven_road
 from garage2usd.checks.subject import Subject
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, DrivenStall, Portal, SquareUse, StallProof
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.timing import Motion, timed
+from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
 from garage2usd.errors import ConfigError
 from garage2usd.reading.ground import StallOutline
 
-__all__ = ["Drive", "DrivePlanner", "Leg"]
+__all__ = ["Drive", "DrivePlanner"]
 
 _NAMED = 6
-
-
-class Leg(StrEnum):
-    """Which part of a visit is driven."""
-
-    BOTH = "both"
-    IN = "in"
-    OUT = "out"
+_STEP_S = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +42,11 @@ class Drive:
     motion: Motion
     car: DesignCar
     settings: DriveConfig
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """Its states every 0.05 s, and at the times at which the car starts, stops, or has turned its wheels."""
+        return self.motion.sampled(_STEP_S)
 
     @property
     def facts(self) -> Mapping[str, object]:
@@ -91,11 +90,13 @@ class DrivePlanner:
         steerings = [Steering(curvature, rate / (wheelbase_m * speed)) for speed in speeds_m_s]
         self._router = Router(self.road, steerings, car=self._car)
         self._outlines = {stall.name: stall for stall in subject.parking_stalls}
+        self._taken = {stall.name for stall in subject.taken_stalls}
+        self._driven = {stall.name: stall for stall in self.road.garage.stalls}
         self._others = {stall.name for stall in subject.stalls} - set(self._outlines)
 
     def drive(
         self,
-        stall: str,
+        stall: str | None = None,
         *,
         entrance: int | None = None,
         exit: int | None = None,  # noqa: A002 - the garage's word
@@ -106,7 +107,8 @@ class DrivePlanner:
         Parameters
         ----------
         stall
-            Its name, or the number painted in it where it has one.
+            Its name, or the number painted in it where it has one; left out, the first in the garage's order that is
+            free and that a drive is found for, or where there is none the first that a drive is found for.
         entrance, exit
             From 1 on in the order of the squares, by rows; left out, those with the shortest way.
         leg
@@ -117,12 +119,17 @@ class DrivePlanner:
         ConfigError
             If there is no such stall, entrance or exit, or no way is found between them.
         """
-        at = self._stall(stall)
         entrances = self._chosen("entrance", entrance, SquareUse.ENTRANCE)
         exits = self._chosen("exit", exit, SquareUse.EXIT)
-        route = self._router.route(at, entrances=entrances, exits=exits)
-        if isinstance(route, StallProof):
-            raise ConfigError("stall", stall, _lack(route))
+        candidates = self._in_order() if stall is None else [self._stall(stall)]
+        route: Route | StallProof | None = None
+        for candidate in candidates:
+            route = self._router.route(candidate, entrances=entrances, exits=exits)
+            if isinstance(route, Route):
+                break
+        if not isinstance(route, Route):
+            lack = "a garage with a stall that a drive is found for" if stall is None or route is None else _lack(route)
+            raise ConfigError("stall", stall, lack)
         return Drive(route, leg, self._motion(route, leg), self._car, self._settings)
 
     def _motion(self, route: Route, leg: Leg) -> Motion:
@@ -136,11 +143,15 @@ class DrivePlanner:
     def _stall(self, asked: str) -> DrivenStall:
         names = [name for name, outline in self._outlines.items() if asked in {name, _number(outline)}]
         if len(names) == 1:
-            return next(stall for stall in self.road.garage.stalls if stall.name == names[0])
+            return self._driven[names[0]]
         if asked in self._others:
             raise ConfigError("stall", asked, "a stall that takes a car, which this one does not")
         known = ", ".join([*self._outlines][:_NAMED]) + (", ..." if len(self._outlines) > _NAMED else "")
         raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")
+
+    def _in_order(self) -> list[DrivenStall]:
+        """The stalls that cars park in, as the garage has them, the free ones first."""
+        return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
 
     def _chosen(self, field: str, number: int | None, use: SquareUse) -> tuple[Portal, ...]:
         portals = self._router.portals(use)
@@ -153,8 +164,7 @@ class DrivePlanner:
 
 def _number(stall: StallOutline) -> str | None:
     """What is painted in a stall."""
-    number = dict(stall.facts).get("number")
-    return None if number is None else str(number)
+    return None if stall.number is None else str(stall.number)
 
 
 def _lack(proof: StallProof) -> str:

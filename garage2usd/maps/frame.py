@@ -5,13 +5,25 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["heading_rad", "map_points"]
+__all__ = ["heading_rad", "map_point", "map_points", "projection"]
 
 
 def map_points(ground: ArrayLike) -> NDArray[np.float64]:
     """Points (x, z) of the stage's ground as (x, y) of the map; float64, shape (..., 2)."""
     points: NDArray[np.float64] = np.asarray(ground, dtype=np.float64) * (1.0, -1.0)
     return points
+
+
+def map_point(ground: tuple[float, float]) -> tuple[float, float]:
+    """A point (x, z) of the stage's ground as (x, y) of the map."""
+    x, y = map_points(ground).tolist()
+    return x, y
+
+
+def projection(latitude_deg: float, longitude_deg: float) -> str:
+    """The transverse Mercator projection around the frame's origin in which metres are metres, as PROJ writes it."""
+    latitude, longitude = (repr(degrees + 0.0).removesuffix(".0") for degrees in (latitude_deg, longitude_deg))
+    return f"+proj=tmerc +lat_0={latitude} +lon_0={longitude} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
 
 
 def heading_rad(yaw_rad: float) -> float:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.meshes import Triangles
+from garage2usd.reading.meshes import Triangles, cross
 from garage2usd.reading.objects import Matrix
 
 __all__ = ["Primitive", "are_rigid", "by_facets", "joined", "moved_triangles", "places_of", "primitive_of"]
@@ -42,7 +42,7 @@ class Primitive(NamedTuple):
     indices: NDArray[np.uint32]
 
 
-def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool) -> Primitive:
+def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool, is_faceted: bool) -> Primitive:
     """Triangles as a primitive.
 
     Parameters
@@ -53,17 +53,30 @@ def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool) -> Primi
         Whether its material reads a texture, so that it needs coordinates.
     is_bumpy
         Whether its material reads a normal map, so that it needs normals and tangents.
+    is_faceted
+        Whether the normals of all triangles are their own, so that it needs none.
     """
     # the first row of pixels is v = 0 there and v = 1 in USD
     coordinates = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32) if is_textured else None
     if is_bumpy:
         return Primitive(mesh.positions_m, mesh.normals, _tangents_of(mesh), coordinates, mesh.indices)
-    if not all(is_faceted for is_faceted, _ in by_facets(mesh)):
+    if not is_faceted:
         return Primitive(mesh.positions_m, mesh.normals, None, coordinates, mesh.indices)
     rows = mesh.positions_m if coordinates is None else np.hstack([mesh.positions_m, coordinates])
-    _, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    indices = inverse.ravel()[mesh.indices].astype(np.uint32)
+    first, inverse = _distinct(rows)
+    indices = inverse[mesh.indices].astype(np.uint32)
     return Primitive(mesh.positions_m[first], None, None, None if coordinates is None else coordinates[first], indices)
+
+
+def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where each different row is first, in the order of their values, and which of those each row is."""
+    order = np.lexsort(rows.T[::-1])
+    columns = rows.T[:, order]
+    differs = np.ones(len(order), dtype=bool)
+    differs[1:] = np.logical_or.reduce(columns[:, 1:] != columns[:, :-1])
+    inverse = np.empty_like(order)
+    inverse[order] = np.cumsum(differs) - 1
+    return order[differs], inverse
 
 
 def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
@@ -74,11 +87,12 @@ def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
     tuple
         Whether they are faceted, and the triangles.
     """
-    corners = mesh.positions_m[mesh.indices].astype(np.float64)
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sizes = np.linalg.norm(areas, axis=1)
-    along = (mesh.normals[mesh.indices] * areas[:, None]).sum(axis=2)
-    are_faceted = (along >= sizes[:, None] * _FACET_COS).all(axis=1)
+    corners = mesh.positions_m.T.astype(np.float64)[:, mesh.indices]
+    areas = cross(corners[..., 1] - corners[..., 0], corners[..., 2] - corners[..., 0])
+    least = np.sqrt((areas**2).sum(axis=0)) * _FACET_COS
+    are_faceted = np.ones(len(mesh.indices), dtype=bool)
+    for normals in mesh.normals.T[:, mesh.indices.T].transpose(1, 0, 2):
+        are_faceted &= (normals * areas).sum(axis=0) >= least
     for is_faceted in (True, False):
         own = np.flatnonzero(are_faceted == is_faceted)
         if len(own):

@@ -13,10 +13,13 @@ from garage2usd.checks import Subject
 from garage2usd.config.maps import GridConfig
 from garage2usd.errors import ConfigError
 from garage2usd.layout import StallUse
+from garage2usd.layout.grounds import Grounds
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupied_ground import floor_of, occupied_ground, ramp_floors
 
 __all__ = ["write_grid"]
+
+Floats = NDArray[np.float64]
 
 _OCCUPIED, _UNKNOWN, _FREE = 0, 205, 254
 """Greys of the map server's own maps."""
@@ -26,15 +29,15 @@ _MOST_CELLS = 400_000_000
 _AROUND_M = 1.0
 """Of the map around the floors: walls stand there."""
 _NEAR_CELLS = 0.25
+_BAND_ROWS = 256
+"""Rows that are filled at a time, so that large maps need no more memory for it than small ones."""
 _KEPT_FREE = frozenset({StallUse.ACCESS_AISLE, StallUse.UNREACHABLE})
 _KEEP_OUT = 100
 _RAMP_PERCENT, _BUMP_PERCENT, _BUMP_REACH_M = 50, 30, 2.0
 """Most speed on ramps, and over a speed bump and as near to it as a car that slows down for it is."""
 
 
-def write_grid(
-    subject: Subject, path: Path, grid: GridConfig, *, keepout: bool = False, speed: bool = False
-) -> tuple[Path, ...]:
+def write_grid(subject: Subject, path: Path, grid: GridConfig) -> tuple[Path, ...]:
     """Write the map of a garage for robots: a YAML file and the picture (PGM) that it names.
 
     Parameters
@@ -42,11 +45,10 @@ def write_grid(
     subject
         The garage.
     path
-        The YAML file; its folder is there. The picture is beside it, ``<stem>.pgm``.
+        The YAML file; its folder is there. The picture is beside it, ``<stem>.pgm``, and so are the masks that are
+        asked for, ``<stem>_keepout`` and ``<stem>_speed``, a YAML file and a picture each.
     grid
-        Size of a cell, and the heights between which things count.
-    keepout, speed
-        Whether a mask for nav2's keep-out filter, ``<stem>_keepout``, and one for its speed filter, ``<stem>_speed``,
+        Size of a cell, the heights between which things count, and whether masks for nav2's keep-out and speed filters
         are written as well.
 
     Returns
@@ -80,11 +82,11 @@ def write_grid(
     thin = _thickened(occupied_ground(subject, grid.low_m, grid.high_m), grid.resolution_m)
     raster.fill(cells, thin, _OCCUPIED)
     files = _write(path, cells, raster, "trinary")
-    if keepout:
+    if grid.keepout:
         mask = np.zeros(raster.shape, dtype=np.uint8)
         raster.fill(mask, (stall.polygon for stall in subject.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
         files += _write(path.with_stem(f"{path.stem}_keepout"), mask, raster, "raw")
-    if speed:
+    if grid.speed:
         mask = np.zeros(raster.shape, dtype=np.uint8)
         raster.fill(mask, ramp_floors(subject), _RAMP_PERCENT)
         bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in subject.solids.standing("speed_bump")]
@@ -133,44 +135,69 @@ class _Raster:
         return round(self.column * self.side_m, 6) + 0.0, round(self.row * self.side_m, 6) + 0.0
 
     def fill(self, cells: NDArray[np.uint8], grounds: Iterable[shapely.Geometry], value: int) -> None:
-        """Set the cells whose middles lie in any of some grounds (x, z), borders included."""
-        rows, _ = self.shape
-        for ground in grounds:
-            area = shapely.transform(ground, map_points)
-            if area.is_empty:
-                continue
-            left, low, right, high = (bound / self.side_m - 0.5 for bound in area.bounds)
-            first, last = max(math.ceil(left) - self.column, 0), min(math.floor(right) - self.column + 1, self.shape[1])
-            lowest, highest = max(math.ceil(low) - self.row, 0), min(math.floor(high) - self.row + 1, rows)
-            if first >= last or lowest >= highest:
-                continue
-            x = (np.arange(first, last) + self.column + 0.5) * self.side_m
-            y = (np.arange(highest - 1, lowest - 1, -1) + self.row + 0.5) * self.side_m
-            shapely.prepare(area)
-            inside = shapely.intersects_xy(area, *np.meshgrid(x, y))
-            cells[rows - highest : rows - lowest, first:last][inside] = value
+        """Set the cells whose middles lie in any of some grounds (x, z), or on their left or lower border.
+
+        Notes
+        -----
+        Scan conversion by the nonzero winding rule (Foley et al., Computer Graphics: Principles and Practice, 3.5): in
+        each row of cells the middles to the right of where a side crosses it count one winding more or less.
+        """
+        start, end = self._sides(grounds)
+        start, end = (points[start[:, 1] != end[:, 1]] for points in (start, end))
+        rises = end[:, 1] > start[:, 1]
+        low, high = (np.where(rises[:, None], *pair) for pair in ((start, end), (end, start)))
+        slope = (high[:, 0] - low[:, 0]) / (high[:, 1] - low[:, 1])
+        rows, columns = self.shape
+        for band in range(0, rows, _BAND_ROWS):
+            above = min(band + _BAND_ROWS, rows)
+            first, last = (np.ceil(points[:, 1]).clip(band, above).astype(np.int64) for points in (low, high))
+            side = np.repeat(np.arange(len(first)), last - first)
+            row = np.arange(len(side)) - np.repeat(np.cumsum(last - first) - last, last - first)
+            column = np.ceil(low[side, 0] + (row - low[side, 1]) * slope[side]).clip(0, columns).astype(np.int64)
+            windings = np.zeros((above - band, columns + 1), dtype=np.int32)
+            steps = np.where(rises[side], -1, 1).astype(np.int32)
+            np.add.at(windings.ravel(), (row - band) * (columns + 1) + column, steps)
+            inside = np.cumsum(windings, axis=1, dtype=np.int32)[::-1, :-1] != 0
+            np.putmask(cells[rows - above : rows - band], inside, value)
+
+    def _sides(self, grounds: Iterable[shapely.Geometry]) -> tuple[Floats, Floats]:
+        """Both ends of each side of some grounds in cells from the middle of the lower left one on, shape (sides, 2).
+
+        Outlines run counter-clockwise, holes clockwise.
+        """
+        areas = shapely.transform(shapely.get_parts(np.array([*grounds], dtype=object)), map_points)
+        rings = shapely.get_rings(shapely.orient_polygons(areas))
+        corners, ring = shapely.get_coordinates(rings, return_index=True)
+        places = corners / self.side_m - 0.5 - (self.column, self.row)
+        goes_on = ring[1:] == ring[:-1]
+        return places[:-1][goes_on], places[1:][goes_on]
 
 
-def _thickened(grounds: Iterable[shapely.Geometry], side_m: float) -> Iterable[shapely.Geometry]:
+def _thickened(grounds: Iterable[shapely.Geometry], side_m: float) -> Grounds:
     """Convex grounds and what is nearer to them than a quarter of a cell, all of it at least a cell thick."""
-    for ground in grounds:
-        thickness_m = _thickness_m(ground)
-        yield ground.buffer(max(_NEAR_CELLS * side_m, (side_m - thickness_m) / 2))
+    outlines = np.array([*grounds], dtype=object)
+    thickened: Grounds = shapely.buffer(
+        outlines, np.maximum(_NEAR_CELLS * side_m, (side_m - _thicknesses_m(outlines)) / 2)
+    )
+    return thickened
 
 
-def _thickness_m(ground: shapely.Geometry) -> float:
-    """The shorter side of the tightest rectangle around a convex ground; 0 for a line or a point."""
-    box = shapely.oriented_envelope(ground)
-    if not isinstance(box, shapely.Polygon) or box.is_empty:
-        return 0.0
-    corners = np.asarray(box.exterior.coords)
-    return float(np.linalg.norm(np.diff(corners[:3], axis=0), axis=1).min())
+def _thicknesses_m(grounds: Grounds) -> Floats:
+    """The shorter side of the tightest rectangle around each convex ground; 0 for a line or a point."""
+    boxes = shapely.oriented_envelope(grounds)
+    thicknesses = np.zeros(len(boxes))
+    are_areas = (shapely.get_type_id(boxes) == shapely.GeometryType.POLYGON) & ~shapely.is_empty(boxes)
+    corners = shapely.get_coordinates(boxes[are_areas]).reshape(-1, 5, 2)
+    thicknesses[are_areas] = np.linalg.norm(np.diff(corners[:, :3], axis=1), axis=2).min(axis=1)
+    return thicknesses
 
 
 def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> tuple[Path, ...]:
     picture = path.with_suffix(".pgm")
     rows, columns = raster.shape
-    picture.write_bytes(b"P5\n%d %d\n255\n" % (columns, rows) + cells.tobytes())
+    with picture.open("wb") as file:
+        file.write(b"P5\n%d %d\n255\n" % (columns, rows))
+        file.write(cells.data)
     x, y = raster.origin_m
     path.write_text(
         f"image: {picture.name}\nmode: {mode}\nresolution: {raster.side_m}\norigin: [{x}, {y}, 0.0]\nnegate: 0\n"

@@ -7,8 +7,10 @@ import shapely
 
 from garage2usd.checks import Subject
 from garage2usd.checks.openings import section_of
+from garage2usd.checks.placed_pieces import placed_pieces
 from garage2usd.checks.shapes import Body, Thing
 from garage2usd.errors import StageError
+from garage2usd.layout.grounds import Grounds, hulls_of
 
 __all__ = ["floor_of", "occupied_ground", "ramp_floors"]
 
@@ -27,17 +29,17 @@ def floor_of(subject: Subject) -> shapely.Geometry:
     StageError
         If nothing is labelled as a floor: then nothing says where the garage ends.
     """
-    outlines = [body.shape.whole.points @ body.matrix[:3, :3] + body.matrix[3, :3] for body in _bodies(subject, _FLOOR)]
-    if not outlines:
+    bodies = list(_bodies(subject, _FLOOR))
+    if not bodies:
         raise StageError(subject.source, "nothing in it has the class floor, so that nothing says where it ends")
-    tiles = [shapely.MultiPoint(points[:, [0, 2]]).convex_hull for points in outlines]
+    tiles = placed_pieces(bodies, np.ones(len(bodies), dtype=bool)).hulls
     return shapely.union_all([*tiles, *ramp_floors(subject)])
 
 
-def ramp_floors(subject: Subject) -> list[shapely.Geometry]:
+def ramp_floors(subject: Subject) -> Grounds:
     """The ground that the floor of each ramp takes."""
     sheets = (body for body in _bodies(subject, _RAMP) if _is_sheet(body))
-    return [shapely.MultiPoint(body.world_points()[:, [0, 2]]).convex_hull for body in sheets]
+    return hulls_of([body.world_points()[:, [0, 2]] for body in sheets])
 
 
 def occupied_ground(subject: Subject, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:
@@ -57,8 +59,7 @@ def occupied_ground(subject: Subject, low_m: float, high_m: float) -> Iterator[s
             yield from _sections(thing, low_m, high_m)
     for body in _bodies(subject, _RAMP):
         if not _is_sheet(body):
-            pieces = (outline for outline, low, high in body.pieces() if low <= high_m and high >= low_m)
-            yield from (shapely.MultiPoint(outline).convex_hull for outline in pieces)
+            yield from hulls_of([outline for outline, low, high in body.pieces() if low <= high_m and high >= low_m])
 
 
 def _bodies(subject: Subject, label: str) -> Iterator[Body]:
@@ -67,12 +68,7 @@ def _bodies(subject: Subject, label: str) -> Iterator[Body]:
 
 def _is_sheet(body: Body) -> bool:
     """Whether all faces look up, so that it is driven on."""
-    points = body.world_points()
-    begin, end = (points[body.shape.edges[:, side]] for side in (0, 1))
-    starts = np.cumsum(body.shape.counts) - body.shape.counts
-    areas = np.add.reduceat(np.cross(begin, end), starts)
-    sizes = np.linalg.norm(areas, axis=1)
-    return bool((areas[:, 1] >= _LEAST_UP * sizes).all())
+    return all(face.normal[1] >= _LEAST_UP for face in body.faces())
 
 
 def _sections(thing: Thing, low_m: float, high_m: float) -> Iterator[shapely.Geometry]:

@@ -11,8 +11,9 @@ from garage2usd.config.maps import DriveConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.errors import MissingExtraError
-from garage2usd.maps.frame import heading_rad, map_points
+from garage2usd.maps.frame import heading_rad, map_point, map_points
 from garage2usd.maps.parked_cars import ParkedCar
+from garage2usd.maps.xml_text import element_lines, write_lines
 from garage2usd.version import VERSION
 
 try:
@@ -31,6 +32,7 @@ _HEIGHT_M, _WHEEL_M = 1.5, 0.62
 _AFTER_S = 1.0
 """How long the scenario goes on when the car has come to its end."""
 _DIGITS = 6
+_INDENT = "    "
 
 
 def write_scenario(
@@ -63,8 +65,8 @@ def write_scenario(
 
     Notes
     -----
-    Positions of the car that drives are those of its rear axle's middle on the floor, of parked cars the middle of
-    their footprints; the bounding boxes say where the bodies are.
+    Positions are those of the rear axle's middle on the floor, the origin of a vehicle in the standard; the bounding
+    boxes say where the bodies are. esmini moves the box of a vehicle whose rear axle is elsewhere.
     """
     entities = xosc.Entities()
     entities.add_scenario_object(EGO, _design_car(car, settings))
@@ -74,8 +76,10 @@ def write_scenario(
     init.add_init_action(EGO, _speed(0.0))
     for other in parked:
         entities.add_scenario_object(other.name, _standing_car(other))
-        ((x, y),) = map_points([other.middle_m]).tolist()
-        place = xosc.WorldPosition(_number(x), _number(y), 0.0, _number(heading_rad(other.yaw_rad)), 0.0, 0.0)
+        x, y = map_point(other.middle_m)
+        heading, back_m = heading_rad(other.yaw_rad), _wheelbase_m(other) / 2
+        x, y = x - back_m * math.cos(heading), y - back_m * math.sin(heading)
+        place = xosc.WorldPosition(_number(x), _number(y), 0.0, _number(heading), 0.0, 0.0)
         init.add_init_action(other.name, xosc.TeleportAction(place))
     times = [_number(time) for time in trajectory.time_s.tolist()]
     way = xosc.Trajectory(name, closed=False)
@@ -96,7 +100,7 @@ def write_scenario(
         osc_minor_version=_MINOR,
         creation_date=_WRITTEN,
     )
-    scenario.write_xml(str(path))
+    write_lines(element_lines(scenario.get_element(), indent=_INDENT, end="/>"), path)
 
 
 def _positions(trajectory: Trajectory) -> list["xosc.WorldPosition"]:
@@ -124,12 +128,16 @@ def _design_car(car: DesignCar, settings: DriveConfig) -> "xosc.Vehicle":
 
 def _standing_car(parked: ParkedCar) -> "xosc.Vehicle":
     width, length, height = (_number(value) for value in (parked.width_m, parked.length_m, parked.height_m))
-    box = xosc.BoundingBox(width, length, height, 0.0, 0.0, _number(height / 2))
-    # a scenario asks for axles, which the box of a car does not tell
-    wheelbase_m, track_m = _number(0.58 * length), _number(0.85 * width)
-    front = xosc.Axle(0.5, _WHEEL_M, track_m, wheelbase_m / 2, _WHEEL_M / 2)
-    rear = xosc.Axle(0.0, _WHEEL_M, track_m, -wheelbase_m / 2, _WHEEL_M / 2)
+    wheelbase_m, track_m = _wheelbase_m(parked), _number(0.85 * width)
+    box = xosc.BoundingBox(width, length, height, _number(wheelbase_m / 2), 0.0, _number(height / 2))
+    front = xosc.Axle(0.5, _WHEEL_M, track_m, wheelbase_m, _WHEEL_M / 2)
+    rear = xosc.Axle(0.0, _WHEEL_M, track_m, 0.0, _WHEEL_M / 2)
     return xosc.Vehicle(parked.name, xosc.VehicleCategory.car, box, front, rear, 50.0, 5.0, 8.0)
+
+
+def _wheelbase_m(parked: ParkedCar) -> float:
+    """A scenario asks for axles, which the box of a car does not tell; they lie evenly before and behind its middle."""
+    return _number(0.58 * parked.length_m)
 
 
 def _speed(speed_m_s: float) -> "xosc.AbsoluteSpeedAction":

@@ -5,7 +5,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
+from garage2usd.checks.placed_pieces import placed_pieces
 from garage2usd.checks.subject import Subject
 
 __all__ = ["ParkedCar", "parked_cars"]
@@ -38,7 +40,7 @@ class ParkedCar:
 
 
 def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedCar]:
-    """The cars of a garage, in the order of their prims, as boxes around their meshes.
+    """The cars of a garage, in the order of their prims, as boxes around their bodies.
 
     Parameters
     ----------
@@ -49,21 +51,30 @@ def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedC
 
     Notes
     -----
-    A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on.
+    A car looks to its own -Z, as those of garage2usd's catalogue do; its name in a scenario is ``Car_1`` and so on. A
+    box goes around what others can touch, which is not the mirrors: a box as wide as those would stand in the way of
+    cars that pass beside it. ASAM OSI has the boxes of vehicles without mirrors as well.
     """
     cars: list[ParkedCar] = []
-    for thing in subject.things:
-        if thing.label != _CAR or not thing.bodies:
-            continue
-        _, home = subject.cars.get(thing.name, (None, None))
+    things = [thing for thing in subject.things if thing.label == _CAR and thing.bodies]
+    bodies = [body for thing in things for body in thing.bodies]
+    pieces = placed_pieces(bodies, np.ones(len(bodies), dtype=bool))
+    first = np.cumsum([0, *(len(thing.bodies) for thing in things)])
+    corners = np.cumsum([0, *pieces.counts.tolist()])
+    for number, thing in enumerate(things):
+        ground, home = subject.cars.get(thing.name, (None, None))
         if home is not None and home.name in free:
             continue
         back = thing.bodies[0].matrix[2, [0, 2]]
         yaw = math.atan2(back[0], back[1])
-        points = np.concatenate([body.world_points() for body in thing.bodies])
+        own_pieces = slice(first[number], first[number + 1])
+        height_m = pieces.high_m[own_pieces].max() - pieces.low_m[own_pieces].min()
+        outline = pieces.corners[corners[first[number]] : corners[first[number + 1]]]
+        if ground is not None:
+            outline = shapely.get_coordinates(ground)
         turn = np.array([[math.cos(yaw), -math.sin(yaw)], [math.sin(yaw), math.cos(yaw)]])
         # in the car's own frame: (x, z) by rows times the inverse turn
-        own = points[:, [0, 2]] @ turn.T
+        own = outline @ turn.T
         low, high = own.min(axis=0), own.max(axis=0)
         middle = (low + high) / 2 @ turn
         width, length = (high - low).tolist()
@@ -74,7 +85,7 @@ def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedC
                 yaw,
                 length,
                 width,
-                float(np.ptp(points[:, 1])),
+                float(height_m),
             )
         )
     return cars

@@ -3,11 +3,10 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from garage2usd.checks import Subject
+from garage2usd.checks.stall_grounds import StallGrounds
+from garage2usd.layout.grounds import Grounds
 from garage2usd.reading.ground import StallOutline
 from garage2usd.reading.objects import Matrix
 
@@ -23,7 +22,7 @@ class StallFacts:
     def __init__(self, stalls: Iterable[StallOutline]) -> None:
         """Take all stalls, without cars yet."""
         self.stalls = tuple(stalls)
-        self._subject = Subject("", "stage", self.stalls, (), ())
+        self._grounds = StallGrounds(self.stalls)
         self._middles = shapely.STRtree([shapely.Point(stall.centre) for stall in self.stalls])
         self._car_of: dict[StallOutline, str] = {}
 
@@ -34,21 +33,21 @@ class StallFacts:
         unique = [name if names.count(name) == 1 else f"{name}[{number}]" for number, name in enumerate(names)]
         return dict(zip(unique, self.stalls, strict=True))
 
-    def park(self, car: str, points_m: NDArray[np.floating[Any]], place: Matrix) -> StallOutline | None:
-        """The stall that more than half of a car stands in, which counts as occupied from now on.
+    def park(self, cars: Sequence[str], grounds: Grounds) -> dict[str, StallOutline | None]:
+        """The stall that more than half of each car stands in, which counts as occupied from now on.
 
         Parameters
         ----------
-        car
-            Its path.
-        points_m, place
-            Points of its meshes, shape (n, 3), and the matrix from their space to the world.
+        cars
+            Their paths.
+        grounds
+            The ground of each.
         """
-        ground = shapely.MultiPoint((points_m @ place[:3, :3] + place[3, :3])[:, [0, 2]]).convex_hull
-        home = self._subject.home_of(ground)
-        if home is not None:
-            self._car_of.setdefault(home, car)
-        return home
+        homes = dict(zip(cars, self._grounds.homes_of(grounds), strict=True))
+        for car, home in homes.items():
+            if home is not None:
+                self._car_of.setdefault(home, car)
+        return homes
 
     def at(self, place: Matrix) -> StallOutline | None:
         """The stall whose middle lies where the origin of a matrix does."""
@@ -57,8 +56,7 @@ class StallFacts:
 
     def facts(self, stall: StallOutline) -> dict[str, Any]:
         """What is said of a stall wherever it is named."""
-        number = dict(stall.facts).get("number")
-        named = {"id": stall.name} if number is None else {"id": stall.name, "number": number}
+        named = {"id": stall.name} if stall.number is None else {"id": stall.name, "number": stall.number}
         return {**named, "use": str(stall.use), "occupied": stall in self._car_of}
 
     def outline(self, stall: StallOutline) -> dict[str, Any]:

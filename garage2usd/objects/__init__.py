@@ -10,8 +10,9 @@ from pkgutil import iter_modules
 
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.mounted import Mounted
+from garage2usd.objects.pieces import PIECES, PieceClass
 
-__all__ = ["KINDS", "MOUNTED", "Kind", "Mounted", "Spec"]
+__all__ = ["CLASSES", "CLASSES_VERSION", "KINDS", "MOUNTED", "PIECE_LABELS", "Kind", "Mounted", "PieceClass", "Spec"]
 
 _MODULES = [import_module(module.name) for module in iter_modules(__path__, prefix=f"{__name__}.")]
 
@@ -22,17 +23,27 @@ def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
     Raises
     ------
     ValueError
-        If two have the same number, name or label.
+        If two have the same number, name or label, or one has that of a class of pieces.
     """
-    for facts in zip(*((kind.number, kind.name, kind.label) for kind in kinds), strict=True):
-        twice = sorted({str(fact) for fact in facts if facts.count(fact) > 1})
+    declared: list[Kind | PieceClass] = [*kinds, *PIECES]
+    numbers, labels = [str(each.number) for each in declared], [each.label for each in declared]
+    for facts in (numbers, labels, [kind.name for kind in kinds]):
+        twice = sorted({fact for fact in facts if facts.count(fact) > 1})
         if twice:
-            raise ValueError(f"declared by more than one kind of object: {', '.join(twice)}")
+            raise ValueError(f"declared by more than one kind of object or piece: {', '.join(twice)}")
     return tuple(sorted(kinds, key=lambda kind: kind.number))
 
 
 KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")])
 """All kinds of objects, in the order of their numbers."""
+
+_ALL: list[Kind | PieceClass] = [*KINDS, *PIECES]
+CLASSES: tuple[Kind | PieceClass, ...] = tuple(sorted(_ALL, key=lambda each: each.number))
+"""All semantic classes, of objects and of pieces of them, in the order of their numbers: the one table of them."""
+CLASSES_VERSION = 3
+"""Of the table: one more whenever a class is added, or covers something else than before."""
+PIECE_LABELS = frozenset(piece.label for piece in PIECES)
+"""The classes of pieces, which belong to the object that they are part of."""
 
 MOUNTED: tuple[Mounted, ...] = tuple(
     sorted((module.MOUNTED for module in _MODULES if hasattr(module, "MOUNTED")), key=lambda each: each.kind.number)

@@ -12,7 +12,7 @@ from garage2usd.assets.mesh import Asset, pascal_case
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Polygon
 
-__all__ = ["Marking", "PanelSpec", "Surface"]
+__all__ = ["Marking", "Paint", "PanelSpec", "Surface"]
 
 
 class Surface(StrEnum):
@@ -36,12 +36,24 @@ _MATERIALS = {
 }
 
 
+class Paint(StrEnum):
+    """What is painted on a floor panel: its semantic class."""
+
+    STALL_LINE = "stall_line"
+    LANE_LINE = "lane_line"
+    LANE_ARROW = "lane_arrow"
+    CROSSING = "crossing"
+    HATCHING = "hatching"
+    STALL_SYMBOL = "stall_symbol"
+
+
 @dataclass(frozen=True)
 class Marking:
     """A painted polygon on a floor panel."""
 
     polygon: Polygon
     surface: Surface
+    paint: Paint
 
 
 @dataclass(frozen=True)
@@ -55,7 +67,8 @@ class PanelSpec(Spec):
     surface
         Coating where nothing is marked.
     markings
-        Painted polygons that do not overlap; each surface becomes a mesh of its own in the same plane.
+        Painted polygons; those of each class and surface become a mesh of its own in the same plane. Where classes
+        overlap, the first one counts.
     openings
         Polygons where other panels lie, free of this one.
     """
@@ -76,19 +89,20 @@ class PanelSpec(Spec):
 
     def asset(self) -> Asset:
         """Coating and paint, each a level sheet."""
-        by_material: dict[str, list[shapely.Polygon]] = defaultdict(list)
+        groups: dict[tuple[Paint, Surface], list[shapely.Polygon]] = defaultdict(list)
         for marking in self.markings:
-            by_material[_MATERIALS[marking.surface]].append(shapely.Polygon(marking.polygon))
-        areas = {material: shapely.union_all(shapes, grid_size=GRID_M) for material, shapes in by_material.items()}
+            groups[marking.paint, marking.surface].append(shapely.Polygon(marking.polygon))
         base = shapely.box(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2)
         openings = shapely.union_all([shapely.Polygon(shape) for shape in self.openings])
         base = shapely.difference(base, openings, grid_size=GRID_M)
-        areas = {material: shapely.intersection(area, base, grid_size=GRID_M) for material, area in areas.items()}
-        base = shapely.difference(base, shapely.union_all(list(areas.values())), grid_size=GRID_M)
-        return Asset(
-            tuple(
-                flat_part(pascal_case(material), area, material)
-                for material, area in [(_MATERIALS[self.surface], base), *areas.items()]
-                if area.area > 0
-            )
-        )
+        painted = []
+        for (paint, surface), shapes in groups.items():
+            area = shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M)
+            if area.area > 0:
+                colour = surface.removeprefix("paint_")
+                name = pascal_case(f"{paint}_{colour}")
+                painted.append(flat_part(name, area, _MATERIALS[surface], piece=paint.value))
+                base = shapely.difference(base, area, grid_size=GRID_M)
+        material = _MATERIALS[self.surface]
+        coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []
+        return Asset((*coating, *painted))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
+from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.pieces import pieces_of
@@ -176,7 +177,7 @@ def circulation(structure: Structure) -> Circulation:
     from garage2usd.planning.survey import STRETCH, survey  # noqa: PLC0415 - compiled code is for those who ask
 
     lane = structure.cells == Cell.LANE
-    padded = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
+    padded = bordered(structure.cells, Cell.OBSTACLE)
     cells = padded.ravel()
     state, queue = np.zeros(len(cells), np.int32), np.zeros(len(cells), np.int64)
     figures = survey(np.flatnonzero(cells == Cell.LANE), padded.shape[1], cells, state, queue, 0, 1)

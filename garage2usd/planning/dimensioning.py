@@ -1,9 +1,12 @@
 """Sizes of the squares of a plan: widths of columns and depths of rows that park most cars on least floor."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
+from garage2usd.structure.border import bordered
 from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, CellArray, Mask, Structure
 from garage2usd.structure.stalls import Edge, capacity_table, square_capacity
@@ -109,7 +112,8 @@ class _Sized:
         self._at = [np.searchsorted(self._sizes_mm, side) for side in sides_mm]
         self._inside = cells != Cell.OBSTACLE
         self._service = _service(cells)
-        self._held = _stalls_held(self._sizes_mm, bay)
+        self._held = _stalls_held(tuple(self._sizes_mm.tolist()), bay)
+        self._number_of = {size: number for number, size in enumerate(self._sizes_mm.tolist())}
         self._area = float(self.side_mm(0) @ self._inside @ self.side_mm(1))
         self._stalls = int(self._held[self._service, self._at[0][:, None], self._at[1]].sum())
 
@@ -126,7 +130,7 @@ class _Sized:
     def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
         """Give a line the size with the least area per stall, if that is less than now."""
         across, here = self._at[1 - axis], self._at[axis]
-        tried = np.searchsorted(self._sizes_mm, [*sizes_mm, self._sizes_mm[here[line]]])[:, None]
+        tried = np.array([*map(self._number_of.__getitem__, sizes_mm), here[line]])[:, None]
         service = self._service[line] if axis == 0 else self._service[:, line]
         pair = (tried, across) if axis == 0 else (across, tried)
         counts = self._held[(service, *pair)].sum(axis=1)
@@ -145,14 +149,15 @@ class _Sized:
 
 def _service(cells: CellArray) -> NDArray[np.intp]:
     """How lanes serve each square, as a number: edges open along Z times three and edges open along X; 0 for none."""
-    lane, free = np.pad(cells == Cell.LANE, 1).astype(np.intp), cells == Cell.FREE
+    lane, free = bordered(cells == Cell.LANE).astype(np.intp), cells == Cell.FREE
     return np.where(free, 3 * (lane[:-2, 1:-1] + lane[2:, 1:-1]) + lane[1:-1, :-2] + lane[1:-1, 2:], 0)
 
 
-def _stalls_held(sizes_mm: NDArray[np.int64], bay: BayConfig) -> NDArray[np.int64]:
+@lru_cache(maxsize=64)
+def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> NDArray[np.int64]:
     """Stalls that a square holds; shape (services, depths, widths), each depth and width one of some sizes."""
-    count = len(sizes_mm)
-    table = capacity_table(Structure(np.zeros((count, count), dtype=np.int8), sizes_mm, sizes_mm), bay)
+    count, sides = len(sizes_mm), np.array(sizes_mm, dtype=np.int64)
+    table = capacity_table(Structure(np.zeros((count, count), dtype=np.int8), sides, sides), bay)
     none = np.zeros_like(table.along_x)
     along_x = (none, table.along_x, table.along_x_double)
     along_z = (none, table.along_z, table.along_z_double)
@@ -172,7 +177,7 @@ def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
 
 def _driven(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
     """On which lanes and portals cars drive along X, and on which along Z; a portal counts beside its lane."""
-    lane, drivable = np.pad(cells == Cell.LANE, 1), np.pad(cells >= Cell.LANE, 1)
+    lane, drivable = bordered(cells == Cell.LANE), bordered(cells >= Cell.LANE)
     here, here_lane = drivable[1:-1, 1:-1], lane[1:-1, 1:-1]
 
     def driven(one: Mask, other: Mask, one_lane: Mask, other_lane: Mask) -> Mask:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.planning.circulation import Circulation, circulation
+from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.pieces import pieces_of
@@ -93,7 +94,7 @@ def neither_share(structure: Structure, bay: BayConfig) -> float:
 def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
     """A tree of pruned lanes at a time."""
     rounds = np.pad(found.rounds, 1)
-    drivable = np.pad(structure.cells >= Cell.LANE, 1)
+    drivable = bordered(structure.cells >= Cell.LANE)
     root_of: dict[Square, Square] = {}
     depth: dict[Square, tuple[int, int]] = {}
     trees: dict[Square, list[Square]] = {}

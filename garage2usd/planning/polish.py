@@ -1,4 +1,5 @@
 """Repair and polish of lanes: joining what is apart, and flips of squares that raise the value. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0912, PLR0915 - climbing and annealing in one function, as each is compiled with all it calls
 
 from typing import NamedTuple
@@ -8,7 +9,8 @@ from numpy.typing import NDArray
 
 from garage2usd.compiled import compiled, compiled_inlined, compiled_inner, copy_row
 from garage2usd.planning.archive import next_random, uniform
-from garage2usd.planning.board import FAULTS, NO_VALUE, Board, flip, mark_network, measure
+from garage2usd.planning.board import FAULTS, NO_VALUE, Board, faults_cost, flip, mark_network, measure, value_now
+from garage2usd.planning.flips import FLIPPED, REFUSED, flip_within
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes, copy_sides, floor_cost, settle, side_now, sync
 
@@ -144,16 +146,60 @@ class Room(NamedTuple):
         int64, as in `Sizes.kept_mm`: the sides of the best plan met.
     order
         int64: the free squares, in the order of a pass over them.
+    known, hops
+        int64, shape (3,), and int32, by square: what `Board.tally` and `Board.hops` have of the lanes that the next
+        flip changes.
     """
 
     cells: NDArray[np.int8]
     kept_mm: NDArray[np.int64]
     order: NDArray[np.int64]
+    known: NDArray[np.int64]
+    hops: NDArray[np.int32]
 
 
 def new_room(ground: Ground, sizes: Sizes) -> Room:
     """Room for the plans of a ground."""
-    return Room(ground.cells.copy(), sizes.kept_mm.copy(), ground.squares.copy())
+    return Room(
+        ground.cells.copy(),
+        sizes.kept_mm.copy(),
+        ground.squares.copy(),
+        np.zeros(3, np.int64),
+        np.zeros(len(ground.cells), np.int32),
+    )
+
+
+@compiled_inner
+def _remember(board: Board, room: Room) -> None:
+    """Keep what the board has of the lanes that were measured last."""
+    for figure in range(len(room.known)):
+        room.known[figure] = board.tally[figure]
+    copy_row(room.hops, board.hops)
+
+
+@compiled_inner
+def _flipped(ground: Ground, board: Board, sizes: Sizes, room: Room, q: int, p: int, least: float) -> float:
+    """Flip one square, or two side by side; what the lanes are worth then; at most NO_VALUE where it was not done.
+
+    Below `least` faults may be left out of it.
+    """
+    if sizes.is_chosen[0] or sizes.is_chosen[1]:
+        flip(board.cells, q, p)
+        value = _worth(ground, board, sizes, least)
+    else:
+        fate = flip_within(ground, board, room.known, room.hops, q, p, least)
+        if fate == REFUSED:
+            return NO_VALUE
+        if fate == FLIPPED:
+            value = measure(ground, board, least)
+        else:
+            value = value_now(ground, board)
+            if value >= least:
+                value -= faults_cost(ground, board)
+                copy_row(board.hops, room.hops)
+    if value <= NO_VALUE:
+        flip(board.cells, q, p)
+    return value
 
 
 @compiled
@@ -193,6 +239,7 @@ def improve(
         if is_sized:
             settle(ground, board, sizes, _SETTLING_PASSES)
         value = _worth(ground, board, sizes, -np.inf)
+        _remember(board, room)
     copy_row(order, ground.squares)
     for _ in range(passes):
         for index in range(len(order) - 1, 0, -1):
@@ -206,10 +253,12 @@ def improve(
                     continue
                 if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
                     continue
-                flip(cells, q, p)
-                tried = _worth(ground, board, sizes, value)
-                if tried > NO_VALUE and tried > value + 1e-9:
+                tried = _flipped(ground, board, sizes, room, q, p, value)
+                if tried <= NO_VALUE:
+                    continue
+                if tried > value + 1e-9:
                     value, improved = tried, True
+                    _remember(board, room)
                 else:
                     flip(cells, q, p)
         if not improved:
@@ -248,10 +297,12 @@ def improve(
             continue
         if not (_beside_lane(ground, board, q) or (p != q and _beside_lane(ground, board, p))):
             continue
-        flip(cells, q, p)
-        tried = _worth(ground, board, sizes, threshold)
-        if tried > NO_VALUE and tried >= threshold:
+        tried = _flipped(ground, board, sizes, room, q, p, threshold)
+        if tried <= NO_VALUE:
+            continue
+        if tried >= threshold:
             value = tried
+            _remember(board, room)
             faults = board.tally[FAULTS]
             if faults < best_faults or (faults == best_faults and value > best + 1e-9):
                 best, best_faults = value, faults

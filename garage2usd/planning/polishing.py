@@ -46,10 +46,14 @@ on what labels reach, and from which on it is large."""
 _CLIMB_PASSES, _CLIMB_SQUARES = 40, 40_000_000
 
 # annealing of whole plans: how many plans, their flips times squares, which bounds the time on any site, and heats in
-# stalls; with R and C chosen, 80 sites of 7x9 take 29.00 m2 a stall, with ten plans 29.03; it was 29.18 with the six
-# best plans, from 3.0 to 0.5, and sizes from the shortest alone; of 40 sites of 12x16 the 24 middle ones come to 243.5
-# stalls on equal squares, and to 243.4 from 2.0 to 0.4, 242.3 from 2.0 to 0.2, 242.1 from 1.2 to 0.3
-_ANNEALED, _ANNEALED_MIDDLE = (12, 5_000_000, (3.0, 0.3)), (6, 48_000_000, (3.0, 0.6))
+# stalls. On equal squares, where most flips are judged by what is around them, of 40 sites of 12x16 the 24 middle ones
+# come to 244.4 stalls, to 243.5 with half the flips from 3.0 to 0.6, to 243.6 with half of them from these heats; the
+# 16 small ones come to 187.7, to 186.8 with a third of the flips from 3.0 to 0.3, to 187.3 with as many from there
+_ANNEALED, _ANNEALED_MIDDLE = (12, 15_000_000, (1.5, 0.4)), (6, 96_000_000, (1.5, 0.5))
+
+# with R and C chosen each flip takes longer: 80 sites of 7x9 take 29.00 m2 a stall, with five plans 29.03; it was 29.18
+# with the three best plans, from 3.0 to 0.5, and sizes from the shortest alone
+_ANNEALED_SIZED, _ANNEALED_SIZED_MIDDLE = (6, 5_000_000, (3.0, 0.3)), (3, 16_000_000, (3.0, 0.6))
 
 # annealing under rules: how many runs, more while none keeps the rules, and how many moves in each; on large sites few,
 # and at most 800,000 moves, so that planning takes at most twice as long as without rules: on 4 sites of 40x60 R1 to R3
@@ -157,9 +161,8 @@ class _Polisher:
     def annealed(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed, each flip judged by the whole plan, and all as they were; best first."""
         is_small = self.squares <= _SMALL_SQUARES
-        count, work, heats = _ANNEALED if is_small else _ANNEALED_MIDDLE
-        if self.is_sized:  # each flip takes longer
-            count, work = count // 2, work if is_small else work // 3
+        small, middle = (_ANNEALED_SIZED, _ANNEALED_SIZED_MIDDLE) if self.is_sized else (_ANNEALED, _ANNEALED_MIDDLE)
+        count, work, heats = small if is_small else middle
         annealing = partial(self._improve, flips=int(work * self.effort) // self.squares, heats=heats)
         return self._improved(ranked, apart(ranked, count), annealing)
 

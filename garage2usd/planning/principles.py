@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from garage2usd.config import BayConfig
+from garage2usd.structure.border import bordered
 from garage2usd.structure.dead_ends import DeadEnd, dead_ends
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure, edge_neighbour_count
 from garage2usd.structure.stalls import square_capacity
@@ -66,7 +65,7 @@ def principles(structure: Structure, *, bay: BayConfig) -> Principles:
 
 def _beside(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
     """Which squares have `mask` set above, below, to the left and to the right."""
-    padded = np.pad(mask, 1)
+    padded = bordered(mask)
     return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
 
 

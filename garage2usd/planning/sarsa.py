@@ -1,4 +1,5 @@
 """Episodes of tabular Sarsa: an agent drives over the site and colours lanes. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0912, PLR0915, PLR1714 - an episode is one loop; calls that share its state halve the speed
 
 from typing import NamedTuple

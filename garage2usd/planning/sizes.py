@@ -1,4 +1,5 @@
 """R and C while lanes are annealed: each line of squares is as wide as what it holds asks for. Compiled."""
+# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
 # ruff: noqa: C901, PLR0912, PLR2004 - bits of edges, and loops over two axes
 
 from typing import NamedTuple

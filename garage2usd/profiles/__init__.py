@@ -6,13 +6,11 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
 from garage2usd.profiles.profile import Profile
-from garage2usd.settings import config_error
+from garage2usd.settings import validated
 
 __all__ = [
     "DEFAULT_PROFILE",
@@ -71,10 +69,7 @@ def read_profile(settings: dict[str, Any]) -> Profile:
     ConfigError
         With the clause, its value and what is allowed.
     """
-    try:
-        return Profile(**settings)
-    except ValidationError as error:
-        raise config_error(error, Profile, within="profile") from None
+    return validated(Profile, settings, within="profile")
 
 
 @cache

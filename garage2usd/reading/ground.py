@@ -50,8 +50,8 @@ class StallOutline:
     access
         Number of the lane node that its mouth opens onto.
     facts
-        What else is said of it, by name: its number, its type, its square and the edge of the square that it opens
-        onto, as far as they are known.
+        What else is said of it, by name: its number, its type, its square, the edge of the square that it opens onto
+        and whether a car stands in it (`occupied`), as far as they are known.
     """
 
     name: str
@@ -59,6 +59,11 @@ class StallOutline:
     use: StallUse
     access: int
     facts: tuple[tuple[str, str | int], ...] = ()
+
+    @property
+    def number(self) -> str | int | None:
+        """What is painted in it, where that is known."""
+        return dict(self.facts).get("number")
 
     @property
     def takes_cars(self) -> bool:
@@ -77,17 +82,17 @@ class StallOutline:
         left, right, rear_right, rear_left = self.corners
         return min(math.dist(left, rear_left), math.dist(right, rear_right))
 
-    @property
+    @cached_property
     def centre(self) -> Point:
         """Its middle."""
         return _middle(*self.corners)
 
-    @property
+    @cached_property
     def mouth(self) -> Point:
         """Middle of its mouth."""
         return _middle(*self.corners[:2])
 
-    @property
+    @cached_property
     def outwards(self) -> Point:
         """Unit vector from its rear to its mouth."""
         rear, mouth = _middle(*self.corners[2:]), self.mouth

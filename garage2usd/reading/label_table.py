@@ -33,7 +33,8 @@ class LabelledObject(NamedTuple):
     Attributes
     ----------
     name
-        Of its prim; a point of an instancer has its number in brackets after the instancer's name.
+        Of its prim; a piece of an object has it after the object's and a slash, a point of an instancer its number in
+        brackets after the instancer's.
     id
         Instance id from 1.
     class_id
@@ -54,14 +55,21 @@ class LabelTable(Record):
 
     Attributes
     ----------
+    classes_version
+        Of the table of classes (`garage2usd.objects.CLASSES_VERSION`); tables of the first say none.
     classes
         The classes.
     columns
         What the columns of the rows are called.
     objects
         The rows of objects by the path of the prim that is their parent, which thousands of them have in common.
+    parked
+        Ids of each stall that a car stands in, and of that car.
+    number_plates
+        Ids of the plates of each car and of that car, and what is to be read on them.
     """
 
+    classes_version: Annotated[int, Field(ge=1)] = 1
     classes: tuple[SemanticClass, ...]
     columns: tuple[Literal["name"], Literal["id"], Literal["class_id"], Literal["min_m"], Literal["max_m"]] = (
         "name",
@@ -71,6 +79,8 @@ class LabelTable(Record):
         "max_m",
     )
     objects: dict[str, tuple[LabelledObject, ...]]
+    parked: tuple[tuple[int, int], ...] = ()
+    number_plates: tuple[tuple[int, int, str], ...] = ()
 
     def by_path(self) -> Iterator[tuple[str, LabelledObject]]:
         """Path of each object's prim, and the object."""
@@ -88,6 +98,14 @@ class LabelTable(Record):
         for values in (paths, ids):
             if len(set(values)) < len(values):
                 raise ValueError("a path or an id occurs twice")
+        named = {
+            "parked": {number for pair in self.parked for number in pair},
+            "number_plates": {number for plates, car, _ in self.number_plates for number in (plates, car)},
+        }
+        for key, numbers in named.items():
+            unknown = numbers.difference(ids)
+            if unknown:
+                raise ValueError(f"{key} names the id {min(unknown)}, which no object has")
         return self
 
 

@@ -1,21 +1,42 @@
 """Which object is what: the label table beside a stage, or what the stage itself says."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.errors import StageError
-from garage2usd.objects import KINDS
+from garage2usd.objects import CLASSES, CLASSES_VERSION
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
+from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["CITYSCAPES", "Labels", "read_labels"]
+__all__ = ["CITYSCAPES", "Labels", "NumberPlates", "owner_of", "read_labels"]
 
-CITYSCAPES: dict[str, str] = {kind.label: kind.cityscapes for kind in KINDS}
+_Id = TypeVar("_Id", bound=np.integer[Any])
+
+CITYSCAPES: dict[str, str] = {entry.label: entry.cityscapes for entry in CLASSES}
+_NUMBERS = {entry.label: entry.number for entry in CLASSES}
 """Name of the nearest Cityscapes class of each class."""
+
+
+class NumberPlates(NamedTuple):
+    """The plates of a car, in front and behind.
+
+    Attributes
+    ----------
+    car
+        The car's id.
+    text
+        What is to be read on them.
+    """
+
+    car: int
+    text: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +45,8 @@ class Labels:
 
     Attributes
     ----------
+    classes_version
+        Of the table of classes that the ids follow (`garage2usd.objects.CLASSES_VERSION`).
     classes
         All classes by their id.
     ids
@@ -31,11 +54,32 @@ class Labels:
         instancer's path.
     class_ids
         Id of each object's class by the object's id.
+    plates
+        The number plates of cars by their own ids.
     """
 
+    classes_version: int
     classes: Mapping[int, SemanticClass]
     ids: Mapping[str, int]
     class_ids: Mapping[int, int]
+    plates: Mapping[int, NumberPlates] = field(default_factory=dict)
+
+    def instance_of(self, number: int) -> int:
+        """The id of an object in pictures of instances and in clouds: number plates have that of their car."""
+        return self.plates[number].car if number in self.plates else number
+
+    def instances_of(self, ids: NDArray[_Id]) -> NDArray[_Id]:
+        """The same of an array of ids, 0 for none; of any shape."""
+        distinct, which = np.unique(ids, return_inverse=True)
+        found = np.array([self.instance_of(number) for number in distinct.tolist()], dtype=ids.dtype)
+        return found[which].reshape(ids.shape)
+
+    def with_plates(self, paths: Iterable[str]) -> list[str]:
+        """Paths of some objects, and of the number plates of the cars among them."""
+        paths = list(paths)
+        cars = {self.ids[path] for path in paths if path in self.ids}
+        own = {number for number, plates in self.plates.items() if plates.car in cars}
+        return [*paths, *(path for path, number in self.ids.items() if number in own)] if own else paths
 
     def paths_of(self, names: frozenset[str]) -> Iterator[str]:
         """Paths of the objects of some classes."""
@@ -64,23 +108,44 @@ def read_labels(stage: Usd.Stage, path: Path | None) -> Labels:
     if table is None:
         return _labels_of(stage)
     return Labels(
+        classes_version=table.classes_version,
         classes={entry.id: entry for entry in table.classes},
         ids={path: entry.id for path, entry in table.by_path()},
         class_ids={entry.id: entry.class_id for _, entry in table.by_path()},
+        plates={number: NumberPlates(car, text) for number, car, text in table.number_plates},
     )
+
+
+def owner_of(path: str, ids: Mapping[str, int]) -> int:
+    """Id of the nearest of a prim and its parents that has one; 0 where none has."""
+    while path and path not in ids:
+        path = path[: max(path.rfind("/"), path.rfind("["))]  # a point's parent is its instancer
+    return ids.get(path, 0)
 
 
 def _labels_of(stage: Usd.Stage) -> Labels:
     """Classes of this program keep their ids; others follow by name."""
     found = [(placed.path, placed.label) for placed in placed_objects(stage, np.eye(4)) if placed.label]
-    others = sorted({name for _, name in found} - CITYSCAPES.keys())
-    names = [*CITYSCAPES, *others]
-    if len(names) > LARGEST_CLASS_ID or len(found) > LARGEST_ID:
-        raise StageError(stage.GetRootLayer().realPath, f"{len(names)} classes of {len(found)} objects are too many")
-    number_of = {name: number for number, name in enumerate(names, 1)}
+    others = sorted({name for _, name in found} - _NUMBERS.keys())
+    number_of = {**_NUMBERS, **{name: number for number, name in enumerate(others, max(_NUMBERS.values()) + 1)}}
+    if max(number_of.values()) > LARGEST_CLASS_ID or len(found) > LARGEST_ID:
+        names = f"{len(number_of)} classes of {len(found)} objects"
+        raise StageError(stage.GetRootLayer().realPath, f"{names} are too many")
     classes = {
         number: SemanticClass(name=name, id=number, cityscapes=CITYSCAPES.get(name))
         for name, number in number_of.items()
     }
     ids = {path: number for number, (path, _) in enumerate(found, 1)}
-    return Labels(classes, ids, {number: number_of[name] for number, (_, name) in enumerate(found, 1)})
+    class_ids = {number: number_of[name] for number, (_, name) in enumerate(found, 1)}
+    return Labels(CLASSES_VERSION, classes, ids, class_ids, dict(_plates_of(stage, ids)))
+
+
+def _plates_of(stage: Usd.Stage, ids: Mapping[str, int]) -> Iterator[tuple[int, NumberPlates]]:
+    """Id of each prim that says so of itself, whose plates it is, and what is to be read on them."""
+    for path, number in ids.items():
+        if "[" in path:  # a point of an instancer is no prim
+            continue
+        prim = stage.GetPrimAtPath(path)
+        cars = prim.GetRelationship(CAR_OF_PLATE).GetTargets() if prim.HasRelationship(CAR_OF_PLATE) else []
+        if cars and str(cars[0]) in ids:
+            yield number, NumberPlates(ids[str(cars[0])], str(prim.GetAttribute(PLATE_TEXT).Get() or ""))

@@ -181,6 +181,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
         _incomplete(curves, lanes, "id, use and accessNode")
         return
     columns = {name: curves.values(f"garage:stall:{name}") for name in ("number", "type", "row", "column", "entryEdge")}
+    columns["occupied"] = [value == 1 for value in curves.values("garage:stall:occupied")]
     known = {name: values for name, values in columns.items() if values}
     for index, (line, (name, use, access)) in enumerate(zip(curves.lines, rows, strict=True)):
         place = str(name)

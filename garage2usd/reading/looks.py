@@ -3,10 +3,13 @@
 from collections.abc import Hashable
 from typing import Generic, NamedTuple, TypeVar
 
-from pxr import Usd, UsdShade
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.reading.meshes import Triangles, display_colour, face_sets, triangles_of
-from garage2usd.reading.surfaces import SurfaceLook, surface_of
+from garage2usd.reading.surfaces import SurfaceLook, stands_alone, surface_of
+from garage2usd.reading.values import opinions_of
 
 __all__ = ["DrawnMesh", "MeshLooks", "Numbered"]
 
@@ -44,44 +47,71 @@ class DrawnMesh(NamedTuple):
 class MeshLooks:
     """Collects what prims look like: what is the same in several places is kept once.
 
+    Parameters
+    ----------
+    is_apart_by_name
+        Whether surfaces of materials with other names are different, even if they look alike.
+
     Attributes
     ----------
     meshes, surfaces
         Different ones in the order in which they were first met.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_apart_by_name: bool = False) -> None:
+        self._is_apart_by_name = is_apart_by_name
         self.meshes: Numbered[Triangles] = Numbered()
         self.surfaces: Numbered[SurfaceLook] = Numbered()
-        self._triangles_of: dict[tuple[object, ...], Triangles | None] = {}
-        self._surface_of_material: dict[str, int] = {}
+        self._triangles_of: dict[tuple[str, Hashable], Triangles | None] = {}
+        self._mesh_of: dict[Hashable, int | None] = {}
+        self._surface_of_material: dict[Sdf.Path, int] = {}
+        self._surface_of_opinions: dict[Hashable, int] = {}
 
     def of_prim(self, prim: Usd.Prim) -> list[DrawnMesh]:
         """What a prim of one of `garage2usd.reading.meshes.DRAWN_TYPES` draws."""
-        found = []
+        found, opinions = [], opinions_of(prim)
         for bound, faces in face_sets(prim):
             surface = self._surface(bound, prim)
-            triangles = self._triangles(prim, self.surfaces.values[surface].coordinate_name)
-            if triangles is not None and faces is not None:
-                triangles = triangles.of_faces(faces)
-            if triangles is not None and len(triangles.indices):
-                found.append(DrawnMesh(self.meshes.number(triangles, triangles.key()), surface))
+            coordinate_name = self.surfaces.values[surface].coordinate_name
+            key = coordinate_name, opinions, None if faces is None else faces.tobytes()
+            if key not in self._mesh_of:
+                self._mesh_of[key] = self._mesh(prim, key[:2], faces)
+            mesh = self._mesh_of[key]
+            if mesh is not None:
+                found.append(DrawnMesh(mesh, surface))
         return found
 
-    def _triangles(self, prim: Usd.Prim, coordinate_name: str) -> Triangles | None:
-        # prims made of the same opinions are the same: prototypes that differ in a variant share most of theirs
-        key = coordinate_name, *((spec.layer.identifier, str(spec.path)) for spec in prim.GetPrimStack())
+    def _mesh(self, prim: Usd.Prim, key: tuple[str, Hashable], faces: NDArray[np.intp] | None) -> int | None:
+        """Number of the triangles of some faces; None where there are none."""
+        # prims made of the same opinions are the same
         if key not in self._triangles_of:
-            self._triangles_of[key] = triangles_of(prim, coordinate_name=coordinate_name)
-        return self._triangles_of[key]
+            self._triangles_of[key] = triangles_of(prim, coordinate_name=key[0])
+        triangles = self._triangles_of[key]
+        if triangles is not None and faces is not None:
+            triangles = triangles.of_faces(faces)
+        if triangles is None or not len(triangles.indices):
+            return None
+        return self.meshes.number(triangles, triangles.key())
 
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:
         material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
-        path = str(material.GetPath()) if material else ""
-        if path and path in self._surface_of_material:
-            return self._surface_of_material[path]
-        surface = surface_of(material) if material else SurfaceLook(colour_rgb=display_colour(prim))
-        number = self.surfaces.number(surface, surface)
-        if path:
-            self._surface_of_material[path] = number
-        return number
+        if not material:
+            return self._number(SurfaceLook(colour_rgb=display_colour(prim)))
+        path = material.GetPath()
+        if path not in self._surface_of_material:
+            self._surface_of_material[path] = self._surface_of(material)
+        return self._surface_of_material[path]
+
+    def _surface_of(self, material: UsdShade.Material) -> int:
+        """Number of a material's surface; many prototypes have materials that are made of the same opinions."""
+        prim = material.GetPrim()
+        key = prim.GetName(), tuple(opinions_of(part) for part in Usd.PrimRange(prim))
+        if key not in self._surface_of_opinions:
+            surface = self._number(surface_of(material))
+            if not stands_alone(material):
+                return surface
+            self._surface_of_opinions[key] = surface
+        return self._surface_of_opinions[key]
+
+    def _number(self, surface: SurfaceLook) -> int:
+        return self.surfaces.number(surface, (surface, surface.name) if self._is_apart_by_name else surface)

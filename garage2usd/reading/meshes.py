@@ -13,7 +13,7 @@ from garage2usd.reading.solid_shapes import solid_faces
 from garage2usd.reading.surfaces import PLAIN
 from garage2usd.reading.values import READ_AT, numbers_of
 
-__all__ = ["DRAWN_TYPES", "Triangles", "display_colour", "face_sets", "triangles_of"]
+__all__ = ["DRAWN_TYPES", "Triangles", "cross", "display_colour", "face_sets", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
 """Types of prims that have triangles."""
@@ -54,13 +54,17 @@ class Triangles:
 
     def of_faces(self, faces: NDArray[np.intp]) -> "Triangles":
         """The triangles of some faces alone."""
-        kept = np.isin(self.face_of, faces)
-        used, indices = np.unique(self.indices[kept], return_inverse=True)
+        is_wanted = np.zeros(max(int(self.face_of.max(initial=0)), int(faces.max(initial=0))) + 1, dtype=bool)
+        is_wanted[faces] = True
+        kept = is_wanted[self.face_of]
+        is_used = np.zeros(len(self.positions_m), dtype=bool)
+        is_used[self.indices[kept]] = True
+        used, indices = np.flatnonzero(is_used), (np.cumsum(is_used) - 1)[self.indices[kept]]
         return Triangles(
             self.positions_m[used],
             self.normals[used],
             self.coordinates[used],
-            indices.reshape(-1, 3).astype(np.uint32),
+            indices.astype(np.uint32),
             self.face_of[kept],
             self.double_sided,
         )
@@ -87,13 +91,14 @@ def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | 
     points = numbers_of(mesh.GetPointsAttr(), np.float32, width=3)
     counts = numbers_of(mesh.GetFaceVertexCountsAttr(), np.int64)
     corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64)
-    if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(points):
+    if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(corners) or not len(points):
         return None
     fans, face_of = _fans(counts)
     points_of = corners[fans]
-    sound = ((points_of >= 0) & (points_of < len(points))).all(axis=1)
-    sound &= np.isfinite(points[np.clip(points_of, 0, len(points) - 1)]).all(axis=(1, 2))
-    fans, face_of = fans[sound], face_of[sound]
+    if not (corners.min() >= 0 and corners.max() < len(points) and np.isfinite(points).all()):
+        sound = ((points_of >= 0) & (points_of < len(points))).all(axis=1)
+        sound &= np.isfinite(points[np.clip(points_of, 0, len(points) - 1)]).all(axis=(1, 2))
+        fans, face_of = fans[sound], face_of[sound]
     if not len(fans):
         return None
     if mesh.GetOrientationAttr().Get(READ_AT) == UsdGeom.Tokens.leftHanded:
@@ -107,6 +112,12 @@ def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | 
         face_of,
         double_sided=bool(mesh.GetDoubleSidedAttr().Get(READ_AT)),
     )
+
+
+def cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cross products of vectors whose first axis is (x, y, z), without the checks of `numpy.cross`."""
+    (x, y, z), (other_x, other_y, other_z) = one, other
+    return np.stack([y * other_z - z * other_y, z * other_x - x * other_z, x * other_y - y * other_x])
 
 
 def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | None]]:
@@ -165,7 +176,7 @@ def _normals(
     if authored is not None:
         return _unit(authored)
     places = points[corners[fans]].astype(np.float64)
-    areas = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    areas = cross((places[:, 1] - places[:, 0]).T, (places[:, 2] - places[:, 0]).T).T
     if mesh.GetSubdivisionSchemeAttr().Get(READ_AT) != UsdGeom.Tokens.none:
         sums = np.zeros((len(points), 3))
         np.add.at(sums, corners[fans].ravel(), np.repeat(areas, 3, axis=0))

@@ -74,7 +74,7 @@ class FireCompartment(Record):
 
 
 class ReportedStall(Record):
-    """A stall; squares are (row, col), its centre is (x, z)."""
+    """A stall; squares are (row, col), its centre is (x, z), and `occupied` says whether a car stands in it."""
 
     name: str
     number: str
@@ -86,6 +86,7 @@ class ReportedStall(Record):
     yaw_rad: float
     width_m: float
     length_m: float
+    occupied: bool | None = None
 
 
 class Report(Record):

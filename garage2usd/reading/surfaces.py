@@ -1,16 +1,19 @@
 """Materials of a stage as the few values that surfaces take which know no networks of shaders."""
 
+import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.reading.values import READ_AT, number_of, numbers_of
 
-__all__ = ["PLAIN", "SurfaceLook", "surface_of"]
+__all__ = ["PLAIN", "SurfaceLook", "stands_alone", "surface_of"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"
+_BRIGHTEST = 1e4
 _DEFAULT_ROUGHNESS = 0.5
 
 
@@ -69,9 +72,10 @@ PLAIN = SurfaceLook()
 
 def surface_of(material: UsdShade.Material) -> SurfaceLook:
     """What a material's UsdPreviewSurface says; `PLAIN` where it has none."""
-    shader, _, _ = material.ComputeSurfaceSource()
-    if not shader or shader.GetIdAttr().Get() != _PREVIEW:
+    found, _, _ = material.ComputeSurfaceSource()
+    if not found or found.GetIdAttr().Get() != _PREVIEW:
         return PLAIN
+    shader = _Shader(found, frozenset(found.GetPrim().GetAuthoredPropertyNames()))
     colour, colour_reader, _ = _colour(shader, "diffuseColor", (0.18, 0.18, 0.18))
     emissive, _, _ = _colour(shader, "emissiveColor", (0.0, 0.0, 0.0))
     roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS)
@@ -79,7 +83,7 @@ def surface_of(material: UsdShade.Material) -> SurfaceLook:
     opacity, opacity_reader, _ = _number(shader, "opacity", 1.0)
     threshold, _, _ = _number(shader, "opacityThreshold", 0.0)
     clearcoat, _, _ = _number(shader, "clearcoat", 0.0)
-    _, normal_reader, _ = _input(shader, "normal")
+    _, normal_reader, _ = shader.input("normal")
     _, occlusion_reader, occlusion_channel = _number(shader, "occlusion", 1.0)
     return SurfaceLook(
         colour_rgb=colour,
@@ -103,23 +107,47 @@ def surface_of(material: UsdShade.Material) -> SurfaceLook:
     )
 
 
-def _colour(shader: UsdShade.Shader, name: str, default: Rgb) -> tuple[Rgb, UsdShade.Shader | None, int]:
-    given, reader, channel = _input(shader, name)
+def stands_alone(material: UsdShade.Material) -> bool:
+    """Whether what a material says depends on nothing but itself and what is below it."""
+    prim = material.GetPrim()
+    connected = (given for part in Usd.PrimRange(prim) for given in part.GetAuthoredAttributes())
+    sources = (source for given in connected for source in given.GetConnections())
+    return all(source.HasPrefix(prim.GetPath()) for source in sources)
+
+
+class _Shader(NamedTuple):
+    """A shader and the names of what it says."""
+
+    shader: UsdShade.Shader
+    said: frozenset[str]
+
+    def input(self, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
+        """As `_input`; most inputs of most shaders are as they are by default."""
+        return _input(self.shader, name) if f"inputs:{name}" in self.said else (None, None, 0)
+
+
+def _colour(shader: _Shader, name: str, default: Rgb) -> tuple[Rgb, UsdShade.Shader | None, int]:
+    given, reader, channel = shader.input(name)
     if reader is not None:
         return (1.0, 1.0, 1.0), reader, channel
     if given is None or not given.HasValue():
         return default, None, 0
-    ((red, green, blue),) = np.clip(np.nan_to_num(numbers_of(given, np.float64, width=3)), 0, 1e4).tolist()
-    return (red, green, blue), None, 0
+    ((red, green, blue),) = numbers_of(given, np.float64, width=3).tolist()
+    return (_within(red, _BRIGHTEST), _within(green, _BRIGHTEST), _within(blue, _BRIGHTEST)), None, 0
 
 
-def _number(shader: UsdShade.Shader, name: str, default: float) -> tuple[float, UsdShade.Shader | None, int]:
-    given, reader, channel = _input(shader, name)
+def _number(shader: _Shader, name: str, default: float) -> tuple[float, UsdShade.Shader | None, int]:
+    given, reader, channel = shader.input(name)
     if reader is not None:
         return 1.0, reader, channel
     if given is None or not given.HasValue():
         return default, None, 0
-    return float(np.clip(np.nan_to_num(number_of(given)), 0, 1)), None, 0
+    return _within(number_of(given), 1.0), None, 0
+
+
+def _within(value: float, most: float) -> float:
+    """A number of at least 0 and at most another; 0 for what is none."""
+    return 0.0 if math.isnan(value) else min(max(value, 0.0), most)
 
 
 def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
@@ -127,6 +155,8 @@ def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, Us
     given = shader.GetInput(name)
     if not given:
         return None, None, 0
+    if not given.GetAttr().HasAuthoredConnections():
+        return given.GetAttr(), None, 0
     for attribute in given.GetValueProducingAttributes():
         if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
             return attribute, None, 0

@@ -1,5 +1,8 @@
 """Semantic labels on prims: their taxonomies, and what a prim's label says."""
 
+from collections.abc import Sequence
+from functools import cache
+
 from pxr import Usd, Vt
 
 from garage2usd.reading.values import READ_AT, lacks
@@ -14,8 +17,10 @@ LABELS = "semantics:labels"
 """Namespace of the attributes."""
 LABELS_SCHEMA = "SemanticsLabelsAPI"
 """The schema, applied once for each taxonomy."""
+_ARRAYS = Vt.TokenArray, Vt.StringArray
 
 
+@cache
 def labels_name(taxonomy: str) -> str:
     """Name of the attribute that holds the labels of a taxonomy, for example ``semantics:labels:class``."""
     return f"{LABELS}:{taxonomy}"
@@ -23,8 +28,8 @@ def labels_name(taxonomy: str) -> str:
 
 def label_of(prim: Usd.Prim, taxonomy: str = OBJECT_TAXONOMY) -> str:
     """The first label of a prim in a taxonomy; empty for none. Raises what `labels_of` raises."""
-    labels = labels_of(prim, taxonomy)
-    return labels[0] if labels else ""
+    labels = _value(prim, taxonomy)
+    return str(labels[0]) if labels else ""
 
 
 def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
@@ -35,10 +40,15 @@ def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:
     StageError
         If the attribute holds something else: USD gives whatever a file has, not what the schema says.
     """
+    return tuple(map(str, _value(prim, taxonomy)))
+
+
+def _value(prim: Usd.Prim, taxonomy: str) -> Sequence[str]:
     attribute = prim.GetAttribute(labels_name(taxonomy))
     labels = attribute.Get(READ_AT) if attribute else None
     if labels is None:
         return ()
-    if not isinstance(labels, Vt.TokenArray | Vt.StringArray):
+    if not isinstance(labels, _ARRAYS):
         raise lacks(attribute, "labels")
-    return tuple(map(str, labels))
+    found: Sequence[str] = labels
+    return found

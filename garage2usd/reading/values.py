@@ -8,7 +8,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
 
-__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of"]
+__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of", "opinions_of"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
@@ -55,6 +55,14 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
     except (TypeError, ValueError, OverflowError):
         raise lacks(attribute, "numbers") from None
+
+
+def opinions_of(prim: Usd.Prim) -> tuple[tuple[str, str], ...]:
+    """Where a prim's own opinions are, by layer and path: prims with the same ones have the same values.
+
+    Prototypes that differ in a variant share most of theirs.
+    """
+    return tuple((spec.layer.identifier, spec.path.pathString) for spec in prim.GetPrimStack())
 
 
 def lacks(attribute: Usd.Attribute, what: str) -> StageError:

@@ -5,10 +5,11 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from pxr import Kind, Usd, UsdGeom, UsdLux, UsdShade
+from pxr import Kind, Usd, UsdGeom
 
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
-from garage2usd.reading.taxonomy import SQUARE_TAXONOMY, label_of
+from garage2usd.reading.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
+from garage2usd.reading.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
 from garage2usd.reading.values import READ_AT, numbers_of
 
 __all__ = ["placed_objects"]
@@ -16,6 +17,9 @@ __all__ = ["placed_objects"]
 _DRAWN_PURPOSES = frozenset({UsdGeom.Tokens.default_, UsdGeom.Tokens.render})
 _POINT_PROTOTYPES = Usd.PrimIsActive & Usd.PrimIsLoaded
 """Prototypes of point instancers may be overs or classes, so that they are not drawn where they stand."""
+_VISIBILITY, _PURPOSE = UsdGeom.Tokens.visibility, UsdGeom.Tokens.purpose
+_TRANSFORM = UsdGeom.Tokens.xformOpOrder
+_CLASS, _SQUARE = labels_name(OBJECT_TAXONOMY), labels_name(SQUARE_TAXONOMY)
 _IDENTITY = np.eye(4)
 _IDENTITY.setflags(write=False)
 
@@ -49,7 +53,7 @@ def placed_objects(stage: Usd.Stage, to_world: Matrix) -> list[PlacedObject]:
     return [found for found in at.found if found.parts]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(eq=False, slots=True)
 class _At:
     """A prim that is being visited.
 
@@ -98,50 +102,60 @@ class _Walk:
     def __init__(self, stage: Usd.Stage) -> None:
         self._stage = stage
         self._places = UsdGeom.XformCache(READ_AT)
-        self._prototypes: dict[tuple[str, str, bool], _Prototype] = {}
-        self._is_drawn_type: dict[str, bool] = {}
+        self._prototypes: dict[tuple[Usd.Prim, str, bool], _Prototype] = {}
+        self._types = PrimTypes()
         self._has_labels = cache(_has_labels)
         self._resets = cache(_resets)
 
     def visit(self, prim: Usd.Prim, above: _At) -> None:
         """Find what is at and below a prim; `above` is its parent."""
         # nearly half of a garage's prims; UsdImaging looks for nothing to draw below them either
-        if prim.IsA(UsdShade.Material) or not _is_visible(prim):
+        kind = self._types.of(prim)
+        if kind.is_material:
             return
-        place, is_reset = self._place(prim)
-        matrix = place @ (above.stage_matrix if is_reset else above.matrix)
-        within = above.within
-        if above.holder is not None:
-            within = matrix @ np.linalg.pinv(above.holder.matrix) if is_reset else place @ above.within
+        # nearly all prims say little of themselves, and what none says is costly to ask for
+        said = prim.GetAuthoredPropertyNames()
+        if _VISIBILITY in said and not is_visible(prim):
+            return
+        matrix, within, holder = above.matrix, above.within, above.holder
+        if _TRANSFORM in said:
+            place, is_reset = self._place(prim)
+            matrix = place @ (above.stage_matrix if is_reset else above.matrix)
+            if holder is not None:
+                within = matrix @ np.linalg.pinv(holder.matrix) if is_reset else place @ above.within
         name = f"/{prim.GetName()}"
-        at = replace(
-            above,
-            path=above.path + name,
-            twin=above.twin + name,
-            matrix=matrix,
-            within=within,
-            square=label_of(prim, SQUARE_TAXONOMY) or above.square,
-            purpose=_purpose(prim, above.purpose),
+        at = _At(
+            above.path + name,
+            above.twin + name,
+            matrix,
+            above.stage_matrix,
+            (label_of(prim, SQUARE_TAXONOMY) if _SQUARE in said else "") or above.square,
+            purpose_of(prim, above.purpose) if _PURPOSE in said else above.purpose,
+            holder,
+            within,
+            above.predicate,
+            above.found,
         )
-        label = label_of(prim)
-        if prim.IsA(UsdGeom.PointInstancer):
+        label = label_of(prim) if _CLASS in said else ""
+        if kind.is_instancer:
             self._visit_points(prim, at, label)
             return
-        if label or (at.holder is None and self._is_whole(prim)):
-            holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix)
-            at.found.append(holder)
-            at = replace(at, holder=holder, within=_IDENTITY)
-        self._visit_contents(prim, at)
+        if label or (holder is None and self._is_whole(prim)):
+            at.holder = PlacedObject(at.path, at.twin, label, at.square, at.matrix)
+            at.within = _IDENTITY
+            at.found.append(at.holder)
+        self._visit_contents(prim, kind, at)
 
-    def _visit_contents(self, prim: Usd.Prim, at: _At) -> None:
+    def _visit_contents(self, prim: Usd.Prim, kind: PrimType, at: _At) -> None:
         """Find what a prim draws itself, and what is below it."""
-        if self._draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
+        if kind.draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
             source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
             _append(at.holder, [DrawnPart(source, at.path.removeprefix(at.holder.path), at.within)])
-        if prim.IsInstance() and not self._resets(prim.GetPrototype()):
-            self._take(self._prototype(prim.GetPrototype(), at), at)
+        is_instance = prim.IsInstance()
+        if is_instance and not self._resets(prototype := prim.GetPrototype()):
+            self._take(self._prototype(prototype, at), at)
             return
-        is_proxied = prim.IsInstance() or prim.IsInstanceProxy()
+        is_proxied = is_instance or prim.IsInstanceProxy()
         below = Usd.TraverseInstanceProxies(at.predicate) if is_proxied else at.predicate
         for child in prim.GetFilteredChildren(below):
             self.visit(child, at)
@@ -169,7 +183,7 @@ class _Walk:
 
     def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
         """What a prototype of instances holds, for an instance that inherits what `at` says."""
-        key = str(prototype.GetPath()), at.purpose, at.holder is not None
+        key = prototype, at.purpose, at.holder is not None
         if key not in self._prototypes:
             inside = _inside(at.purpose, is_held=at.holder is not None)
             for child in prototype.GetChildren():
@@ -179,15 +193,15 @@ class _Walk:
 
     def _point_prototype(self, root: Usd.Prim) -> _Prototype:
         """What a prototype of a point instancer holds; its own transform is the points'."""
-        key = str(root.GetPath()), "", True
+        key = root, "", True
         if key not in self._prototypes:
             self._prototypes[key] = _Prototype([], ())  # within itself it draws nothing
-            purpose = UsdGeom.Imageable(root).ComputePurpose() if _is_imageable(root) else UsdGeom.Tokens.default_
+            purpose = UsdGeom.Imageable(root).ComputePurpose() if is_imageable(root) else UsdGeom.Tokens.default_
             inside = _inside(str(purpose), is_held=True)
-            if _is_visible(root) and root.IsA(UsdGeom.PointInstancer):
+            if is_visible(root) and root.IsA(UsdGeom.PointInstancer):
                 self._visit_points(root, inside, "")
-            elif _is_visible(root):
-                self._visit_contents(root, replace(inside, predicate=_POINT_PROTOTYPES))
+            elif is_visible(root):
+                self._visit_contents(root, self._types.of(root), replace(inside, predicate=_POINT_PROTOTYPES))
             self._prototypes[key] = _held(inside)
         return self._prototypes[key]
 
@@ -222,20 +236,13 @@ class _Walk:
         place = np.array(matrix)
         return (place if np.isfinite(place).all() else _IDENTITY), is_reset
 
-    def _draws(self, prim: Usd.Prim) -> bool:
-        kind = prim.GetTypeName()
-        if kind not in self._is_drawn_type:  # a stage has many prims of few types
-            self._is_drawn_type[kind] = prim.IsA(UsdGeom.Gprim) or prim.IsA(UsdLux.BoundableLightBase)
-            self._is_drawn_type[kind] |= prim.IsA(UsdLux.NonboundableLightBase)
-        return self._is_drawn_type[kind] or prim.HasAPI(UsdLux.LightAPI)
-
     def _is_whole(self, prim: Usd.Prim) -> bool:
         """Whether a prim without a label is an object nevertheless."""
         if prim.IsInstance():
             return not self._has_labels(prim.GetPrototype())
         if Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component):
             return not _has_labels(prim)
-        return self._draws(prim)
+        return self._types.of(prim).draws(prim)
 
 
 def _inside(purpose: str, *, is_held: bool) -> _At:
@@ -269,23 +276,3 @@ def _resets(prototype: Usd.Prim) -> bool:
     """Whether a place in a prototype does not follow that of the instance, so that instances differ."""
     below = Usd.PrimRange(prototype, Usd.TraverseInstanceProxies())
     return any(UsdGeom.Xformable(prim).GetResetXformStack() for prim in below)
-
-
-def _is_imageable(prim: Usd.Prim) -> bool:
-    return bool(prim.IsA(UsdGeom.Imageable))
-
-
-def _is_visible(prim: Usd.Prim) -> bool:
-    """Whether a prim whose parents are visible is."""
-    if not _is_imageable(prim):
-        return True
-    return bool(UsdGeom.Imageable(prim).GetVisibilityAttr().Get(READ_AT) != UsdGeom.Tokens.invisible)
-
-
-def _purpose(prim: Usd.Prim, inherited: str) -> str:
-    """A prim's purpose: its own where it has one, else its parent's."""
-    if _is_imageable(prim):
-        own = UsdGeom.Imageable(prim).GetPurposeAttr()
-        if own.HasAuthoredValue():
-            return str(own.Get())
-    return inherited

@@ -7,6 +7,8 @@ garage2usd is imported. Each line on the file descriptor that the job names is a
 """
 
 import ctypes
+import hashlib
+import importlib
 import json
 import os
 import re
@@ -26,6 +28,7 @@ _POINT_FILTER_PX = 0.01
 _BOUNCES = 6
 _TRANSPARENT_BOUNCES = 64
 _OPAQUE = 0.5
+_RAYS = Path(__file__).with_name("rays.osl")
 _SAMPLE = re.compile(r"Sample (\d+)/\d+")
 
 
@@ -37,27 +40,32 @@ def main() -> None:
     report = _Reporter(job["report_fd"])
     to_blender = Matrix(job["to_blender"])
     scene, objects, ids = _build(job, to_blender)
+    moving = [
+        (item, item.matrix_world.copy()) for item, number in zip(objects, ids, strict=True) if number in job["moving"]
+    ]
     colour = [frame for frame in job["frames"] if frame["colour"]]
     data = [frame for frame in job["frames"] if frame["data"]]
     if colour:
         _set_up_colour(scene, job)
         for frame in colour:
-            _aim(scene, frame, job["size_px"], to_blender)
+            aim(scene, frame, to_blender)
+            _move(moving, frame["moved"], to_blender)
             _hide(objects, ids, frame["hidden"], is_dark=False)
             report.watch(job["samples"])
-            scene.render.filepath = frame["colour"]
-            bpy.ops.render.render(write_still=True)
+            _draw(scene, Path(frame["colour"]))
             report.finish(job["samples"])
     if data:
         _set_up_data(scene, objects)
         for frame in data:
-            _aim(scene, frame, job["size_px"], to_blender)
+            aim(scene, frame, to_blender)
+            _move(moving, frame["moved"], to_blender)
             _hide(objects, ids, frame["hidden"], is_dark=True)
             for digit, path in enumerate(frame["data"]):
                 for item, number in zip(objects, ids, strict=True):
-                    item.pass_index = number // _INDEX_LIMIT**digit % _INDEX_LIMIT
-                scene.render.filepath = path
-                bpy.ops.render.render(write_still=True)
+                    index = number // _INDEX_LIMIT**digit % _INDEX_LIMIT
+                    if item.pass_index != index:
+                        item.pass_index = index
+                _draw(scene, Path(path))
             report.finish(1)
 
 
@@ -124,28 +132,100 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
     return scene, objects, ids
 
 
-def _aim(scene: bpy.types.Scene, frame: dict[str, Any], size_px: list[int], to_blender: Matrix) -> None:
+def _draw(scene: bpy.types.Scene, path: Path) -> None:
+    """Draw a picture whose file is there only when it is whole."""
+    part = path.with_name(f"part_{path.name}")
+    scene.render.filepath = str(part)
+    bpy.ops.render.render(write_still=True)
+    part.replace(path)
+
+
+def aim(scene: bpy.types.Scene, frame: dict[str, Any], to_blender: Matrix) -> None:
     """Take the camera of a frame."""
     lens = frame["lens"]
     if scene.camera is None:
         scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
         scene.collection.objects.link(scene.camera)
-    camera = scene.camera
-    camera.matrix_world = to_blender @ Matrix(frame["camera_to_world"])
-    camera.data.sensor_fit = "HORIZONTAL"
-    camera.data.sensor_width = lens["aperture_mm"]
-    camera.data.lens = lens["focal_mm"]
-    camera.data.shift_x, camera.data.shift_y = lens["shift"]
-    camera.data.clip_start, camera.data.clip_end = lens["clip_m"]
-    scene.render.resolution_x, scene.render.resolution_y = size_px
+    scene.camera.matrix_world = to_blender @ Matrix(frame["camera_to_world"])
+    data = _camera(frame)
+    if scene.camera.data != data:  # it costs a second to read the scene anew
+        scene.camera.data = data
+    data.clip_start, data.clip_end = lens["clip_m"]
+    scene.render.resolution_x, scene.render.resolution_y = frame["size_px"]
     scene.render.resolution_percentage = 100
 
 
+def _camera(frame: dict[str, Any]) -> bpy.types.Camera:
+    """The camera of a lens, which is made when it is first needed."""
+    lens, (width, height) = frame["lens"], frame["size_px"]
+    name = hashlib.sha256(json.dumps([lens, width, height]).encode()).hexdigest()[:32]
+    if name in bpy.data.cameras:
+        return bpy.data.cameras[name]
+    camera = bpy.data.cameras.new(name)
+    camera.sensor_fit = "HORIZONTAL"
+    if lens["kind"] == "perspective":
+        camera.sensor_width = lens["aperture_mm"]
+        camera.lens = lens["focal_mm"]
+        camera.shift_x, camera.shift_y = lens["shift"]
+    elif lens["kind"] == "orthographic":
+        camera.type, camera.ortho_scale = "ORTHO", lens["width_m"]
+    else:
+        _look_along_rays(camera, lens, width, height)
+    return camera
+
+
+def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int, height: int) -> None:
+    """Have a camera look along the rays of a shader.
+
+    Blender's own way to compile one needs a module that its Python package lacks, so that the compiled shader is handed
+    over here.
+    """
+    macros: dict[str, object] = {
+        "WIDTH": float(width),
+        "HEIGHT": float(height),
+        "CENTRE_X": lens["centre_px"][0],
+        "CENTRE_Y": lens["centre_px"][1],
+        "STRETCH_X": lens["stretch"][0],
+        "STRETCH_Y": lens["stretch"][1],
+    }
+    if "coefficients" in lens:
+        macros["MAX_ANGLE"] = lens["max_angle_rad"]
+        macros["COUNT"] = len(lens["coefficients"])
+        macros["COEFFICIENTS"] = "{" + ", ".join(f"{value:.9e}" for value in lens["coefficients"]) + "}"
+    head = "".join(
+        f"#define {name} {value:.9e}\n" if isinstance(value, float) else f"#define {name} {value}\n"
+        for name, value in macros.items()
+    )
+    text = bpy.data.texts.new(f"{camera.name}.osl")
+    text.write(head + _RAYS.read_text(encoding="utf-8"))
+    importlib.import_module("addon_utils").enable("cycles")  # which bpy brings into reach
+    osl = importlib.import_module("cycles.osl")
+    said: list[str] = []
+    is_compiled, _, bytecode, digest = osl.update_internal_script(lambda _kind, message: said.append(message), text)
+    if not is_compiled:
+        raise RuntimeError(" ".join(said))
+    camera.type, camera.custom_mode = "CUSTOM", "INTERNAL"
+    camera.custom_bytecode, camera.custom_bytecode_hash = bytecode, digest
+    camera.update_tag()
+
+
+def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]] | None, to_blender: Matrix) -> None:
+    """Take what moves to where it is in a frame, if the frame says so, by a matrix in the stage's axes."""
+    if moved is not None:
+        matrix = to_blender @ Matrix(moved) @ to_blender.inverted()
+        for item, place in moving:
+            there = matrix @ place
+            if item.matrix_world != there:
+                item.matrix_world = there
+
+
 def _hide(objects: list[bpy.types.Object], ids: list[int], hidden: list[int], *, is_dark: bool) -> None:
-    """Hide what a camera looks through, and in the dark the lights."""
+    """Hide what a camera looks through, which shines nevertheless, and in the dark the lights."""
     looked_through = set(hidden)
     for item, number in zip(objects, ids, strict=True):
-        item.hide_render = number in looked_through or (is_dark and item.type == "LIGHT")
+        is_hidden = is_dark if item.type == "LIGHT" else number in looked_through
+        if item.hide_render != is_hidden:  # Blender reads the scene anew, even where it stays the same
+            item.hide_render = is_hidden
 
 
 def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:

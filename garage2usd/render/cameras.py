@@ -1,14 +1,18 @@
 """The cameras of a stage: where they stand in which frame, and what their lenses see."""
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
+from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.lenses import Fisheye, Pinhole
+from garage2usd.sensors.lenses import Lens as SensorLens
 
 __all__ = ["Lens", "View", "find_views"]
 
@@ -19,7 +23,10 @@ _ROUNDING = 1e-6
 _NUMBER = r"(-?\d{1,9}(?:\.\d{1,6})?)"
 _SPAN = re.compile(rf"{_NUMBER}(?::{_NUMBER}(?:x{_NUMBER})?)?")
 _MM_PER_TENTH = 100.0
-_OPENCV_FROM_USD = np.diag([1.0, -1.0, -1.0, 1.0])
+_CLIP_M = (0.01, 2000.0)
+"""Of the sensors of a rig."""
+USD_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
+"""From a camera that looks along +Z with +Y down to one that looks along -Z with +Y up, and back."""
 
 
 @dataclass(frozen=True)
@@ -58,28 +65,72 @@ class View:
     name
         Camera, and frame where it moves: the stem of the picture's files.
     camera
-        Path of the camera's prim.
+        Path of the camera's prim, or name of the sensor.
     frame
-        Time code, None for a camera that stands still.
+        Time code, None for a camera that stands still and for sensors.
     lens
-        What it sees.
+        What it sees: that of a stage's camera, or of a rig's.
+    size_px
+        Width and height of the picture.
     camera_to_world
         From the camera, which looks along -Z with +Y up, to the stage's axes; metres; float64, shape (4, 4).
+    facts
+        What else the table of frames says of it.
     """
 
     name: str
     camera: str
     frame: float | None
-    lens: Lens
+    lens: Lens | SensorLens
+    size_px: tuple[int, int]
     camera_to_world: NDArray[np.float64]
+    facts: Mapping[str, object] = field(default_factory=dict)
 
     def world_to_camera(self) -> NDArray[np.float64]:
         """From the stage's axes to a camera that looks along +Z with +X right and +Y down; float64, shape (4, 4)."""
-        matrix: NDArray[np.float64] = _OPENCV_FROM_USD @ np.linalg.inv(self.camera_to_world)
+        matrix: NDArray[np.float64] = USD_FROM_OPENCV @ np.linalg.inv(self.camera_to_world)
         return matrix
 
+    def intrinsics(self) -> NDArray[np.float64] | None:
+        """The matrix K for pixels whose corners are whole numbers, float64, shape (3, 3); None for fisheyes."""
+        if isinstance(self.lens, Lens):
+            return self.lens.matrix(self.size_px)
+        if isinstance(self.lens, Pinhole):
+            (focal_x, focal_y), (across, down) = self.lens.focal_px, self.lens.centre_px
+            return np.array([[focal_x, 0, across], [0, focal_y, down], [0, 0, 1]])
+        return None
 
-def find_views(stage: Usd.Stage, *, cameras: Sequence[str] = (), frames: str | None = None) -> list[View]:
+    def sensor_lens(self) -> SensorLens:
+        """Its lens as that of a sensor: the same for a stage's camera with its picture's size."""
+        if isinstance(self.lens, SensorLens):
+            return self.lens
+        (focal_x, _, across), (_, focal_y, down), _ = self.lens.matrix(self.size_px).tolist()
+        return Pinhole(size_px=self.size_px, centre_px=(across, down), focal_px=(focal_x, focal_y))
+
+    def lens_job(self) -> dict[str, Any]:
+        """Its lens as plain values for Blender."""
+        lens = self.lens
+        if isinstance(lens, Lens):
+            return {"kind": "perspective", **asdict(lens)}
+        if isinstance(lens, Orthographic):
+            width_m = self.size_px[0] * lens.metres_per_px
+            return {"kind": "orthographic", "width_m": width_m, "clip_m": _CLIP_M}
+        job: dict[str, Any] = {"kind": "rays", "centre_px": lens.centre_px, "clip_m": _CLIP_M}
+        if isinstance(lens, Fisheye):
+            fisheye = {"coefficients": lens.radius.coefficients, "max_angle_rad": lens.max_angle_rad}
+            return {**job, "stretch": lens.stretch, **fisheye}
+        if isinstance(lens, Pinhole):
+            return {**job, "stretch": lens.focal_px}
+        raise TypeError(type(lens).__name__)
+
+
+def find_views(
+    stage: Usd.Stage,
+    *,
+    cameras: Sequence[str] = (),
+    frames: str | None = None,
+    size_px: tuple[int, int] = (1280, 720),
+) -> list[View]:
     """The pictures that cameras of a stage take.
 
     Parameters
@@ -91,6 +142,8 @@ def find_views(stage: Usd.Stage, *, cameras: Sequence[str] = (), frames: str | N
     frames
         Frames of the cameras that move, as usdrecord has them: ``0``, ``0:96``, ``0:960x24``, several with commas; from
         first to last every 48th if left out.
+    size_px
+        Of the pictures.
 
     Raises
     ------
@@ -110,7 +163,7 @@ def find_views(stage: Usd.Stage, *, cameras: Sequence[str] = (), frames: str | N
     views: list[View] = []
     for path, name in zip(chosen, names, strict=True):
         own = name if names.count(name) == 1 else path.strip("/").replace("/", "_")
-        views += _views_of(found[path], path, own, times)
+        views += _views_of(found[path], path, own, times, size_px)
     return views
 
 
@@ -136,13 +189,15 @@ def _times(stage: Usd.Stage, frames: str | None) -> list[float]:
     return list(dict.fromkeys(times))
 
 
-def _views_of(camera: UsdGeom.Camera, path: str, name: str, times: Sequence[float]) -> Iterator[View]:
+def _views_of(
+    camera: UsdGeom.Camera, path: str, name: str, times: Sequence[float], size_px: tuple[int, int]
+) -> Iterator[View]:
     if not _moves(camera.GetPrim()):
-        yield _view(camera, path, name, None)
+        yield _view(camera, path, name, None, size_px)
         return
     for time in times:
         number = f"{time:04.0f}" if time == round(time) else f"{time:g}".replace(".", "_")
-        yield _view(camera, path, f"{name}_{number}", time)
+        yield _view(camera, path, f"{name}_{number}", time, size_px)
 
 
 def _moves(prim: Usd.Prim) -> bool:
@@ -153,7 +208,7 @@ def _moves(prim: Usd.Prim) -> bool:
     return False
 
 
-def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None) -> View:
+def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None, size_px: tuple[int, int]) -> View:
     time = Usd.TimeCode.EarliestTime() if frame is None else Usd.TimeCode(frame)
     if camera.GetProjectionAttr().Get(time) != UsdGeom.Tokens.perspective:
         raise ConfigError("camera", path, "cameras in perspective")
@@ -169,4 +224,4 @@ def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None) -> 
     )
     place = np.array(camera.ComputeLocalToWorldTransform(time).GetOrthonormalized()).T
     place[:3, 3] = metres * np.array(camera.ComputeLocalToWorldTransform(time).ExtractTranslation())
-    return View(name, path, frame, lens, place)
+    return View(name, path, frame, lens, size_px, place)

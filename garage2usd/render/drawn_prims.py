@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
+from garage2usd.reading.labels import owner_of
 from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
 from garage2usd.reading.walk import placed_objects
 
@@ -88,7 +89,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
     remembered = once_for_each_look(look_of)
     for placed in placed_objects(stage, np.diag([metres, metres, metres, 1.0])):
         for number, part in remembered(placed):
-            drawn.append((number, _owner(placed.path + part.path, ids), (part.matrix @ placed.matrix).T))
+            drawn.append((number, owner_of(placed.path + part.path, ids), (part.matrix @ placed.matrix).T))
     shape, instance, to_world = zip(*drawn, strict=True) if drawn else ((), (), ())
     return DrawnPrims(
         tuple(shapes),
@@ -126,10 +127,3 @@ def _materials(prim: Usd.Prim) -> Iterator[Sdf.Path]:
         material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
         if material:
             yield material.GetPath()
-
-
-def _owner(path: str, ids: Mapping[str, int]) -> int:
-    """Id of the nearest of a prim and its parents that has one; 0 where none has."""
-    while path and path not in ids:
-        path = path[: max(path.rfind("/"), path.rfind("["))]  # a point's parent is its instancer
-    return ids.get(path, 0)

@@ -1,7 +1,8 @@
 """``frames.json``: where the cameras stood, what their pictures are called, and what can be seen in them."""
 
 import json
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +20,10 @@ _CONVENTIONS = {
     "intrinsics": "u = (K @ p_camera)[0] / z, v likewise; pixel (column, row) covers [column, column + 1) and its "
     "middle is column + 0.5",
     "depth": "z of the camera (planar, not along the ray) in metres, 32-bit float, channel Z; infinite where there is "
-    "nothing",
+    "nothing; of fisheyes, whose frames say so, the distance along the ray",
     "normals": "of the surface without normal maps, in the world's axes, channels X, Y, Z; 0 where there is nothing",
-    "instance": "id = red + 256 * green + 65536 * blue; 0 is nothing, or nothing labelled",
+    "instance": "id = red + 256 * green + 65536 * blue; 0 is nothing, or nothing labelled; number plates have "
+    "the id of their car",
     "semantic": "grey is the id of the class; 0 is nothing, or nothing labelled",
     "box_px": "left, top, right, bottom of what can be seen; right and bottom are the first that it does not reach",
 }
@@ -33,8 +35,8 @@ def write_frames(
     labels: Labels,
     kinds: Collection[Picture],
     *,
-    size_px: tuple[int, int],
     stage: Path,
+    about: Mapping[str, object],
 ) -> Path:
     """Write the table of frames.
 
@@ -48,17 +50,18 @@ def write_frames(
         What the objects are.
     kinds
         The kinds of pictures there are.
-    size_px
-        Width and height.
     stage
         What was drawn.
+    about
+        What is said of all frames, by key.
     """
     name_of = {number: name for name, number in labels.ids.items()}
     document = {
         "version": VERSION,
         "stage": stage.name,
         "conventions": _CONVENTIONS,
-        "size_px": list(size_px),
+        **about,
+        "classes_version": labels.classes_version,
         "classes": [
             {**entry.model_dump(), "colour": list(class_colour(number))}
             for number, entry in sorted(labels.classes.items())
@@ -69,16 +72,45 @@ def write_frames(
                 "camera": view.camera,
                 "frame": view.frame,
                 "files": {kind: f"{kind}/{view.name}{kind.extension}" for kind in kinds},
-                "intrinsics": view.lens.matrix(size_px).tolist(),
+                **_optics(view),
                 "world_to_camera": view.world_to_camera().tolist(),
                 "hidden_classes": list(hidden),
-                **({} if visible is None else {"instances": [_instance(each, labels, name_of) for each in visible]}),
+                **view.facts,
+                **({} if visible is None else _seen(visible, labels, name_of)),
             }
             for view, visible, hidden in entries
         ],
     }
     path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     return path
+
+
+def _optics(view: View) -> dict[str, Any]:
+    matrix = view.intrinsics()
+    return {"depth": "along_ray"} if matrix is None else {"intrinsics": matrix.tolist()}
+
+
+def _seen(visible: Sequence[VisibleInstance], labels: Labels, name_of: dict[int, str]) -> dict[str, Any]:
+    """The objects that can be seen, and the number plates of cars, which belong to them."""
+    found: dict[int, VisibleInstance] = {}
+    for each in visible:
+        number = labels.instance_of(each.id)
+        found[number] = found[number].joined(each) if number in found else replace(each, id=number)
+    plates = [
+        {
+            "id": labels.plates[each.id].car,
+            "path": name_of[each.id],
+            "text": labels.plates[each.id].text,
+            "box_px": list(each.box_px),
+            "pixels": each.pixels,
+        }
+        for each in visible
+        if each.id in labels.plates
+    ]
+    return {
+        "instances": [_instance(found[number], labels, name_of) for number in sorted(found)],
+        "number_plates": plates,
+    }
 
 
 def _instance(visible: VisibleInstance, labels: Labels, name_of: dict[int, str]) -> dict[str, Any]:

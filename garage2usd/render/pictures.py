@@ -11,14 +11,20 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from garage2usd.reading.labels import Labels
+
 __all__ = [
     "Picture",
     "Surfaces",
     "VisibleInstance",
     "class_colour",
+    "classes_of",
+    "read_ids",
     "read_surfaces",
     "visible_instances",
     "write_colour",
+    "write_ids",
+    "write_mask",
     "write_picture",
 ]
 
@@ -26,6 +32,8 @@ INDEX_LIMIT = 32768
 """Blender's object indices are below this; larger ids come as several digits."""
 _FARTHEST_M = 1e9
 _GOLDEN = 0.618034
+_SHIFTS = 0, 8, 16
+"""Bits of an id before red, green and blue."""
 
 
 class Picture(StrEnum):
@@ -80,6 +88,12 @@ class VisibleInstance:
     id: int
     box_px: tuple[int, int, int, int]
     pixels: int
+
+    def joined(self, part: "VisibleInstance") -> "VisibleInstance":
+        """The object together with another that is a part of it."""
+        (left, top, right, bottom), (part_left, part_top, part_right, part_bottom) = self.box_px, part.box_px
+        box = min(left, part_left), min(top, part_top), max(right, part_right), max(bottom, part_bottom)
+        return VisibleInstance(self.id, box, self.pixels + part.pixels)
 
 
 def write_colour(drawn: Path, path: Path) -> None:
@@ -152,7 +166,7 @@ def class_colour(number: int) -> tuple[int, int, int]:
     return round(red * 255), round(green * 255), round(blue * 255)
 
 
-def write_picture(kind: Picture, path: Path, surfaces: Surfaces, class_ids: Mapping[int, int]) -> None:
+def write_picture(kind: Picture, path: Path, surfaces: Surfaces, labels: Labels) -> None:
     """Write one kind of picture of what is seen.
 
     Parameters
@@ -163,18 +177,17 @@ def write_picture(kind: Picture, path: Path, surfaces: Surfaces, class_ids: Mapp
         The file.
     surfaces
         What is seen.
-    class_ids
-        Class id by instance id.
+    labels
+        Which object is what.
     """
     if kind is Picture.DEPTH:
         _write_exr(path, {"Z": surfaces.depth_m})
     elif kind is Picture.NORMALS:
         _write_exr(path, {axis: surfaces.normal[..., number] for number, axis in enumerate("XYZ")})
     elif kind is Picture.INSTANCE:
-        digits = [(surfaces.instance >> shift & 255).astype(np.uint8) for shift in (0, 8, 16)]
-        Image.fromarray(np.stack(digits, axis=-1)).save(path, optimize=True)
+        write_ids(labels.instances_of(surfaces.instance), path)
     else:
-        classes = _classes(surfaces.instance, class_ids)
+        classes = classes_of(surfaces.instance, labels.class_ids)
         if kind is Picture.SEMANTIC_PREVIEW:
             colours = np.array([class_colour(number) for number in range(256)], dtype=np.uint8)
             Image.fromarray(colours[classes]).save(path, optimize=True)
@@ -182,7 +195,27 @@ def write_picture(kind: Picture, path: Path, surfaces: Surfaces, class_ids: Mapp
             Image.fromarray(classes).save(path, optimize=True)
 
 
-def _classes(instance: NDArray[np.int32], class_ids: Mapping[int, int]) -> NDArray[np.uint8]:
+def write_ids(ids: NDArray[np.int32], path: Path) -> None:
+    """Write ids, shape (rows, columns), as a picture: red + 256 green + 65536 blue."""
+    digits = [(ids >> shift & 255).astype(np.uint8) for shift in _SHIFTS]
+    Image.fromarray(np.stack(digits, axis=-1)).save(path, optimize=True)
+
+
+def read_ids(path: Path) -> NDArray[np.int32]:
+    """The ids of a picture that `write_ids` wrote; int32, shape (rows, columns)."""
+    with Image.open(path) as picture:
+        digits = np.asarray(picture).astype(np.int32)
+    ids: NDArray[np.int32] = (digits << np.array(_SHIFTS, dtype=np.int32)).sum(axis=-1, dtype=np.int32)
+    return ids
+
+
+def write_mask(mask: NDArray[np.bool_], path: Path) -> None:
+    """Write a mask, shape (rows, columns), as a grey picture: white where it holds, black elsewhere."""
+    Image.fromarray(np.where(mask, 255, 0).astype(np.uint8)).save(path, optimize=True)
+
+
+def classes_of(instance: NDArray[np.int32], class_ids: Mapping[int, int]) -> NDArray[np.uint8]:
+    """Id of the class of each pixel's object, 0 for none; uint8, shape (rows, columns)."""
     ids, which = np.unique(instance, return_inverse=True)
     classes: NDArray[np.uint8] = np.array([class_ids.get(number, 0) for number in ids.tolist()], dtype=np.uint8)
     return classes[which].reshape(instance.shape)

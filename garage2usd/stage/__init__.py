@@ -97,6 +97,7 @@ def write_stage(
     metadata: Mapping[str, str | int],
     config: StageConfig,
     shared: Path | None = None,
+    own: str | None = None,
     progress: Progress = silent,
 ) -> StageFiles:
     """Write a stage into a folder of its own.
@@ -116,6 +117,9 @@ def write_stage(
     shared
         Folder of the assets that it shares with others, by `shared_folder` for the place where it is going to stand.
         Those that are missing there are added, those that are damaged are written again.
+    own
+        What the names of the layers that belong to this garage alone begin with, beside a stage that shares its assets;
+        left out, they stand in a folder, by `asset_folder_name`.
     progress
         Called with each prototype that is written.
 
@@ -131,7 +135,9 @@ def write_stage(
     """
     packed = path.suffix == StageFormat.USDZ
     folder = path.parent / ("assets" if packed else asset_folder_name(path))
-    folder.mkdir()
+    if own is None or shared is None:
+        folder.mkdir()
+        own = f"{folder.name}/"
     assets = _asset_files(layout, config, progress)
     for name, data in _contents(assets.values()).items():
         if shared is None:
@@ -149,16 +155,17 @@ def write_stage(
         graph,
         arrangement=arrangement,
         prototypes=name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()}),
-        own_folder=folder.name,
+        own=own,
         asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
-        last_frame=write_drive(folder / f"{DRIVE_NAME}.usdc", layout, graph),
+        last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
     )
     if config.form is StageForm.FLAT:
         _make_flat(layer_path, folder)
     if not packed:
-        return StageFiles(path, folder)
+        return StageFiles(path, folder if folder.exists() else None)
+    _halve_indents(layer_path)
     inner = sorted(file for file in folder.rglob("*") if file.is_file())
     write_usdz(path, [(file.relative_to(path.parent).as_posix(), file) for file in (layer_path, *inner)])
     shutil.rmtree(folder)
@@ -183,6 +190,17 @@ def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
         contents[asset.layer.name] = asset.layer.data
         contents.update((f"{TEXTURE_FOLDER}/{texture.name}", texture.data) for texture in asset.textures)
     return contents
+
+
+def _halve_indents(layer_path: Path) -> None:
+    """Halve the blanks that begin the lines of a text layer, a third of it: a package is not compressed."""
+    text, quoted = layer_path.read_text(encoding="utf-8"), False
+    lines = []
+    for line in text.split("\n"):
+        blanks = len(line) - len(line.lstrip(" "))
+        lines.append(line if quoted else line[blanks // 2 :])
+        quoted ^= line.count('"""') % 2 == 1
+    layer_path.write_text("\n".join(lines), encoding="utf-8")
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:

@@ -1,5 +1,6 @@
 """Small steps of authoring Sdf specs, with no stage open."""
 
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -7,8 +8,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf, UsdGeom, UsdPhysics, Vt
+from pxr import Sdf, Tf, UsdGeom, UsdPhysics, Vt
 
+from garage2usd.errors import OutputError
 from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
 __all__ = [
@@ -22,9 +24,12 @@ __all__ = [
     "order_operations",
     "relationship",
     "save",
+    "save_file",
     "set_units",
     "words",
 ]
+
+_NOT_WRITTEN = re.compile(r"Error occurred writing file: (.*?)'")
 
 
 @contextmanager
@@ -35,7 +40,7 @@ def new_layer(path: Path, *, default_prim: str) -> Iterator[Sdf.Layer]:
         set_units(layer)
         layer.defaultPrim = default_prim
         yield layer
-    layer.Save()
+    save_file(layer, path)
 
 
 def set_units(layer: Sdf.Layer) -> None:
@@ -129,7 +134,23 @@ def save(layer: Sdf.Layer, path: Path) -> None:
     """Write an anonymous layer to a new file; as `Sdf.Layer.Export`, but without a second copy of all it holds."""
     file = _unwritten(path)
     file.TransferContent(layer)
-    file.Save()
+    save_file(file, path)
+
+
+def save_file(layer: Sdf.Layer, path: Path) -> None:
+    """Save a layer that has a file.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written, as where the disk is full, which USD says as of any other trouble.
+    """
+    try:
+        layer.Save()
+    except Tf.ErrorException as error:
+        said = str(error)
+        reason = _NOT_WRITTEN.search(said)
+        raise OutputError(path, reason[1] if reason else " ".join(said.split())) from None
 
 
 def _unwritten(path: Path) -> Sdf.Layer:

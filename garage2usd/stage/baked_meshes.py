@@ -30,13 +30,13 @@ class _Entry(NamedTuple):
     paints
         As the asset has them.
     parts
-        Name, material and collider of each part.
+        Name, material, collider and piece of each part.
     first
         Number of the first part among those of all assets.
     """
 
     paints: dict[str, str]
-    parts: Sequence[tuple[str, str, str | None]]
+    parts: Sequence[tuple[str, str, str | None, str]]
     first: int
 
 
@@ -64,7 +64,7 @@ def bake_meshes(shapes: Iterable[Spec], path: Path) -> None:
     parts: list[Part] = []
     for key, shape in sorted((_key(shape), shape) for shape in shapes):
         asset = shape.asset()
-        kept = [(part.name, part.material, part.collider) for part in asset.parts]
+        kept = [(part.name, part.material, part.collider, part.piece) for part in asset.parts]
         index[key] = _Entry(dict(asset.paints), kept, first=len(parts))
         parts += asset.parts
     columns = {name: [getattr(part, name) for part in parts] for name in _ARRAYS}
@@ -83,11 +83,11 @@ def baked_asset(shape: Spec) -> Asset | None:
     if entry is None:
         return None
     parts = []
-    for number, (name, material, collider) in enumerate(entry.parts, entry.first):
+    for number, (name, material, collider, piece) in enumerate(entry.parts, entry.first):
         spans = zip(_ARRAYS, baked.arrays, *baked.borders[number : number + 2].tolist(), strict=True)
         arrays: dict[str, Any] = {of: array[start:end] for of, array, start, end in spans}
         touched = None if collider is None else Collider(collider)
-        parts.append(Part(name=name, material=material, collider=touched, **arrays))
+        parts.append(Part(name=name, material=material, collider=touched, piece=piece, **arrays))
     return Asset(tuple(parts), paints=entry.paints)
 
 

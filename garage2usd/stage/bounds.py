@@ -13,33 +13,41 @@ __all__ = ["points_of", "world_bounds_m"]
 
 
 @lru_cache(maxsize=4096)
-def points_of(spec: Spec) -> NDArray[np.float64]:
-    """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3)."""
+def points_of(spec: Spec, piece: str | None = None) -> NDArray[np.float64]:
+    """All points of an asset's meshes, and the corners of its light; float64, shape (n, 3).
+
+    Of one labelled `piece` alone, where its class is given.
+    """
     asset = asset_of(spec)
-    points = [part.points.astype(np.float64) for part in asset.parts]
-    if asset.light is not None:
+    points = [part.points.astype(np.float64) for part in asset.parts if piece in {None, part.piece}]
+    if asset.light is not None and piece is None:
         x, y, z = asset.light.width_m / 2, asset.light.height_m, asset.light.depth_m / 2
         points.append(np.array([(-x, y, -z), (-x, y, z), (x, y, -z), (x, y, z)]))
     return np.concatenate(points)
 
 
 def world_bounds_m(
-    objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None)
+    objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None), *, piece: str | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Least and greatest (x, y, z) in the world of the objects in some rows; float64, shape (n, 3) each."""
+    """Least and greatest (x, y, z) in the world of the objects in some rows; float64, shape (n, 3) each.
+
+    Of one labelled `piece` of each alone, where its class is given; they must have it.
+    """
     position_m, yaw_rad, spec = objects.position_m[rows], objects.yaw_rad[rows], objects.spec[rows]
     yaws, yaw = np.unique(yaw_rad, return_inverse=True)
     turns, turn = np.unique(spec.astype(np.int64) * len(yaws) + yaw, return_inverse=True)
     corners = [
-        _turned_bounds_m(points_of(objects.specs[shape].shape), yaws[number])
-        for shape, number in zip(*(part.tolist() for part in np.divmod(turns, len(yaws))), strict=True)
+        _turned_bounds_m(objects.specs[shape].shape, piece, yaw)
+        for shape, yaw in zip((turns // len(yaws)).tolist(), yaws[turns % len(yaws)].tolist(), strict=True)
     ]
     local = np.array(corners).reshape(-1, 2, 3)[turn]
     return local[:, 0] + position_m, local[:, 1] + position_m
 
 
-def _turned_bounds_m(points: NDArray[np.float64], yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bounds of points, turned about +Y."""
+@lru_cache(maxsize=8192)
+def _turned_bounds_m(spec: Spec, piece: str | None, yaw_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Bounds of an asset, or of a piece of it, turned about +Y."""
+    points = points_of(spec, piece)
     cos, sin = np.cos(yaw_rad), np.sin(yaw_rad)
     turned = points @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
     # coordinate by coordinate NumPy finds extremes five times faster

@@ -14,10 +14,11 @@ from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["DRIVE_NAME", "FRAMES_PER_SECOND", "author_cameras", "bends", "set_frames", "write_drive"]
+__all__ = ["DRIVE_NAME", "EYE_M", "FRAMES_PER_SECOND", "author_cameras", "bends", "set_frames", "write_drive"]
 
 FRAMES_PER_SECOND = 24.0
-_EYE_M = 1.5
+EYE_M = 1.5
+"""Of a driver over the floor."""
 _FOCAL_MM = 20.0
 _APERTURE_MM = (36.0, 20.25)
 _MARGIN = 1.05
@@ -56,7 +57,7 @@ def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
     layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
 
 
-def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, own_folder: str) -> None:
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, own: str) -> None:
     """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
     entrance = layout.structure.where(Cell.ENTRANCE)[0]
@@ -64,7 +65,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     lane = min(graph.graph[entrance])
     x, z = nodes[entrance]["x_m"], nodes[entrance]["z_m"]
     yaw = math.degrees(math.atan2(x - nodes[lane]["x_m"], z - nodes[lane]["z_m"]))
-    _fixed(_camera(layer, path.AppendChild("Inside")), (x, _EYE_M, z), yaw_deg=yaw)
+    _fixed(_camera(layer, path.AppendChild("Inside")), (x, EYE_M, z), yaw_deg=yaw)
 
     low, high = world_bounds_m(layout.placements, layout.placements.rows_of(*_SHELL))
     (left, _, back), (right, top, front) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
@@ -73,7 +74,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     above = _camera(layer, path.AppendChild("Above"), far_m=max(_FAR_M, math.ceil(over[1])))
     _fixed(above, over, pitch_deg=-90.0)
     drive = define(layer, path.AppendChild(DRIVE_NAME), "Camera")
-    reference = Sdf.Reference(f"./{own_folder}/{DRIVE_NAME}.usdc")
+    reference = Sdf.Reference(f"./{own}{DRIVE_NAME}.usdc")
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
 
 
@@ -101,7 +102,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
         np.stack([np.interp(arc_m, reached, way[:, axis]) for axis in (0, 1)], axis=1).tolist()
         for arc_m in (driven, driven + _LOOK_AHEAD_M)
     )
-    start = (float(way[0, 0]), _EYE_M, float(way[0, 1]))
+    start = (float(way[0, 0]), EYE_M, float(way[0, 1]))
     moves = operation(camera, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(*start))
     turns = operation(camera, "rotateY", Sdf.ValueTypeNames.Float, 0.0)
     order_operations(camera, ["translate", "rotateY"])
@@ -114,7 +115,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     turns.default = yaws_deg[0]
     for frame in bends(np.array(here)):
         x, z = here[frame]
-        layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, _EYE_M, z))
+        layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, EYE_M, z))
     for frame in bends(np.array(yaws_deg)[:, None]):
         layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
     return frames

@@ -3,14 +3,16 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf
 
-from garage2usd.assets import MATERIALS, Part, pascal_case
-from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.assets import MATERIALS, NON_VISUAL, Asset, Part, pascal_case
+from garage2usd.assets.number_plates import painted_plates
+from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_PAINT, DRIVEN_PLATE, CarBody
 from garage2usd.driving import DesignCar
 from garage2usd.driving.timing import Motion
 from garage2usd.driving.trajectory import Trajectory
@@ -21,11 +23,11 @@ from garage2usd.stage.looks import define_material
 from garage2usd.stage.prototype_layer import define_mesh
 from garage2usd.stage.prototypes import asset_of
 
-__all__ = ["CAR_NAME", "body_within", "write_driving_car"]
+__all__ = ["CAR_NAME", "body_within", "define_car_looks", "driven_asset", "write_driving_car"]
 
 CAR_NAME = "DrivingCar"
 """Name of the car below ``/Garage``."""
-_PAINT, _PAINT_LOOK = "car_paint", "blue"
+_PAINT = "car_paint"
 _TYPES = Sdf.ValueTypeNames
 
 
@@ -39,9 +41,8 @@ def body_within(car: DesignCar) -> CarBody:
 
 
 def _lies_within(body: CarBody, car: DesignCar) -> bool:
-    ahead_m = body.front_overhang_m + body.wheelbase_m
-    behind_m = body.length_m - ahead_m
-    return ahead_m <= car.ahead_m and behind_m <= car.rear_overhang_m and body.width_m <= car.width_m
+    behind_m = body.length_m - body.ahead_m
+    return body.ahead_m <= car.ahead_m and behind_m <= car.rear_overhang_m and body.width_m <= car.width_m
 
 
 def write_driving_car(path: Path, motion: Motion) -> None:
@@ -79,14 +80,27 @@ def _author_drive(layer: Sdf.Layer, car: Sdf.PrimSpec, states: Trajectory) -> No
             layer.SetTimeSample(spec.path, float(frame), round(float(values[frame]), 6))
 
 
-def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Trajectory) -> None:
-    asset = asset_of(CarSpec(body.name, _PAINT_LOOK).shape)
-    axle_m = body.front_overhang_m + body.wheelbase_m - body.length_m / 2
+@lru_cache(maxsize=32)
+def driven_asset(body: CarBody) -> Asset:
+    """A car that drives, with number plates of its own; its axes are those of a parked one."""
+    asset = asset_of(CarSpec(body.name, DRIVEN_PAINT).shape)
+    return replace(asset, parts=(*asset.parts, *painted_plates(body, DRIVEN_PLATE)))
+
+
+def define_car_looks(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> Sdf.Path:
+    """Write the materials of a car that drives below it; returns the path of their scope."""
     looks = define(layer, car.AppendChild("Looks"), "Scope").path
     for key in sorted({part.material for part in asset.parts}):
         # the paint is that of one variant; the catalogue's own material has none
-        material = MATERIALS[asset.paints[_PAINT_LOOK] if key == _PAINT else key]
-        define_material(layer, looks.AppendChild(pascal_case(key)), material)
+        material = MATERIALS[asset.paints[DRIVEN_PAINT] if key == _PAINT else key]
+        define_material(layer, looks.AppendChild(pascal_case(key)), material, non_visual=NON_VISUAL[key])
+    return looks
+
+
+def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Trajectory) -> None:
+    asset = driven_asset(body)
+    axle_m = body.rear_axle_m
+    looks = define_car_looks(layer, car, asset)
     shell = define(layer, car.AppendChild("Body"), "Xform")
     operation(shell, "translate", _TYPES.Float3, Gf.Vec3f(0, 0, -axle_m))
     order_operations(shell, ["translate"])

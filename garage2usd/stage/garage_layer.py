@@ -19,7 +19,7 @@ from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_
 from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
-from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, write_lane_graph
+from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, STALL_OUTLINES, write_lane_graph
 from garage2usd.stage.prim_text import (
     anchored,
     group_pieces,
@@ -33,7 +33,7 @@ from garage2usd.stage.prim_text import (
 from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
-from garage2usd.stage.variants import SWITCHES, variant_texts
+from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, variant_texts
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["write_garage_layer"]
@@ -50,7 +50,7 @@ def write_garage_layer(
     *,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
-    own_folder: str,
+    own: str,
     asset_folder: str,
     metadata: Mapping[str, str | int],
     last_frame: int,
@@ -66,20 +66,19 @@ def write_garage_layer(
         Which prim each object is.
     prototypes
         Asset and look of every spec in the layout.
-    own_folder
-        Folder beside `path` of the layers that belong to this garage alone: the lane graph goes there, and the
-        scattered objects where tiles share prototypes.
+    own
+        What the paths of the layers that belong to this garage alone begin with, relative to the folder of `path`: the
+        lane graph, and the scattered objects where tiles share prototypes.
     asset_folder
         Folder of the assets, relative to that of `path`, with slashes.
     metadata
         Written into the root's customData beside S, R and C.
     last_frame
-        Last frame of the driving camera, whose layer stands in the same folder as the lane graph.
+        Last frame of the driving camera, whose layer stands beside the lane graph.
     path
         The file; ``.usda`` or ``.usdc``.
     """
-    folder = path.parent / own_folder
-    text = _garage_text(layout, graph, arrangement, prototypes, own_folder, anchored(asset_folder))
+    text = _garage_text(layout, graph, arrangement, prototypes, own, anchored(asset_folder))
     layer = Sdf.Layer.CreateAnonymous(path.suffix)
     layer.ImportFromString(text)
     root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
@@ -89,15 +88,16 @@ def write_garage_layer(
         set_frames(layer, last_frame)
         layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
         define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own_folder=own_folder)
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own=own)
     del text
     save(layer, path)
     # of a large garage each layer is a hundred megabytes while it is written
     del layer
-    write_lane_graph(folder / LANE_GRAPH_FILE, layout, graph)
-    beside = anchored(posixpath.relpath(asset_folder, own_folder))
+    write_lane_graph(path.parent / f"{own}{LANE_GRAPH_FILE}", layout, graph)
+    beside = anchored(posixpath.relpath(asset_folder, posixpath.dirname(own) or "."))
     for name, rows in arrangement.scattered.items():
-        write_instancer(folder / f"{name}.usdc", layout.placements, rows, prototypes, asset_folder=beside)
+        layer_path = path.parent / f"{own}{name}.usdc"
+        write_instancer(layer_path, layout.placements, rows, prototypes, name=name, asset_folder=beside)
 
 
 def _garage_text(
@@ -105,7 +105,7 @@ def _garage_text(
     graph: LaneGraph,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
-    own_folder: str,
+    own: str,
     asset_folder: str,
 ) -> str:
     """The garage but for cameras and metadata, with the folders as its layer refers to them."""
@@ -114,7 +114,7 @@ def _garage_text(
         arrangement,
         prototypes,
         asset_folder,
-        classes={switch: f"/{ROOT_NAME}/{_CLASSES}/{switch.class_name}" for switch in SWITCHES.values()},
+        classes=f"/{ROOT_NAME}/{_CLASSES}",
         describe_stalls=not arrangement.nested,
     )
     labels = _tile_labels(graph, arrangement.squares)
@@ -124,15 +124,18 @@ def _garage_text(
         tiles, tile_classes = _shared_tiles(arrangement, shared), _tile_classes(shared)
     else:
         tiles = _tiles(arrangement, labels, writer)
-    variants = variant_texts(_CLASSES, selected=not arrangement.nested)
-    classes = "".join(f'class "{switch.class_name}"\n{{\n}}\n' for switch in dict.fromkeys(SWITCHES.values()))
+    variants = variant_texts(
+        _CLASSES, outlines=STALL_OUTLINES, stalls=len(layout.stalls), selected=not arrangement.nested
+    )
+    names = dict.fromkeys(switch.class_name for switch in SWITCHES.values())
+    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))
     groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
     head = (
         f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
         f'class "{_CLASSES}"\n{{\n{classes}}}\n'
     )
     files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = (_part_text(own_folder, file) for file in files)
+    parts = (_part_text(own, file) for file in files)
     return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"], tile_classes))
 
 
@@ -192,9 +195,9 @@ def _rows(arrangement: Arrangement, tiles: Iterator[str]) -> Iterator[str]:
         yield from group_pieces(row_name(row), islice(tiles, count), place=place_text(0.0, 0.0, z))
 
 
-def _part_text(own_folder: str, file: str) -> str:
+def _part_text(own: str, file: str) -> str:
     """A prim that stands in a layer of its own."""
-    return f'def "{Path(file).stem}" (\n{reference_text(f"./{own_folder}/{file}")})\n{{\n}}\n'
+    return f'def "{Path(file).stem}" (\n{reference_text(f"./{own}{file}")})\n{{\n}}\n'
 
 
 def _matrices(layout: Layout) -> dict[str, object]:

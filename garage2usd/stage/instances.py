@@ -8,13 +8,25 @@ from numpy.typing import NDArray
 
 from garage2usd.layout import Layout, Stall
 from garage2usd.objects import KINDS, Spec
+from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
 from garage2usd.stage.arrangement import Arrangement
-from garage2usd.stage.prim_text import header_text, instance_text, place_text, rounded_deg, rounded_m
+from garage2usd.stage.number_plates import plate_text
+from garage2usd.stage.prim_text import (
+    header_text,
+    instance_text,
+    place_text,
+    reference_text,
+    rounded_deg,
+    rounded_m,
+)
 from garage2usd.stage.prototypes import Prototype
-from garage2usd.stage.variants import SWITCHES, Switch
+from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, occupied_text
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["InstanceWriter"]
+__all__ = ["CAR_OF_STALL", "InstanceWriter"]
+
+CAR_OF_STALL = "garage:stall:car"
+"""Relationship of a stall to the car that stands in it."""
 
 
 class InstanceWriter:
@@ -29,9 +41,9 @@ class InstanceWriter:
     asset_folder
         Folder of the assets as the layer that the text goes to refers to it.
     classes
-        Path of the class that the objects of each switch inherit from; empty for none.
+        Path of the classes that objects which follow a switch, and stalls with a car, inherit from.
     describe_stalls
-        Whether stalls carry what they are as attributes.
+        Whether stalls carry what they are as attributes. All have a relationship to their car.
     """
 
     def __init__(
@@ -41,7 +53,7 @@ class InstanceWriter:
         prototypes: Mapping[Spec, Prototype],
         asset_folder: str,
         *,
-        classes: Mapping[Switch, str],
+        classes: str,
         describe_stalls: bool,
     ) -> None:
         self._objects = layout.placements
@@ -49,9 +61,12 @@ class InstanceWriter:
         self._prototypes = [prototypes[spec] for spec in self._objects.specs]
         self._asset_folder = asset_folder
         self._classes = classes
-        rows = self._objects.rows_of("stall").tolist() if describe_stalls else []
-        self._stalls = dict(zip(rows, layout.stalls, strict=bool(rows)))
-        self._headers: dict[tuple[int, int], str] = {}
+        rows = self._objects.rows_of("stall").tolist()
+        self._stalls = dict(zip(rows, layout.stalls, strict=True)) if describe_stalls else {}
+        cars = zip(rows, layout.cars_in_stalls().tolist(), strict=True)
+        self._car_of = {row: car for row, car in cars if car >= 0}
+        self._plate_of = {row: (wearer, text) for row, wearer, text in layout.plates_of_cars()}
+        self._headers: dict[tuple[int, int, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
         """The instances in some rows of the layout's objects, in turn, each around an origin (x, z), shape (n, 2)."""
@@ -68,20 +83,33 @@ class InstanceWriter:
         for row, name, kind, spec, (x, y, z), yaw in zip(
             rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
         ):
-            header = self._headers.get((kind, spec)) or self._header(kind, spec)
-            stall = self._stalls.get(row)
+            stall, car = self._stalls.get(row), self._car_of.get(row)
+            is_taken = stall is not None and car is not None
+            header = self._headers.get((kind, spec, is_taken)) or self._header(kind, spec, is_taken=is_taken)
             prim = names[name].decode("ascii")
-            if stall:
-                yield instance_text(prim, header, place_text(x, y, z, yaw), _stall_text(stall))
+            said = "" if stall is None else _stall_text(stall, is_taken=is_taken)
+            if row in self._plate_of:
+                wearer, text = self._plate_of[row]
+                said = plate_text(text, names[self._arrangement.name[wearer]].decode("ascii"))
+            if car is not None:
+                said += f"custom rel {CAR_OF_STALL} = <../{names[self._arrangement.name[car]].decode('ascii')}>\n"
+            if said:
+                yield instance_text(prim, header, place_text(x, y, z, yaw), said)
             else:
                 yield _placed_text(prim, header, x, y, z, yaw)
 
-    def _header(self, kind: int, spec: int) -> str:
+    def _header(self, kind: int, spec: int, *, is_taken: bool) -> str:
         prototype = self._prototypes[spec]
         switch = SWITCHES.get(KINDS[kind].name)
-        base = self._classes.get(switch) if switch else None
-        header = header_text(f"{self._asset_folder}/{prototype.file}", look=prototype.look, base=base)
-        self._headers[kind, spec] = header
+        name = OCCUPIED_STALL if is_taken else switch.class_name if switch else None
+        base = f"{self._classes}/{name}" if name else None
+        asset = f"{self._asset_folder}/{prototype.file}"
+        if KINDS[kind] is NUMBER_PLATE:
+            # what differs below it keeps it from being an instance; one header does for all with the same asset
+            header = reference_text(asset, base=base)
+        else:
+            header = header_text(asset, look=prototype.look, base=base)
+        self._headers[kind, spec, is_taken] = header
         return header
 
 
@@ -91,8 +119,11 @@ def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: 
     return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
-def _stall_text(stall: Stall) -> str:
-    """What a stall is as attributes of its prim; corners are (x, z) in the world."""
+def _stall_text(stall: Stall, *, is_taken: bool) -> str:
+    """What a stall is as attributes of its prim; corners are (x, z) in the world.
+
+    That a car stands in it says the class that it inherits from, as variants of the garage take the cars away.
+    """
     corners = ", ".join(f"({x}, {z})" for x, z in stall.corners_m())
     return (
         f'custom string garage:stall:id = "{stall.name}"\n'
@@ -103,6 +134,7 @@ def _stall_text(stall: Stall) -> str:
         f"custom int2 garage:stall:accessSquare = {_pair(stall.access_square)}\n"
         f'custom token garage:stall:entryEdge = "{stall.edge.name.lower()}"\n'
         f"custom float2[] garage:stall:corners = [{corners}]\n"
+        f"{'' if is_taken else occupied_text(is_occupied=False)}"
     )
 
 

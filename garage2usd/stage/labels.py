@@ -1,19 +1,23 @@
 """Semantic classes, and the table of every labelled object: prim path, instance id, class, world bounds."""
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from garage2usd.layout import Layout
-from garage2usd.objects import KINDS
+from garage2usd.layout import Layout, ObjectTable
+from garage2usd.objects import CLASSES, CLASSES_VERSION, KINDS
+from garage2usd.objects.pieces import PIECES, PieceClass, piece_name, pieces_of
 from garage2usd.reading.label_table import LabelledObject, LabelTable, SemanticClass
 from garage2usd.stage.bounds import world_bounds_m
+from garage2usd.stage.prototypes import asset_of
 
 __all__ = ["OBJECT_LABELS", "label_table"]
 
 OBJECT_LABELS: dict[str, str] = {kind.name: kind.label for kind in KINDS}
 """Semantic class of each kind of object, authored on every instance root."""
+_Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
@@ -29,16 +33,48 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
     Returns
     -------
     LabelTable
-        The placements have ids from 1 in their order.
+        The placements have ids from 1 in their order, and after them their pieces that have classes of their own.
     """
-    low, high = ((np.round(corners, 4) + 0.0).tolist() for corners in world_bounds_m(layout.placements))
+    placements = layout.placements
     objects: dict[str, list[LabelledObject]] = defaultdict(list)
-    for number, (path, kind, least, most) in enumerate(
-        zip(paths, layout.placements.kind.tolist(), low, high, strict=True), 1
+    numbers = [KINDS[kind].number for kind in placements.kind.tolist()]
+    for number, (path, class_id, (least, most)) in enumerate(
+        zip(paths, numbers, _bounds_m(placements), strict=True), 1
     ):
         parent, _, name = path.rpartition("/")
-        objects[parent].append(LabelledObject(name, number, KINDS[kind].number, least, most))
+        objects[parent].append(LabelledObject(name, number, class_id, least, most))
+    for number, (row, piece, (least, most)) in enumerate(_pieces(placements), len(numbers) + 1):
+        parent, _, name = paths[row].rpartition("/")
+        entry = LabelledObject(f"{name}/{piece_name(piece.label)}", number, piece.number, least, most)
+        objects[parent].append(entry)
+    stalls = placements.rows_of("stall").tolist()
+    parked = zip(stalls, layout.cars_in_stalls().tolist(), strict=True)
     return LabelTable(
-        classes=tuple(SemanticClass(name=kind.label, id=kind.number, cityscapes=kind.cityscapes) for kind in KINDS),
+        classes_version=CLASSES_VERSION,
+        classes=tuple(SemanticClass(name=each.label, id=each.number, cityscapes=each.cityscapes) for each in CLASSES),
         objects={parent: tuple(rows) for parent, rows in objects.items()},
+        parked=tuple((stall + 1, car + 1) for stall, car in parked if car >= 0),
+        number_plates=tuple((plates + 1, car + 1, text) for plates, car, text in layout.plates_of_cars()),
     )
+
+
+def _pieces(objects: ObjectTable) -> list[tuple[int, PieceClass, _Bounds]]:
+    """Row, class and bounds of each labelled piece of objects, by its row and then its class."""
+    classes_of = [pieces_of(asset_of(spec)) for spec in objects.specs]
+    found: list[tuple[int, PieceClass, _Bounds]] = []
+    for piece in PIECES:
+        has_piece = np.array([piece.label in classes for classes in classes_of], dtype=bool)
+        rows = np.flatnonzero(has_piece[objects.spec])
+        if len(rows):
+            found += [
+                (row, piece, box) for row, box in zip(rows.tolist(), _bounds_m(objects, rows, piece), strict=True)
+            ]
+    return sorted(found, key=lambda entry: (entry[0], entry[1].number))
+
+
+def _bounds_m(
+    objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None), piece: PieceClass | None = None
+) -> Iterator[_Bounds]:
+    corners = world_bounds_m(objects, rows, piece=None if piece is None else piece.label)
+    low, high = ((np.round(each, 4) + 0.0).tolist() for each in corners)
+    return zip(low, high, strict=True)

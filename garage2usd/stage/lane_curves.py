@@ -12,14 +12,19 @@ from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
+from garage2usd.stage.variants import OCCUPIED
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["LANE_GRAPH_FILE", "write_lane_graph"]
+__all__ = ["GUIDE_LIFT_M", "LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
 
 LANE_GRAPH_FILE = "LaneGraph.usdc"
 """Layer of the lane graph, beside the assets."""
+_ROOT = Path(LANE_GRAPH_FILE).stem
+STALL_OUTLINES = (_ROOT, "Stalls")
+"""Names of the prims that lead to the outlines of all stalls."""
 
-_LIFT_M = 0.05
+GUIDE_LIFT_M = 0.05
+"""How far the curves lie over the floor."""
 _NODE_RADIUS_M = 0.4
 _NODE_CORNERS = 8
 _LINE_WIDTH_M = 0.1
@@ -37,15 +42,16 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
     left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
-    a node) and ``:entryEdge``. No attribute is ``int2[]`` or ``string[]``, which three.js cannot read from a crate.
+    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0). No attribute is ``bool[]``, ``int2[]`` or
+    ``string[]``, which three.js cannot read from a crate.
     """
-    root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
-    with new_layer(path, default_prim=path.stem) as layer:
+    root = Sdf.Path.absoluteRootPath.AppendChild(_ROOT)
+    with new_layer(path, default_prim=_ROOT) as layer:
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
         _author_nodes(layer, root.AppendChild("Nodes"), graph)
         _author_edges(layer, root.AppendChild("Edges"), graph)
-        _author_stalls(layer, root.AppendChild("Stalls"), layout.stalls, graph)
+        _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout, graph)
 
 
 def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
@@ -68,7 +74,8 @@ def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in graph.edges]))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: LaneGraph) -> None:
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> None:
+    stalls = layout.stalls
     prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
     words(prim, "garage:stall:id", stalls.names())
     words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
@@ -81,6 +88,7 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, stalls: StallTable, graph: 
     _author_squares(prim, "garage:stall", stalls.square)
     access = [graph.number_of[row, col] for row, col in stalls.access_square.tolist()]
     numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
+    numbers(prim, OCCUPIED, (layout.cars_in_stalls() >= 0).astype(np.int32))
 
 
 def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
@@ -103,5 +111,5 @@ def _author_curves(layer: Sdf.Layer, path: Sdf.Path, lines: NDArray[np.float64],
     count, corners, _ = lines.shape
     counts = np.full(count, corners, dtype=np.int32)
     return author_curves(
-        layer, path, lines.reshape(-1, 2), counts, lift_m=_LIFT_M, width_m=_LINE_WIDTH_M, closed=closed
+        layer, path, lines.reshape(-1, 2), counts, lift_m=GUIDE_LIFT_M, width_m=_LINE_WIDTH_M, closed=closed
     )

@@ -2,20 +2,31 @@
 
 from pxr import Gf, Sdf
 
-from garage2usd.assets import Material
-from garage2usd.stage.authoring import attribute, connect, define
+from garage2usd.assets import Material, NonVisual
+from garage2usd.reading.taxonomy import LABELS_SCHEMA, labels_name
+from garage2usd.stage.authoring import apply_schemas, attribute, connect, define, words
 
-__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "set_glow", "set_varying"]
+__all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_material", "set_glow", "set_varying"]
 
 TEXTURE_FOLDER = "textures"
 """Folder of the textures beside the assets that use them."""
 PACKED_CHANNELS = {"r": "occlusion", "g": "roughness", "b": "metallic"}
 """What each channel of a packed texture is to the surface."""
+_MATERIAL_TAXONOMY = "material"
+"""Taxonomy of what materials are made of, beside the classes of objects."""
+_NON_VISUAL = "omni:simready:nonvisual"
+"""Namespace of SimReady's attributes for LiDAR, radar and ultrasound."""
 _TYPES = Sdf.ValueTypeNames
 
 
 def define_material(
-    layer: Sdf.Layer, path: Sdf.Path, material: Material, *, varies: bool = False, is_switched: bool = False
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    material: Material,
+    *,
+    non_visual: NonVisual,
+    varies: bool = False,
+    is_switched: bool = False,
 ) -> None:
     """Author one material at `path` with its surface, its texture readers and their shared coordinate reader.
 
@@ -25,12 +36,18 @@ def define_material(
         Where.
     material
         Its textures have the names of their files.
+    non_visual
+        What it is to sensors that do not see colours.
     varies
         Whether variants decide its colour and finish, by `set_varying`.
     is_switched
         Whether variants decide what it radiates, by `set_glow`.
     """
     look = define(layer, path, "Material")
+    label_material(look, non_visual.base)
+    attribute(look, f"{_NON_VISUAL}:base", _TYPES.Token, non_visual.base)
+    attribute(look, f"{_NON_VISUAL}:coating", _TYPES.Token, non_visual.coating)
+    words(look, f"{_NON_VISUAL}:attributes", non_visual.attributes)
     surface = _shader(layer, path.AppendChild("Surface"), "UsdPreviewSurface")
     connect(look, "outputs:surface", _TYPES.Token, attribute(surface, "outputs:surface", _TYPES.Token))
     if not varies:
@@ -50,6 +67,12 @@ def define_material(
     if any(material.emissive_rgb):
         # what is authored beside variants is stronger than what they say
         set_glow(surface, None if is_switched else material.emissive_rgb)
+
+
+def label_material(material: Sdf.PrimSpec, base: str, *schemas: str) -> None:
+    """Label a material with what it is made of, beside other schemas that it has."""
+    apply_schemas(material, *schemas, f"{LABELS_SCHEMA}:{_MATERIAL_TAXONOMY}")
+    words(material, labels_name(_MATERIAL_TAXONOMY), [base])
 
 
 def set_varying(surface: Sdf.PrimSpec, material: Material) -> None:

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, UsdGeom, Vt
 from pxr import Kind as ModelKind
 
-from garage2usd.assets import MATERIALS, VARYING, Asset, Part, RectLight, Touch, pascal_case
+from garage2usd.assets import BASE_OF_TOUCH, MATERIALS, NON_VISUAL, VARYING, Asset, Part, RectLight, Touch, pascal_case
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
+from garage2usd.objects.pieces import piece_name, pieces_of
 from garage2usd.stage.authoring import (
     apply_schemas,
     attribute,
@@ -23,7 +24,8 @@ from garage2usd.stage.authoring import (
     order_operations,
     relationship,
 )
-from garage2usd.stage.looks import define_material, set_glow, set_varying
+from garage2usd.stage.display_colours import display_colour, material_colour
+from garage2usd.stage.looks import define_material, label_material, set_glow, set_varying
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
@@ -78,21 +80,37 @@ def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQua
             label=kind.label,
         )
         root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
-        geometry = define(layer, root.path.AppendChild("Geom"), "Scope").path
+        define(layer, root.path.AppendChild("Geom"), "Scope")
         looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
         switched = _glowing(asset) if asset.light is not None else set()
         for key in sorted({part.material for part in asset.parts}):
             material = named_textures(MATERIALS[key], quality)
-            define_material(layer, _look(looks, key), material, varies=key in VARYING, is_switched=key in switched)
+            define_material(
+                layer,
+                _look(looks, key),
+                material,
+                non_visual=NON_VISUAL[key],
+                varies=key in VARYING,
+                is_switched=key in switched,
+            )
         for touch in sorted(_touched(asset)):
             _define_friction(layer, looks, touch)
+        for label in pieces_of(asset):
+            define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
         for part in asset.parts:
-            define_mesh(layer, geometry.AppendChild(part.name), part, looks)
+            define_mesh(layer, _place(root.path, part), part, looks)
         if asset.paints:
             _define_paints(root, asset.paints)
+        else:
+            _display(root, display_colour(asset))
         if asset.light is not None:
             _define_light(layer, root.path.AppendChild("Light"), asset.light)
             _define_power(root, asset.light, sorted(switched))
+
+
+def _place(root: Sdf.Path, part: Part) -> Sdf.Path:
+    """Path of a part's mesh: below its piece, which has a label, else where all is that has the asset's."""
+    return root.AppendChild(piece_name(part.piece) if part.piece else "Geom").AppendChild(part.name)
 
 
 def _look(looks: Sdf.Path, key: str) -> Sdf.Path:
@@ -115,7 +133,7 @@ def _define_friction(layer: Sdf.Layer, looks: Sdf.Path, touch: Touch) -> None:
     """A physics material with the friction of dry surfaces."""
     friction = _FRICTION[touch]
     material = define(layer, _friction(looks, touch), "Material")
-    apply_schemas(material, "PhysicsMaterialAPI")
+    label_material(material, BASE_OF_TOUCH[touch], "PhysicsMaterialAPI")
     attribute(material, "physics:staticFriction", _TYPES.Float, friction.static)
     attribute(material, "physics:dynamicFriction", _TYPES.Float, friction.dynamic)
     attribute(material, "physics:restitution", _TYPES.Float, friction.restitution)
@@ -124,8 +142,14 @@ def _define_friction(layer: Sdf.Layer, looks: Sdf.Path, touch: Touch) -> None:
 def _define_paints(root: Sdf.PrimSpec, paints: Mapping[str, str]) -> None:
     """A variant for each paint; the first is selected where an instance selects none."""
     for name, variant in _define_variants(root, PAINT_SET, paints):
+        _display(variant, material_colour(MATERIALS[paints[name]]))
         surface = _over(variant, "Looks", pascal_case("car_paint"), "Surface")
         set_varying(surface, MATERIALS[paints[name]])
+
+
+def _display(prim: Sdf.PrimSpec, colour_rgb: tuple[float, float, float]) -> None:
+    """A colour for viewers that draw no materials, which all meshes below inherit."""
+    attribute(prim, "primvars:displayColor", _TYPES.Color3fArray, Vt.Vec3fArray([Gf.Vec3f(*colour_rgb)]))
 
 
 def _define_power(root: Sdf.PrimSpec, light: RectLight, glowing: Iterable[str]) -> None:

@@ -59,8 +59,11 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
     return prototypes
 
 
-@lru_cache(maxsize=4096)
 def asset_of(spec: Spec) -> Asset:
     """The meshes of one spec's shape; made once a process, or ahead."""
-    shape = spec.shape
-    return asset_of(shape) if shape != spec else baked_asset(spec) or spec.asset()
+    return _asset_of_shape(spec.shape)
+
+
+@lru_cache(maxsize=4096)
+def _asset_of_shape(shape: Spec) -> Asset:
+    return baked_asset(shape) or shape.asset()

@@ -25,9 +25,10 @@ def write_instancer(
     rows: NDArray[np.intp],
     prototypes: Mapping[Spec, Prototype],
     *,
+    name: str,
     asset_folder: str,
 ) -> None:
-    """Write a layer with an instancer that has a point for each object in some rows, all of one kind.
+    """Write a layer with an instancer `name` that has a point for each object in some rows, all of one kind.
 
     Its assets are in `asset_folder`, as the layer refers to it.
 
@@ -37,8 +38,8 @@ def write_instancer(
     """
     shapes, indices = np.unique(objects.spec[rows], return_inverse=True)
     specs = [objects.specs[shape] for shape in shapes]
-    root = Sdf.Path.absoluteRootPath.AppendChild(path.stem)
-    with new_layer(path, default_prim=path.stem) as layer:
+    root = Sdf.Path.absoluteRootPath.AppendChild(name)
+    with new_layer(path, default_prim=name) as layer:
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
         _author_prototypes(prim, [prototypes[spec] for spec in specs], asset_folder)
         _author_points(prim, objects, rows, indices)

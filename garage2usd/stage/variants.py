@@ -6,10 +6,23 @@ from typing import NamedTuple
 from garage2usd.objects import KINDS
 from garage2usd.objects.kind import VariantSet
 
-__all__ = ["POWER_SET", "SWITCHES", "Switch", "VariantTexts", "variant_texts"]
+__all__ = [
+    "OCCUPIED",
+    "OCCUPIED_STALL",
+    "POWER_SET",
+    "SWITCHES",
+    "Switch",
+    "VariantTexts",
+    "occupied_text",
+    "variant_texts",
+]
 
 POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
+OCCUPIED = "garage:stall:occupied"
+"""Attribute of a stall: whether a car stands in it."""
+OCCUPIED_STALL = "OccupiedStall"
+"""Name of the class of all stalls that a car stands in as long as cars are shown."""
 
 
 class Switch(NamedTuple):
@@ -53,13 +66,15 @@ class VariantTexts(NamedTuple):
     body: str
 
 
-def variant_texts(classes: str, *, selected: bool) -> VariantTexts:
+def variant_texts(classes: str, *, outlines: tuple[str, ...], stalls: int, selected: bool) -> VariantTexts:
     """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
     Parameters
     ----------
     classes
         Name of the child that holds the class of each.
+    outlines
+        Names of the prims from the child on that lead to the outlines of all stalls, and how many these are.
     selected
         Whether the first choice of each is selected. It says nothing of the objects, so that none is the same; but
         each prim below takes longer to compose, which of tens of thousands is a fifth of the time to open them.
@@ -67,8 +82,14 @@ def variant_texts(classes: str, *, selected: bool) -> VariantTexts:
     switches = _SWITCHES.values()
     bodies = []
     for switch in switches:
-        inner = _over(switch.class_name, switch.metadata, switch.attribute)
-        choices = f'"{switch.usual}" {{\n}}\n"{switch.other}" {{\n{_over(classes, "", inner)}}}\n'
+        usual, other, beside = "", _over(switch.class_name, switch.metadata, switch.attribute), ""
+        if switch.variant_set == VariantSet.OCCUPANCY:
+            usual = _over(classes, "", _over(OCCUPIED_STALL, "", occupied_text(is_occupied=True)))
+            other += _over(OCCUPIED_STALL, "", occupied_text(is_occupied=False))
+            beside = f"custom int[] {OCCUPIED} = [{', '.join('0' * stalls)}]\n"
+            for name in reversed(outlines):
+                beside = _over(name, "", beside)
+        choices = f'"{switch.usual}" {{\n{usual}}}\n"{switch.other}" {{\n{_over(classes, "", other)}{beside}}}\n'
         bodies.append(f'variantSet "{switch.variant_set}" = {{\n{choices}}}\n')
     names = ", ".join(f'"{switch.variant_set}"' for switch in switches)
     metadata = f"prepend variantSets = [{names}]\n"
@@ -76,6 +97,11 @@ def variant_texts(classes: str, *, selected: bool) -> VariantTexts:
         selections = "".join(f'string {switch.variant_set} = "{switch.usual}"\n' for switch in switches)
         metadata = f"variants = {{\n{selections}}}\n{metadata}"
     return VariantTexts(metadata, "".join(bodies))
+
+
+def occupied_text(*, is_occupied: bool) -> str:
+    """Whether a car stands in a stall, as an attribute of its prim."""
+    return f"custom bool {OCCUPIED} = {str(is_occupied).lower()}\n"
 
 
 def _over(name: str, metadata: str, body: str) -> str:

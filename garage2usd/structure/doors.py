@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, outside_squares
 from garage2usd.structure.stalls import Edge
 
@@ -13,8 +14,8 @@ def door_edges(cells: CellArray) -> dict[tuple[int, int], Edge]:
 
     Of several, it is the one opposite a lane, so that cars drive straight in; else the first.
     """
-    outside = np.pad(outside_squares(cells), 1, constant_values=True)
-    lane = np.pad(cells == Cell.LANE, 1)
+    outside = bordered(outside_squares(cells), value=True)
+    lane = bordered(cells == Cell.LANE)
 
     def beyond(row: int, col: int, edge: Edge) -> tuple[int, int]:
         dr, dc = NEIGHBOUR_STEPS[edge]

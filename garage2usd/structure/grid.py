@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.errors import ConfigError
+from garage2usd.structure.border import bordered
 from garage2usd.structure.pieces import pieces_of
 
 __all__ = [
@@ -48,6 +49,7 @@ class Cell(IntEnum):
 _SYMBOL = {Cell.OBSTACLE: "#", Cell.FREE: ".", Cell.LANE: "=", Cell.ENTRANCE: "E", Cell.EXIT: "X"}
 _CELL_BY_SYMBOL = {symbol: cell for cell, symbol in _SYMBOL.items()}
 _TEXT_FORM = "rows of equal length of '#' outside or obstacle, '.' free, '=' lane, 'E' entrance, 'X' exit"
+_LEAST_CELL, _GREATEST_CELL = min(Cell), max(Cell)
 _MAX_SIDE_CELLS = 2000
 _MM_PER_M = 1000
 _MIN_SIDE_MM, _MAX_SIDE_MM = 1_000, 50_000
@@ -94,14 +96,14 @@ def edge_neighbour_count(mask: Mask) -> NDArray[np.int8]:
 
     The outside counts as not set. Shape and order are those of `mask`.
     """
-    padded = np.pad(mask, 1).astype(np.int8)
+    padded = bordered(mask).astype(np.int8)
     count: NDArray[np.int8] = padded[:-2, 1:-1] + padded[2:, 1:-1] + padded[1:-1, :-2] + padded[1:-1, 2:]
     return count
 
 
 def outside_squares(cells: CellArray) -> Mask:
     """Squares outside the contour: those joined to the border of the padded matrix; the rest of -1 are obstacles."""
-    blocked = np.pad(cells == Cell.OBSTACLE, 1, constant_values=True)
+    blocked = bordered(cells == Cell.OBSTACLE, value=True)
     numbers, _ = pieces_of(blocked)
     outside: Mask = (numbers == numbers[0, 0])[1:-1, 1:-1]
     return outside
@@ -187,7 +189,7 @@ class Structure:
         depths = np.array(self.row_depths_mm, dtype=np.int64)
         if cells.ndim != 2 or 0 in cells.shape or max(cells.shape) > _MAX_SIDE_CELLS:  # noqa: PLR2004
             raise ConfigError("S", f"shape {cells.shape}", f"two axes of 1 to {_MAX_SIDE_CELLS} squares")
-        if not np.isin(cells, list(Cell)).all():
+        if not _LEAST_CELL <= cells.min() <= cells.max() <= _GREATEST_CELL:
             raise ConfigError("S", sorted(set(cells.ravel().tolist()) - set(Cell)), "values -1, 0, 1, 2, 3")
         for field, sides, count in (("R", widths, cells.shape[1]), ("C", depths, cells.shape[0])):
             if sides.shape != (count,):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import UnreachableStallError
+from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
@@ -218,7 +219,7 @@ def _lane_kind(cell: Cell, degree: int) -> LaneKind:
 
 
 def _stall_types(structure: Structure) -> dict[Square, StallType]:
-    lane = np.pad(structure.cells == Cell.LANE, 1)
+    lane = bordered(structure.cells == Cell.LANE)
     types: dict[Square, StallType] = {}
     for row, col in structure.where(Cell.FREE):
         up, down, left, right = (lane[row + 1 + dr, col + 1 + dc] for dr, dc in NEIGHBOUR_STEPS)

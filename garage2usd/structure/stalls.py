@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
+from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure
 
 __all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "square_capacity", "stall_rows"]
@@ -127,7 +128,7 @@ def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
 
 def _open_edges(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
     """For each `Edge`, which squares have `mask` set beyond it."""
-    padded = np.pad(mask, 1)
+    padded = bordered(mask)
     return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
 
 

@@ -10,7 +10,7 @@ from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind
 from garage2usd.view.drawing import Colour, Line, Point, Region
 
-__all__ = ["FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
+__all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
 
 LANE_COLOUR: dict[LaneKind, Colour] = {
     LaneKind.CROSSROADS: (98, 146, 148),
@@ -27,7 +27,7 @@ _LANE_NAME = {
     LaneKind.ENTRANCE: "entrance",
     LaneKind.EXIT: "exit",
 }
-_DEAD_END: Colour = (204, 152, 104)
+DEAD_END: Colour = (204, 152, 104)
 FREE: Colour = (226, 224, 216)
 _SEAM: Colour = (206, 204, 196)
 _ARROW: Colour = (236, 238, 242)
@@ -41,7 +41,7 @@ def lane_legend(graph: LaneGraph, found: MeasuredCirculation) -> list[tuple[Colo
     rounds = found.circulation.rounds
     kinds = {kind for square, kind in graph.graph.nodes(data="kind") if not rounds[square]}
     entries = [(LANE_COLOUR[kind], _LANE_NAME[kind]) for kind in LaneKind if kind in kinds]
-    return entries + ([(_DEAD_END, "dead end")] if found.dead_ends else [])
+    return entries + ([(DEAD_END, "dead end")] if found.dead_ends else [])
 
 
 def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Iterator[Region | Line]:
@@ -57,7 +57,7 @@ def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Ite
             if kind is None:
                 yield Region(box, FREE, "free")
             elif rounds[row, col]:
-                yield Region(box, _DEAD_END, f"{kind} dead_end")
+                yield Region(box, DEAD_END, f"{kind} dead_end")
             else:
                 yield Region(box, LANE_COLOUR[kind], f"{kind} through")
             yield Line([*box, box[0]], _SEAM, LINE_M / 4)

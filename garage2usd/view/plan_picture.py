@@ -17,11 +17,11 @@ from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, square
 from garage2usd.view.plan_sheet import INK, PAPER, Mark, Sheet
 from garage2usd.view.route import route_of
 
-__all__ = ["Mark", "draw_plan"]
+__all__ = ["SOLID", "STALL_COLOUR", "Mark", "draw_plan"]
 
 _Element = Region | Line | Disc | Text
 
-_STALL_COLOUR: dict[StallUse, Colour] = {
+STALL_COLOUR: dict[StallUse, Colour] = {
     StallUse.STANDARD: (206, 222, 238),
     StallUse.EV: (190, 228, 196),
     StallUse.ACCESSIBLE: (168, 196, 246),
@@ -35,7 +35,7 @@ _STALL_WORDS = {
     StallUse.TURNING: "kept for turning",
     StallUse.ACCESS_AISLE: "access aisle",
 }
-_SOLID: Colour = (120, 112, 108)
+SOLID: Colour = (120, 112, 108)
 _ON_FOOT: Colour = (20, 150, 70)
 _DOOR_M = 1.2
 _CAR: Colour = (112, 146, 192)
@@ -86,7 +86,7 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
     stalls, loops = len(layout.stalls), found.circulation.loops
     return ", ".join(
         [
-            f"{stalls} stalls",
+            f"{stalls} stalls, {layout.counts()['car']} occupied",
             *([f"{layout.area_per_stall_m2:.1f} m2 a stall"] if stalls else []),
             f"{loops or 'no'} loop{'s' if loops > 1 else ''}",
             f"longest dead end {found.dead_end_m:.1f} m" if found.dead_ends else "no dead end",
@@ -102,11 +102,11 @@ def _legend(
     uses = {stall.use for stall in layout.stalls}
     counts = layout.counts()
     entries = lane_legend(graph, found)
-    entries += [(_STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
+    entries += [(STALL_COLOUR[use], _stall_words(use)) for use in StallUse if use in uses]
     entries += [(_CAR, "parked car")] if counts["car"] else []
     entries += [(FREE, "free")]
     entries += [(RAMP, "ramp")] if counts["ramp"] else []
-    entries += [(_SOLID, "obstacle")] if counts["obstacle"] else []
+    entries += [(SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
@@ -120,9 +120,10 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     cars = {car.stall: car for car in layout.of_kind("car")}
     for stall in layout.stalls:
         corners = stall.corners_m()
-        yield Region(corners, _STALL_COLOUR[stall.use], f"stall {stall.use}", stall.name)
-        yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
         car = cars.get(stall.name)
+        kind = f"stall {stall.use} occupied" if car else f"stall {stall.use}"
+        yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
+        yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
         if car:
             yield Region(_car_outline(car), _CAR, "car")
         if stall.number:
@@ -152,7 +153,7 @@ def _number(stall: Stall) -> Text:
 
 def _building(layout: Layout) -> Iterator[Region | Line]:
     for place in layout.of_kind("obstacle"):
-        yield Region(place.outlines()[0], _SOLID, "obstacle")
+        yield Region(place.outlines()[0], SOLID, "obstacle")
     for core in layout.cores:
         (x, z), half = core.door_m, _DOOR_M / 2
         ends = [(x - half, z), (x + half, z)] if core.along_x else [(x, z - half), (x, z + half)]

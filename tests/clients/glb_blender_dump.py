@@ -15,7 +15,10 @@ def main(file, output, picture, camera):
     for item in bpy.data.objects:
         entry = {"name": item.name, "said": {key: _plain(item[key]) for key in item.keys()}}  # noqa: SIM118
         if item.type == "MESH":
-            points = [item.matrix_world @ vertex.co for vertex in item.data.vertices]
+            meshes = [
+                other for other in (item, *item.children_recursive) if other.type == "MESH"
+            ]  # what is painted is below
+            points = [other.matrix_world @ vertex.co for other in meshes for vertex in other.data.vertices]
             x, y, z = zip(*points, strict=True)
             entry["low"] = [min(x), min(z), -max(y)]
             entry["high"] = [max(x), max(z), -min(y)]

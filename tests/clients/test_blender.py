@@ -18,7 +18,8 @@ from support.stage_textures import texture_names
 
 import garage2usd
 from garage2usd.checks import read_subject
-from garage2usd.maps.drives import DrivePlanner, Leg
+from garage2usd.config.maps import Leg
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.stage.driving_car import CAR_NAME, write_driving_car
 from garage2usd.stage.prototypes import asset_of
 

@@ -49,11 +49,17 @@ def camera_of(stage_path):
 
 
 def bounds_of(glb):
-    """By name: class and stall as a node says, and the corners of its bounds."""
+    """By name: class and stall as a node says, and the corners of its bounds with what is painted on it."""
+
+    def below(number):
+        yield number
+        for child in glb.nodes[number].get("children", ()):
+            yield from below(child)
+
     found = {}
     for number, node in enumerate(glb.nodes):
         if "mesh" in node:
-            points = glb.points(number)
+            points = np.concatenate([glb.points(other) for other in below(number) if "mesh" in glb.nodes[other]])
             found[node["name"]] = node["extras"], points.min(axis=0), points.max(axis=0)
     return found
 

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,6 +19,7 @@ from support.label_tables import labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 
+from garage2usd.objects.pieces import PAINT_CLASSES
 from garage2usd.render import Picture, render_stage
 
 pytestmark = [
@@ -118,6 +120,31 @@ def test_classes_are_those_of_the_table(data_set, form):
         assert (frame.preview == np.array([[colours[number] for number in row] for row in expected.tolist()])).all()
 
 
+@pytest.mark.parametrize("name", ["hand_drawn", "irregular", "paper_7x9"])
+def test_what_is_painted_has_classes_of_its_own_and_no_pixel_is_lost(builds, name, tmp_path):
+    built = builds(REPOSITORY / "samples" / f"{name}.toml", "usdc")
+    kinds = Picture.INSTANCE, Picture.SEMANTIC
+    render_stage(built.stage, tmp_path, cameras=("Inside", "Above"), size_px=(640, 360), pictures=kinds)
+    table = json.loads((tmp_path / "frames.json").read_text())
+    objects = {entry["id"]: entry for entry in labelled_objects(built.labels)}
+    names, seen = {entry["id"]: entry["name"] for entry in table["classes"]}, Counter()
+    for frame in table["frames"]:
+        semantic = np.asarray(Image.open(tmp_path / frame["files"]["semantic"]))
+        counts = dict(zip(*(each.tolist() for each in np.unique(semantic, return_counts=True)), strict=True))
+        nothing = counts.pop(0, 0)
+        listed = Counter()
+        for entry in frame["instances"]:
+            listed[entry["class"]] += entry["pixels"]
+            assert objects[entry["id"]]["class"] == entry["class"]
+        assert {names[number]: count for number, count in counts.items()} == dict(listed)
+        assert nothing + sum(listed.values()) == semantic.size
+        seen += listed
+    assert seen.keys() >= {"floor", "parking_stall", "stall_line", "lane_line", "lane_arrow", "hatching", "crossing"}
+    # paint is thin, and the floor that it is painted on is still most of it
+    painted = sum(seen[each.label] for each in PAINT_CLASSES)
+    assert 0.01 < painted / (painted + seen["floor"] + seen["parking_stall"]) < 0.4
+
+
 def test_normals_face_the_camera(data_set):
     for frame in data_set("instanced").frames:
         seen = frame.instance > 0
@@ -207,7 +234,8 @@ def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(da
         parent: [[name, number * 8191, *rest] for name, number, *rest in rows]
         for parent, rows in made.labels["objects"].items()
     }
-    table = {**made.labels, "objects": objects}
+    parked = [[number * 8191 for number in pair] for pair in made.labels["parked"]]
+    table = {**made.labels, "objects": objects, "parked": parked}
     stage.with_name(f"{stage.stem}_labels.json").write_text(json.dumps(table))
     assert 2**15 < max(row[1] for rows in objects.values() for row in rows) < 2**24
     kinds = [Picture.COLOUR, Picture.DEPTH, Picture.INSTANCE]

@@ -20,14 +20,16 @@ from click.testing import CliRunner
 import garage2usd
 from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
+from garage2usd.datasets import Recipe
 from garage2usd.profiles import read_profile
+from garage2usd.sensors.rig import rig_from_mapping
 
 REPOSITORY = Path(__file__).parents[2]  # it is a program too, which finds no other helper
 
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]
 RUN = {"sh", "python", "toml"}
-SHOWN = {"", "csharp", "json"}
+SHOWN = {"", "csharp", "json", "xml", "yaml"}
 
 _BLOCK = re.compile(
     r"(?:^<!-- not run: (?P<reason>.+?) -->\n)?^```(?P<language>\S*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
@@ -110,6 +112,12 @@ class Reader:
         settings = tomllib.loads(block.text)
         if block.file_name:
             (self.folder / block.file_name).write_text(block.text)
+        if "sensors" in settings:
+            assert rig_from_mapping(settings).sensors, block
+            return
+        if "garage" in settings:
+            Recipe(**settings).check()
+            return
         if "name" in settings:
             assert list(read_profile(settings).clauses()), block
             return
@@ -141,7 +149,8 @@ class Reader:
     def _command(self, arguments, code, place):
         if arguments[0] == "render":
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
-            arguments = [*arguments, "--size", "32x18", "--samples", "1"]
+            small = ["--scale", "0.05", "--every-m", "40"] if "--rig" in arguments else ["--size", "32x18"]
+            arguments = [*arguments, *small, "--samples", "1"]
         with contextlib.chdir(self.folder):
             run = CliRunner().invoke(main, arguments)
         assert run.exit_code == code, f"{place}\n{run.output}{run.exception!r}"

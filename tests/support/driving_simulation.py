@@ -34,6 +34,7 @@ _HARMLESS = {
     "sky",
     "stall_number",
     "zone_plate",
+    "number_plate",
     "floor_stain",
 }
 _OWN = {"car", "wheel_stop", "cone"}

@@ -21,6 +21,7 @@ from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.objects.portal import PortalSpec
@@ -76,6 +77,9 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)
+        case NumberPlateSpec():
+            body = next(body for body in CAR_BODIES if body.name == spec.body)
+            return _centred(0.52, body.length_m)
         case NumberSpec():
             return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
         case ZonePlateSpec():

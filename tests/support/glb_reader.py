@@ -97,6 +97,8 @@ def assert_like_the_stage(data, stage_path, labels):
         node = glb.nodes[number]
         assert (node["extras"]["class"], node["extras"]["id"]) == (entry["class"], entry["id"])
         prototype = str(prim.GetPrototype().GetPath()) if prim.IsInstance() else path
+        if prim.IsInstanceProxy():
+            prototype = str(prim.GetPrimInPrototype().GetPath())
         meshes[prototype].add(node["mesh"])
         prototypes.add(prototype)
         drawn = seen.of(prim, with_looks=node["mesh"] not in judged)
@@ -161,15 +163,18 @@ class _Seen(NamedTuple):
 
 
 class _Drawn:
-    """What pxr's own traversal finds of all meshes at and below a prim, in the world."""
+    """What pxr's own traversal finds of all meshes at and below a prim, in the world, less what is labelled below."""
 
     def __init__(self):
         self.cache, self.known = UsdGeom.XformCache(), {}
 
     def of(self, root, *, with_looks):
         points, triangles, materials, smooth = [], [], set(), [np.zeros((0, 6))]
-        for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies()):
-            if prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in {"default", "render"}:
+        below = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
+        for prim in below:
+            if prim != root and prim.HasAPI("SemanticsLabelsAPI", "class"):
+                below.PruneChildren()
+            elif prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in {"default", "render"}:
                 own, fans = self._mesh(prim)
                 matrix = np.array(self.cache.GetLocalToWorldTransform(prim))
                 places = own @ matrix[:3, :3] + matrix[3, :3]

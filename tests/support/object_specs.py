@@ -19,8 +19,9 @@ from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
-from garage2usd.objects.panel import Marking, Surface
+from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.sky import SkySpec
@@ -34,9 +35,9 @@ from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ZonePlateSpec
 
 MARKINGS = (
-    Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW),
-    Marking(((0.0, 0.0), (1.0, 1.0), (0.2, 2.0)), Surface.PAINT_WHITE),
-    Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE),
+    Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW, Paint.LANE_LINE),
+    Marking(((0.0, 0.0), (1.0, 1.0), (0.2, 2.0)), Surface.PAINT_WHITE, Paint.HATCHING),
+    Marking(((0.2, 2.0), (1.0, 1.0), (2.0, 2.0)), Surface.PAINT_WHITE, Paint.HATCHING),
 )
 OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
 RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
@@ -90,6 +91,7 @@ SPECS = {
         f"plate_{text}": ZonePlateSpec(text, 0.6, 0.38)
         for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
     },
+    "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
 }
 """One shape at least of each class of `garage2usd.objects.Spec`."""

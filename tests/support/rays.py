@@ -13,19 +13,22 @@ class Rays:
     stage
         With Y up, in metres.
     ids
-        Number of each object by the path of its prim.
+        Number of each object by the path of its prim; what is below another such prim belongs to that one.
     """
 
     def __init__(self, stage, ids):
         places = UsdGeom.XformCache()
         triangles, owners = [], []
         for path, number in ids.items():
-            for prim in Usd.PrimRange(stage.GetPrimAtPath(path), Usd.TraverseInstanceProxies()):
-                if prim.IsA(UsdGeom.Mesh):
+            below = iter(Usd.PrimRange(stage.GetPrimAtPath(path), Usd.TraverseInstanceProxies()))
+            for prim in below:
+                if str(prim.GetPath()) != path and str(prim.GetPath()) in ids:
+                    below.PruneChildren()
+                elif prim.IsA(UsdGeom.Mesh):
                     place = np.array(places.GetLocalToWorldTransform(prim))
                     mesh = UsdGeom.Mesh(prim)
                     points = np.array(mesh.GetPointsAttr().Get()) @ place[:3, :3] + place[3, :3]
-                    found = _fans(mesh)
+                    found = fans(mesh)
                     triangles.append(points[found])
                     owners.append(np.full(len(found), number))
         corners = np.concatenate(triangles)
@@ -43,7 +46,7 @@ class Rays:
         return owner, place, normal
 
 
-def _fans(mesh):
+def fans(mesh):
     """Triangles of convex faces as numbers of points; shape (n, 3)."""
     counts, indices = np.array(mesh.GetFaceVertexCountsAttr().Get()), np.array(mesh.GetFaceVertexIndicesAttr().Get())
     starts = np.concatenate(([0], np.cumsum(counts)[:-1]))

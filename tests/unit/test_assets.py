@@ -130,7 +130,7 @@ def test_cars_keep_their_measures_and_stand_on_their_wheels(body):
 
 
 def test_a_panel_is_partitioned_exactly():
-    area = defaultdict(float)
+    area, painted = defaultdict(float), defaultdict(float)
     shapes = []
     for part in CASES["floor"].parts:
         assert (part.points[:, 1] == 0).all()
@@ -138,9 +138,11 @@ def test_a_panel_is_partitioned_exactly():
         for loop in loops(part):
             polygon = shapely.Polygon(part.points[loop][:, [0, 2]])
             area[part.material] += polygon.area
+            painted[part.piece] += polygon.area
             shapes.append(polygon)
     assert area["paint_yellow"] == pytest.approx(8.1 * 0.12, abs=1e-4)
     assert area["paint_white"] == pytest.approx(0.9 + 0.9, abs=1e-4)
+    assert painted == pytest.approx({"": area["floor_concrete"], "lane_line": 8.1 * 0.12, "hatching": 1.8}, abs=1e-4)
     assert sum(area.values()) == pytest.approx(8.1 * 6.5 - 2 * 1.25, abs=1e-4)
     assert shapely.union_all(shapes).area == pytest.approx(sum(area.values()), abs=1e-4)
 

@@ -13,14 +13,14 @@ from garage2usd.errors import StageError
 from garage2usd.pipeline import generate
 from garage2usd.stage import baked_meshes
 from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_asset, baked_shapes
-from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.prototypes import _asset_of_shape
 
 AGAIN = "bake the meshes again: garage2usd meshes garage2usd/stage (--choose where shapes have other measures)"
 ARRAYS = ("points", "face_counts", "face_indices", "normals", "normal_indices", "st", "st_indices")
 
 
 def described(asset):
-    parts = [(part.name, part.material, part.collider, type(part.collider)) for part in asset.parts]
+    parts = [(part.name, part.material, part.piece, part.collider, type(part.collider)) for part in asset.parts]
     return parts, asset.light, list(asset.paints.items())
 
 
@@ -67,7 +67,7 @@ def test_any_other_shape_is_made(tmp_path, monkeypatch):
     bake_meshes([SPECS["column"], SPECS["cone"]], tmp_path / "two.npz")
     use(tmp_path / "two.npz", monkeypatch)
     assert [baked_asset(spec) is not None for spec in (SPECS["column"], SPECS["cone"], SPECS["floor"])] == [1, 1, 0]
-    assert described(asset_of.__wrapped__(SPECS["floor"])) == described(SPECS["floor"].asset())
+    assert described(_asset_of_shape.__wrapped__(SPECS["floor"])) == described(SPECS["floor"].asset())
     assert set(baked_shapes()) == {SPECS["column"], SPECS["cone"]}
 
 

@@ -9,7 +9,7 @@ from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype
 
 each_body = pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
-NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "Plates", "Rims", "Mirrors", "Arches"}
+NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "PlateHolders", "Rims", "Mirrors", "Arches"}
 TYRES = {f"{end}{side}Tyre" for end in ("Front", "Rear") for side in ("Left", "Right")}
 
 
@@ -79,7 +79,7 @@ def test_what_is_put_on_the_shell_is_closed_and_turned_outwards(body):
         "Arches",
         "Seams",
         "Handles",
-        "Plates",
+        "PlateHolders",
         "Mirrors",
     ):
         assert open_edges(parts[name]) == [], name
@@ -182,11 +182,11 @@ def test_a_car_takes_150_kb(body, tmp_path):
 
 
 @each_body
-def test_lamps_and_plates_are_at_both_ends(body):
+def test_lamps_and_plate_holders_are_at_both_ends(body):
     parts = parts_of(body)
     assert parts["HeadLamps"].points[:, 2].max() < -body.length_m / 2 + 0.8
     assert parts["TailLamps"].points[:, 2].min() > body.length_m / 2 - 0.8
-    plates = parts["Plates"].points[:, 2]
+    plates = parts["PlateHolders"].points[:, 2]
     assert plates.min() < -body.length_m / 2 + 0.1
     assert plates.max() > body.length_m / 2 - 0.1
 

@@ -16,7 +16,8 @@ from support.sample_files import REPOSITORY
 EVERY_BLOCK = [block for page in PAGES for block in blocks(page)]
 # test_wheel.py follows the README, as someone who has the wheel alone
 PAGES_THAT_RUN = [page for page in PAGES if page != README and any(block.language in RUN for block in blocks(page))]
-MOST_THAT_ARE_NOT_RUN = 8
+MOST_THAT_ARE_NOT_RUN = 11
+MOST_LINES = 300
 
 
 def test_the_page_of_a_builds_files_names_every_key_in_them(tmp_path):
@@ -93,6 +94,15 @@ def test_contributing_names_every_room_in_the_order_of_imports():
     assert sorted(listed) == sorted(rooms)
     place = {room: number for number, layer in enumerate(layers) for room in re.findall(r"garage2usd\.(\w+)", layer)}
     assert [place[room] for room in listed] == sorted(place[room] for room in listed)
+
+
+def test_long_modules_and_no_others_say_why_they_are_long():
+    texts = {path: path.read_text() for path in sorted((REPOSITORY / "garage2usd").rglob("*.py"))}
+    is_long = {path.as_posix() for path, text in texts.items() if text.count("\n") > MOST_LINES}
+    says_why = {
+        path.as_posix() for path, text in texts.items() if re.search(r"^# Over 300 lines: \w", text, re.MULTILINE)
+    }
+    assert is_long == says_why
 
 
 @pytest.fixture(scope="module")

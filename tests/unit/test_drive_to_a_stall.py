@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Sdf, Usd, UsdGeom
-from support.small_garage import SETTINGS
+from support.small_garage import SETTINGS, with_trolley
 
 from garage2usd import GarageConfig, build
 from garage2usd.cli import main
+from garage2usd.config import load_config
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.driving import DesignCar
 from garage2usd.stage.driving_car import CAR_NAME, body_within
@@ -58,7 +59,7 @@ def test_csv_and_json_hold_the_same(made, tmp_path):
     assert (document["stall"], document["leg"], document["entrance"]) == (STALL, "out", None)
 
 
-def test_the_settings_of_a_configuration_count(tmp_path):
+def test_the_settings_of_a_configuration_and_of_its_report_count(tmp_path):
     config = tmp_path / "slow.toml"
     config.write_text(
         'seed = 2\n[site]\nstructure = """\n....\nE==X\n....\n"""\n[bay]\ndimensioned = false\n'
@@ -66,7 +67,12 @@ def test_the_settings_of_a_configuration_count(tmp_path):
     )
     result = driven(config, "--stall", STALL, "-o", str(tmp_path / "slow.csv"))
     assert result.exit_code == 0, result.output
-    assert np.abs(rows_of(tmp_path / "slow.csv")["speed_m_s"]).max() == pytest.approx(1.25)
+    rows = rows_of(tmp_path / "slow.csv")
+    assert np.abs(rows["speed_m_s"]).max() == pytest.approx(1.25)
+    report = build(load_config(config), tmp_path / "slow.usda").report
+    assert driven(report, "--stall", STALL, "-o", str(tmp_path / "report.csv")).exit_code == 0
+    for name, values in rows_of(tmp_path / "report.csv").items():
+        assert values == pytest.approx(rows[name], abs=2e-4), name
 
 
 @pytest.mark.parametrize("suffix", ["usda", "usdc"])
@@ -132,7 +138,7 @@ def test_the_car_s_meshes_lie_within_the_design_car_and_its_wheels_roll(made, tm
     [
         (["--stall", "nowhere", "-o", "way.csv"], "stall"),
         (["--stall", STALL, "--entrance", "2", "-o", "way.csv"], "entrance"),
-        (["--stall", STALL, "--exit", "0", "-o", "way.csv"], "exit"),
+        (["--stall", STALL, "--exit", "2", "-o", "way.csv"], "exit"),
         (["--stall", STALL, "-o", "way.usda"], "output"),
         (["--stall", STALL, "--animate", "-o", "way.csv"], "output"),
         (["--stall", STALL, "--animate"], "output"),
@@ -150,13 +156,8 @@ def test_what_is_asked_amiss_is_one_error_and_no_file(made, tmp_path, monkeypatc
 
 
 def test_a_stall_that_no_car_gets_into_is_refused_with_what_is_in_the_way(made, tmp_path):
-    stage = Usd.Stage.Open(str(made.stage))
-    stage.SetEditTarget(stage.GetSessionLayer())
-    cube = UsdGeom.Cube.Define(stage, "/Garage/Trolley")
-    cube.CreateSizeAttr(1.0)
-    cube.AddTranslateOp().Set((12.15, 0.5, 5.0))
-    stage.Export(str(tmp_path / "edited.usdc"))
-    result = driven(tmp_path / "edited.usdc", "--stall", STALL, "-o", str(tmp_path / "way.csv"))
+    edited = with_trolley(made.stage, tmp_path / "edited.usdc")
+    result = driven(edited, "--stall", STALL, "-o", str(tmp_path / "way.csv"))
     assert result.exit_code != 0
     assert "/Garage/Trolley" in result.output + str(result.exception)
     assert not (tmp_path / "way.csv").exists()

@@ -1,48 +1,94 @@
+"""`garage2usd export`, `build --with` and `garage2usd.export`."""
+
+import json
+import sys
+
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Usd, UsdGeom
 from support.glb_reader import Glb
+from support.label_tables import labelled_objects
+from support.map_reader import read_map
 
 import garage2usd
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError, ReportError, StageError
+from garage2usd.errors import ConfigError, MissingExtraError, ReportError, StageError
 
 QUICK = "[plan]\nepisodes = 200\n"
+GRID_FILES = tuple(f"g{mask}.{suffix}" for mask in ("", "_keepout", "_speed") for suffix in ("yaml", "pgm"))
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("exports")
     config = folder / "g.toml"
-    config.write_text(f"{QUICK}[maps.grid]\nresolution_m = 0.1\n")
-    run = CliRunner().invoke(main, ["build", str(config), "--with", "glb, yaml", "-o", str(folder / "g.usdc")])
+    config.write_text(f"{QUICK}[maps.grid]\nresolution_m = 0.1\nkeepout = true\nspeed = true\n")
+    run = CliRunner().invoke(
+        main, ["build", str(config), "--with", "glb, osm, xodr, xosc, yaml", "-o", str(folder / "g.usdc")]
+    )
     assert run.exit_code == 0, run.output
-    for name in ("g.glb", "g.yaml", "g.pgm"):
+    for name in ("g.glb", "g.osm", "g.xodr", "g.xosc", *GRID_FILES):
         assert f"export  {folder / name}" in run.output
     return folder
 
 
 def test_a_stage_gives_what_the_build_gave(made, tmp_path):
-    outputs = [tmp_path / "new" / "g.glb", tmp_path / "other" / "g.yaml"]
+    outputs = [tmp_path / "new" / "g.glb", *(tmp_path / f"g.{suffix}" for suffix in ("osm", "xodr", "xosc"))]
+    outputs.append(tmp_path / "other" / "g.yaml")
     settings = garage2usd.load_config(made / "g.toml").maps
     files = garage2usd.export(made / "g.usdc", outputs, settings=settings)
-    assert files == (outputs[0], outputs[1], outputs[1].with_suffix(".pgm"))
+    assert files == (*outputs[:-1], *(outputs[-1].with_name(name) for name in GRID_FILES))
     for file in files:
         assert file.read_bytes() == (made / file.name).read_bytes()
 
 
 def test_the_command_takes_the_maps_of_a_configuration(made, tmp_path):
     output = tmp_path / "g.yaml"
-    for arguments, resolution in (([], "0.05"), (["--config", str(made / "g.toml")], "0.1")):
+    for arguments, resolution, files in (
+        ([], "0.05", {"g.yaml", "g.pgm"}),
+        (["--config", str(made / "g.toml")], "0.1", set(GRID_FILES)),
+    ):
         run = CliRunner().invoke(main, ["export", str(made / "g.usdc"), "-o", str(output), *arguments])
         assert run.exit_code == 0, run.output
         assert f"resolution: {resolution}\n" in output.read_text()
+        assert {file.name for file in tmp_path.iterdir()} == files
+
+
+def test_masks_keep_robots_off_hatched_ground_and_slow_on_ramps(made):
+    plain, keepout, speed = (read_map(made / f"g{mask}.yaml") for mask in ("", "_keepout", "_speed"))
+    assert plain.cells.shape == keepout.cells.shape == speed.cells.shape
+    assert plain.origin == keepout.origin == speed.origin
+    stalls = json.loads((made / "g_report.json").read_text())["stalls"]
+    hatched = [stall for stall in stalls if stall["use"] in {"access_aisle", "unreachable"}]
+    assert hatched
+    for stall in stalls:
+        (x, z), half = stall["centre_m"], min(stall["width_m"], stall["length_m"]) / 2 - keepout.side
+        within = keepout.within((x - half, -z - half), (x + half, -z + half))
+        assert (within == (100 if stall in hatched else 0)).all(), stall["name"]
+    ramps = [entry for entry in labelled_objects(made / "g_labels.json") if entry["class"] == "ramp"]
+    assert ramps
+    for ramp in ramps:
+        (x0, _, z0), (x1, _, z1) = ramp["min_m"], ramp["max_m"]
+        x, z = (x0 + x1) / 2, (z0 + z1) / 2
+        assert (speed.within((x - 0.5, -z - 0.5), (x + 0.5, -z + 0.5)) == 50).all()
+    assert set(np.unique(keepout.cells)) == {0, 100}
+    assert set(np.unique(speed.cells)) == {0, 30, 50}
+
+
+def test_a_mask_does_not_take_the_place_of_another_map(made, tmp_path):
+    settings = garage2usd.load_config(made / "g.toml").maps
+    outputs = [tmp_path / "out" / "g.yaml", tmp_path / "out" / "g_speed.yaml"]
+    with pytest.raises(ConfigError, match="a file that another one brings with it"):
+        garage2usd.export(made / "g.usdc", outputs, settings=settings)
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_report_gives_the_garage_again_with_its_own_settings(made, tmp_path):
-    grid, scene = garage2usd.export(made / "g_report.json", [tmp_path / "g.yaml", tmp_path / "g.glb"])[::2]
-    assert grid.read_bytes() == (made / "g.yaml").read_bytes()
-    assert (tmp_path / "g.pgm").read_bytes() == (made / "g.pgm").read_bytes()
+    *grid, scene = garage2usd.export(made / "g_report.json", [tmp_path / "g.yaml", tmp_path / "g.glb"])
+    assert [file.name for file in grid] == list(GRID_FILES)
+    for file in grid:
+        assert file.read_bytes() == (made / file.name).read_bytes()
     again, first = (Glb(file.read_bytes()) for file in (scene, made / "g.glb"))
     assert again.json["nodes"] == first.json["nodes"]
     assert again.json["meshes"] == first.json["meshes"]
@@ -67,8 +113,8 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
 @pytest.mark.parametrize(
     ("source", "outputs", "error", "said"),
     [
-        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .yaml"),
-        ("g.usdc", [".glb"], ConfigError, ".glb, .yaml"),
+        ("g.usdc", ["a.glb", "b.foo"], ConfigError, ".glb, .osm, .xodr, .xosc, .yaml"),
+        ("g.usdc", [".glb"], ConfigError, ".glb, .osm, .xodr, .xosc, .yaml"),
         ("g.usdc", ["a.glb", "a.glb"], ConfigError, "each file once"),
         ("g.usdc", [], ConfigError, "one or more"),
         ("g.toml", ["a.glb"], ConfigError, ".usdz, .json"),
@@ -76,6 +122,8 @@ def test_an_edited_stage_is_exported_as_it_stands(made, tmp_path):
         ("none.usdc", ["a.glb"], StageError, "none.usdc"),
         ("empty.usda", ["a.glb"], StageError, "nothing in it can be drawn"),
         ("empty.usda", ["b.yaml"], StageError, "floor"),
+        ("empty.usda", ["b.osm"], StageError, "lane graph"),
+        ("empty.usda", ["b.xodr"], StageError, "lane graph"),
     ],
 )
 def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs, error, said):
@@ -90,7 +138,19 @@ def test_what_cannot_be_exported_leaves_no_file(made, tmp_path, source, outputs,
 def test_build_refuses_formats_before_it_works(tmp_path):
     run = CliRunner().invoke(main, ["build", "--with", "glb,ifc", "-o", str(tmp_path / "g.usdz")])
     assert run.exit_code == 2
-    assert "allowed: a path that ends in .glb, .yaml" in run.output
+    assert "allowed: a path that ends in .glb, .osm, .xodr, .xosc, .yaml" in run.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_without_pyproj_a_lanelet2_map_is_refused_before_a_garage_is_made(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyproj", None)
+    for module in ("lanelet2", "osm_file"):
+        monkeypatch.delitem(sys.modules, f"garage2usd.maps.{module}", raising=False)
+    with pytest.raises(MissingExtraError, match=r"pyproj.*garage2usd\[maps\]"):
+        garage2usd.export(tmp_path / "none.usdc", [tmp_path / "g.osm"])
+    run = CliRunner().invoke(main, ["build", "--with", "osm", "-o", str(tmp_path / "g.usdz")])
+    assert run.exit_code != 0
+    assert "garage2usd[maps]" in run.output + str(run.exception)
     assert not list(tmp_path.iterdir())
 
 

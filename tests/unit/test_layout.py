@@ -192,6 +192,7 @@ def test_settings_decide_what_is_there():
         "no_parking_sign",
         "light",
         "car",
+        "number_plate",
         "ramp",
         "sky",
         "barrier",

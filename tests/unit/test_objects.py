@@ -5,8 +5,10 @@ import pytest
 import shapely
 from support.object_specs import SPECS
 
-from garage2usd.objects import KINDS, Kind, Spec, _in_order
+from garage2usd.objects import CLASSES, CLASSES_VERSION, KINDS, PIECE_LABELS, Kind, Spec, _in_order
 from garage2usd.objects.kind import VariantSet
+from garage2usd.objects.panel import Paint
+from garage2usd.objects.pieces import PAINT_CLASSES
 
 DRIVEN_OVER = {"Floor", "Threshold", "LeftKerb", "RightKerb"}
 """Parts of ramps that wheels touch."""
@@ -40,12 +42,24 @@ def test_every_class_of_shapes_belongs_to_a_kind_and_has_a_case():
 
 
 def test_numbers_of_classes_stay_as_they_are_in_data_sets():
-    assert [kind.number for kind in KINDS] == list(range(1, len(KINDS) + 1))
     assert [kind.label for kind in KINDS][:26] == [
         "floor", "parking_stall", "ceiling", "wall", "vehicle_door", "obstacle", "column", "light", "beam", "duct",
         "cable_tray", "speed_bump", "wheel_stop", "traffic_sign", "traffic_cone", "car", "ramp", "sky", "barrier",
         "stall_number", "zone_plate", "charger", "sprinkler", "exit_sign", "mirror", "floor_stain",
     ]  # fmt: skip
+    assert [(each.number, each.label) for each in CLASSES[28:35]] == [
+        (29, "stall_line"), (30, "lane_line"), (31, "lane_arrow"), (32, "crossing"), (33, "hatching"),
+        (34, "stall_symbol"), (35, "number_plate"),
+    ]  # fmt: skip
+    assert [each.number for each in CLASSES] == list(range(1, len(CLASSES) + 1))
+    assert (len(CLASSES), CLASSES_VERSION) == (35, 3), "a new version of the table for new classes"
+
+
+def test_pieces_are_of_classes_that_there_are_and_all_paint_has_one():
+    assert {str(paint) for paint in Paint} == {each.label for each in PAINT_CLASSES}
+    seen = {part.piece for spec in SPECS.values() for part in spec.asset().parts}
+    assert {"", *PIECE_LABELS} >= seen > {"lane_line"}
+    assert all(each.cityscapes in CITYSCAPES for each in CLASSES)
 
 
 @pytest.mark.parametrize("field", ["number", "name", "label"])

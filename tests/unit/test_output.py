@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from garage2usd.errors import OutputError
-from garage2usd.output import check_writable, publish, staging_folder, store
+from garage2usd.output import check_writable, only_run, publish, staging_folder, store
 
 
 def make(staging, name, text):
@@ -13,6 +13,16 @@ def make(staging, name, text):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
     return path
+
+
+def test_two_runs_do_not_work_in_one_folder(tmp_path):
+    with only_run(tmp_path):
+        with pytest.raises(OutputError, match="another run is at work"), only_run(tmp_path):
+            pass
+        assert [path.name for path in tmp_path.iterdir()] == [".garage2usd-lock.bin"]
+    assert not list(tmp_path.iterdir())
+    with only_run(tmp_path):
+        pass
 
 
 def test_files_and_folders_replace_what_was_there(tmp_path):

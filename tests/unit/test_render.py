@@ -56,6 +56,11 @@ def test_every_object_is_drawn_once_with_all_of_its_parts(builds, form):
         points = local_points(stage.GetPrimAtPath(scene.shapes[shape])) @ place[:3, :3].T + place[:3, 3]
         found[0][instance - 1] = np.minimum(found[0][instance - 1], points.min(axis=0))
         found[1][instance - 1] = np.maximum(found[1][instance - 1], points.max(axis=0))
+    row_of = {entry["path"]: row for row, entry in enumerate(table)}
+    for path, row in row_of.items():  # an object's bounds are around what is painted on it too
+        if (around := row_of.get(path.rpartition("/")[0])) is not None:
+            found[0][around] = np.minimum(found[0][around], found[0][row])
+            found[1][around] = np.maximum(found[1][around], found[1][row])
     assert found[0] == pytest.approx(low, abs=1e-3)
     assert found[1] == pytest.approx(high, abs=1e-3)
 

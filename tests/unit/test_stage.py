@@ -1,6 +1,7 @@
 """What a stage holds beside its meshes: lane graph, stalls, labels, variants, cameras, friction."""
 
 import json
+import re
 import zipfile
 
 import networkx as nx
@@ -14,6 +15,7 @@ from support.sample_files import REPOSITORY
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
 from garage2usd.layout import lay_out
+from garage2usd.objects import CLASSES_VERSION, PIECE_LABELS
 from garage2usd.pipeline import build
 from garage2usd.reading.labels import CITYSCAPES
 from garage2usd.stage.cameras import write_drive
@@ -143,14 +145,15 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
     assert all(tile.IsInstance() for tile in tiles)
     assert len({tile.GetPrototype() for tile in tiles}) < len(tiles)
     table = labelled_objects(nested.labels)
-    assert len(table) == len(layout.placements)
     assert len({entry["path"] for entry in table}) == len(table)
+    table, pieces = table[: len(layout.placements)], table[len(layout.placements) :]
+    assert_pieces_agree(stage, pieces, {entry["path"] for entry in table})
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
     for entry, placement in zip(table, layout.placements, strict=True):
         prim = stage.GetPrimAtPath(entry["path"].partition("[")[0])
         assert list(prim.GetAttribute("semantics:labels:class").Get()) == [entry["class"]]
         box = world_box(stage, entry["path"], cache)
-        if placement.kind in {"car", "floor_stain", "mirror"}:  # turned: a turned box
+        if placement.kind in {"car", "number_plate", "floor_stain", "mirror"}:  # turned: a turned box
             assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
             assert (np.array(entry["max_m"]) <= np.array(box.GetMax()) + 1e-3).all()
         else:
@@ -160,26 +163,52 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
             place = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(Usd.TimeCode.Default())
             assert list(place.ExtractTranslation()) == pytest.approx(placement.position_m, abs=1e-4)
     # and nothing beside them
-    instances = [prim for prim in everything(stage) if prim.IsInstance() and not prim.GetName().startswith("Tile_")]
+    instances = [prim for prim in everything(stage) if is_placed(prim) and not prim.GetName().startswith("Tile_")]
     scattered = sum("[" in entry["path"] for entry in table)
     assert len(instances) == len(table) - scattered
 
 
+def is_placed(prim):
+    """Whether a prim is an object: number plates, each with a text of its own, are no instances."""
+    return prim.IsInstance() or prim.GetName().startswith("NumberPlate_")
+
+
+def assert_pieces_agree(stage, pieces, objects):
+    """All prims with a class below that of an object are in the table, with their bounds."""
+    found = {}
+    for prim in everything(stage):
+        above = str(prim.GetParent().GetPath())
+        if above in objects and prim.HasAPI("SemanticsLabelsAPI", "class"):
+            found[str(prim.GetPath())] = list(prim.GetAttribute("semantics:labels:class").Get())
+    assert {entry["path"]: [entry["class"]] for entry in pieces} == found
+    assert found
+    cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
+    for entry in pieces:
+        box = world_box(stage, entry["path"], cache)
+        assert entry["min_m"] == pytest.approx(list(box.GetMin()), abs=1e-3)
+        assert entry["max_m"] == pytest.approx(list(box.GetMax()), abs=1e-3)
+
+
 def test_the_label_table_agrees_with_the_stage(stage, made):
     objects = labelled_objects(made.labels)
-    assert [entry["id"] for entry in objects] == list(range(1, len(made.garage.layout.placements) + 1))
-    names = {entry["name"] for entry in json.loads(made.labels.read_text())["classes"]}
-    assert names == set(OBJECT_LABELS.values()) == set(CITYSCAPES)
+    assert [entry["id"] for entry in objects] == list(range(1, len(objects) + 1))
+    table, count = json.loads(made.labels.read_text()), len(made.garage.layout.placements)
+    names = {entry["name"] for entry in table["classes"]}
+    assert names == {*OBJECT_LABELS.values(), *PIECE_LABELS} == set(CITYSCAPES)
+    assert table["classes_version"] == CLASSES_VERSION
+    objects, pieces = objects[:count], objects[count:]
+    assert_pieces_agree(stage, pieces, {entry["path"] for entry in objects})
+    assert {entry["class"] for entry in pieces} == PIECE_LABELS
     cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
     labelled = {
         str(prim.GetPath()): list(prim.GetAttribute("semantics:labels:class").Get())
         for prim in stage.Traverse()
-        if prim.IsInstance()
+        if is_placed(prim)
     }
     assert {entry["path"]: [entry["class"]] for entry in objects} == labelled
     for entry in objects:
         box = world_box(stage, entry["path"], cache)
-        if entry["class"] in {"car", "floor_stain", "mirror"}:  # turned: the cache bounds a turned box
+        if entry["class"] in {"car", "number_plate", "floor_stain", "mirror"}:  # turned: the cache bounds a turned box
             assert (np.array(entry["min_m"]) >= np.array(box.GetMin()) - 1e-3).all()
             assert (np.array(entry["max_m"]) <= np.array(box.GetMax()) + 1e-3).all()
         else:
@@ -318,13 +347,16 @@ def test_texture_quality_is_a_budget(tmp_path, made):
     assert sizes["medium"] < 700_000
 
 
+OF_CARS = re.compile("/(Car|NumberPlate)_")
+
+
 def test_the_papers_garage_without_its_cars_is_small(tmp_path):
     """At medium quality, as it is without a word about textures; half of it goes to pictures and to the root layer."""
     config = load_config(REPOSITORY / "samples" / "paper_7x9.toml")
     package = build(config, tmp_path / "paper.usdz", tape="ULUUUUUDDDDDDURRRUUUUUDDDDDRRRUUUUUDDDDDDULLLLLS").stage
     with zipfile.ZipFile(package) as archive:
         sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-    assert sum(size for name, size in sizes.items() if "/Car_" not in name) < 1_750_000
+    assert sum(size for name, size in sizes.items() if not OF_CARS.search(name)) < 1_750_000
     assert sum(size for name, size in sizes.items() if "/textures/" in name) < 600_000
 
 

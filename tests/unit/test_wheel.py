@@ -56,7 +56,7 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     pictures = {Path("textures") / path.relative_to(textures) for path in textures.rglob("*") if path.is_file()}
     data = {
         path.relative_to(package)
-        for part in ("profiles/*.toml", "stage/*.npz", "view/page/*")
+        for part in ("profiles/*.toml", "render/*.osl", "sensors/rigs/*.toml", "stage/*.npz", "view/page/*")
         for path in package.glob(part)
     }
     assert len(pictures) > 10

@@ -6,7 +6,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from support.sample_files import SAMPLES
-from support.unity.layer import from_usd
+from support.unity.layer import from_usd, place_of
 from support.unity.reader import PACKAGE
 
 from garage2usd.structure.stalls import Edge
@@ -68,6 +68,8 @@ def test_stalls(imported):
     assert prefab.found["graph"]["stalls"] == [stall.name for stall in build.garage.layout.stalls]
     assert stalls.keys() == {stall.name for stall in build.garage.layout.stalls}
     squares = [tuple(node["square"]) for node in prefab.found["graph"]["nodes"]]
+    cars = {car.stall: car for car in build.garage.layout.of_kind("car")}
+    places = {item["path"]: place_of(item) for item in prefab.objects}
     edges = {Edge.UP: "up", Edge.DOWN: "down", Edge.LEFT: "left", Edge.RIGHT: "right"}
     for stall in build.garage.layout.stalls:
         found = stalls[stall.name]
@@ -79,6 +81,12 @@ def test_stalls(imported):
         assert squares[found["node"]] == stall.access_square
         assert np.allclose(np.reshape(found["corners"], (4, 3)), world(stall.corners_m()), atol=1e-3)
         assert np.allclose(found["centre"], world(stall.centre_m), atol=1e-3)
+        car = cars.get(stall.name)
+        assert found["occupied"] is (car is not None)
+        if car is None:
+            assert not found["car"]
+        else:
+            assert np.allclose(places[found["car"]], from_usd(np.array(car.position_m)), atol=1e-3)
         # from the mouth inwards, as a car does that is parked nose-in
         inwards = np.subtract(found["centre"], found["mouth"])
         assert np.allclose(found["forward"], inwards / np.linalg.norm(inwards), atol=1e-3)

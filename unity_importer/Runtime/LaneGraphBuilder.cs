@@ -13,7 +13,22 @@ namespace Garage.Unity
         readonly ImportReport report;
         readonly Dictionary<string, Stall> stalls = new Dictionary<string, Stall>();
         readonly List<KeyValuePair<Stall, Vector3[]>> withoutGraph = new List<KeyValuePair<Stall, Vector3[]>>();
+        readonly List<Parked> parked = new List<Parked>();
         readonly List<KeyValuePair<GameObject, SceneNode[]>> graphs = new List<KeyValuePair<GameObject, SceneNode[]>>();
+
+        /// <summary>A stall with the paths of its prim and of its car's.</summary>
+        struct Parked
+        {
+            public readonly Stall Stall;
+            public readonly string Own, Car;
+
+            public Parked(Stall stall, string own, string car)
+            {
+                Stall = stall;
+                Own = own;
+                Car = car;
+            }
+        }
 
         public LaneGraphBuilder(Basis basis, ImportReport report)
         {
@@ -44,7 +59,9 @@ namespace Garage.Unity
             Vector2Int own = place.Length == 2 ? new Vector2Int(place[0], place[1]) : new Vector2Int(-1, -1);
             stall.Set(prim.Text("garage:stall:id", ""), prim.Text("garage:stall:number", ""),
                 prim.Text("garage:stall:type", ""), prim.Text("garage:stall:use", "standard"),
-                prim.Text("garage:stall:entryEdge", ""), own);
+                prim.Text("garage:stall:entryEdge", ""), own, prim.Truth("garage:stall:occupied", false));
+            IList<string> targets = prim.Targets("garage:stall:car");
+            if (stall.IsOccupied && targets.Count > 0) { parked.Add(new Parked(stall, prim.Path, targets[0])); }
             if (stalls.ContainsKey(stall.Id)) { report.Add("stalls have the same id", prim.Path); }
             stalls[stall.Id] = stall;
             float[] numbers = corners == null ? new float[0] : corners.Floats();
@@ -80,6 +97,7 @@ namespace Garage.Unity
         /// it.</summary>
         public void Finish(Transform root)
         {
+            foreach (Parked pair in parked) { pair.Stall.SetCar(Relative(pair.Stall.transform, pair.Own, pair.Car)); }
             foreach (KeyValuePair<GameObject, SceneNode[]> graph in graphs)
             {
                 Transform place = graph.Key.transform;
@@ -93,6 +111,26 @@ namespace Garage.Unity
             {
                 if (pair.Key.AccessNode < 0) { SetPlace(pair.Key, pair.Value, root, -1); }
             }
+        }
+
+        // from the object of one prim to that of another, by their paths
+        static Transform Relative(Transform from, string own, string target)
+        {
+            string[] up = own.Split('/'), down = target.Split('/');
+            int common = 0;
+            while (common < up.Length && common < down.Length && up[common] == down[common]) { common++; }
+            for (int i = up.Length; i > common && from != null; i--) { from = from.parent; }
+            return from == null ? null : from.Find(string.Join("/", down, common, down.Length - common));
+        }
+
+        // where tiles share prototypes, stalls have no prims that say who they are: the second stall of a tile is
+        // called as its car is, "Stall_2" and "Car_2", and "Stall_r03_c07_2" stands on "Row_r03/Tile_r03_c07"
+        static void ParkOnTile(Stall stall, Transform garage)
+        {
+            string[] parts = stall.Id.Split('_');
+            if (garage == null || parts.Length != 4) { return; }
+            string tile = "Row_" + parts[1] + "/Tile_" + parts[1] + "_" + parts[2];
+            stall.SetCar(garage.Find("Tiles/" + tile + "/Car_" + parts[3]));
         }
 
         Vector3[] Points(float[] numbers)
@@ -187,7 +225,8 @@ namespace Garage.Unity
             string[] uses = Texts(curves, "garage:stall:use", count),
                 sides = Texts(curves, "garage:stall:entryEdge", count);
             int[] rows = Ints(curves, "garage:stall:row", count), columns = Ints(curves, "garage:stall:column", count);
-            int[] access = Ints(curves, "garage:stall:accessNode", count);
+            int[] access = Ints(curves, "garage:stall:accessNode", count),
+                occupied = Ints(curves, "garage:stall:occupied", count);
             Vector3[] points = Points(curves.Curves.Points);
             Transform holder = null;
             var found = new List<Stall>(count);
@@ -212,8 +251,10 @@ namespace Garage.Unity
                         holder.SetParent(graph, false);
                     }
                     stall = Made(ids[i], holder, outline);
-                    stall.Set(ids[i], numbers[i], types[i], uses[i], sides[i], new Vector2Int(rows[i], columns[i]));
+                    stall.Set(ids[i], numbers[i], types[i], uses[i], sides[i], new Vector2Int(rows[i], columns[i]),
+                        occupied[i] == 1);
                     stalls.Add(ids[i], stall);
+                    if (stall.IsOccupied) { ParkOnTile(stall, graph.parent); }
                 }
                 SetPlace(stall, outline, graph, access[i]);
                 found.Add(stall);

@@ -14,6 +14,8 @@ namespace Garage.Unity
         [SerializeField] string use = "";
         [SerializeField] string entryEdge = "";
         [SerializeField] Vector2Int square;
+        [SerializeField] bool isOccupied;
+        [SerializeField] Transform car;
         [SerializeField] int accessNode = -1;
         [SerializeField] Vector3[] corners = new Vector3[0];
 
@@ -53,6 +55,18 @@ namespace Garage.Unity
             get { return square; }
         }
 
+        /// <summary>Whether the stage says that a car stands in it.</summary>
+        public bool IsOccupied
+        {
+            get { return isOccupied; }
+        }
+
+        /// <summary>The car that stands in it; null where none does, or where it was destroyed.</summary>
+        public Transform Car
+        {
+            get { return car; }
+        }
+
         /// <summary>Number of the node of the lane graph before its mouth; -1 where there is no graph.</summary>
         public int AccessNode
         {
@@ -89,7 +103,7 @@ namespace Garage.Unity
         }
 
         internal void Set(string ownId, string paintedNumber, string ownType, string ownUse, string edge,
-            Vector2Int ownSquare)
+            Vector2Int ownSquare, bool holdsCar)
         {
             id = ownId;
             number = paintedNumber;
@@ -97,6 +111,12 @@ namespace Garage.Unity
             use = ownUse;
             entryEdge = edge;
             square = ownSquare;
+            isOccupied = holdsCar;
+        }
+
+        internal void SetCar(Transform parked)
+        {
+            car = parked;
         }
 
         /// <summary>Corners in metres of the object's own space.</summary>

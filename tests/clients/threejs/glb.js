@@ -1,16 +1,7 @@
 // Loads /stage.glb with three.js and posts to /result what stands where, what it says of itself, every complaint and,
 // with ?pictures, a view from inside.
 
-const complaints = [];
-for (const level of ["error", "warn"]) {
-  const original = console[level];
-  console[level] = (...words) => {
-    complaints.push(words.map(String).join(" "));
-    original(...words);
-  };
-}
-addEventListener("error", (event) => complaints.push(event.message));
-addEventListener("unhandledrejection", (event) => complaints.push(String(event.reason)));
+import { photographer, pictures, post } from "./client.js";
 
 async function main() {
   const THREE = await import("three");
@@ -33,30 +24,19 @@ async function main() {
       low: box.min.toArray(), high: box.max.toArray() });
   });
   const result = { revision: THREE.REVISION, objects, geometries: geometries.size, textures: textures.size, facts: scene.userData };
-  if (new URLSearchParams(location.search).has("pictures")) result.pictures = { Inside: render(THREE, scene) };
+  if (pictures !== null) result.pictures = { Inside: render(THREE, scene) };
   return result;
 }
 
-// From a place, looking at another, with a vertical angle of view, as the address says; light from everywhere.
+// From a place, looking at another, with a vertical angle of view, as the address says.
 function render(THREE, model) {
   const scene = new THREE.Scene();
-  scene.background = new THREE.Color(0x203040);
-  scene.add(model, new THREE.HemisphereLight(0xffffff, 0x808080, 2));
-  const [place, target, degrees] = JSON.parse(new URLSearchParams(location.search).get("pictures"));
+  scene.add(model);
+  const [place, target, degrees] = JSON.parse(pictures);
   const camera = new THREE.PerspectiveCamera(degrees, 16 / 9, 0.1, 500);
   camera.position.set(...place);
   camera.lookAt(...target);
-  const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
-  renderer.setSize(640, 360);
-  renderer.render(scene, camera);
-  return renderer.domElement.toDataURL("image/png");
+  return photographer(THREE, scene)(camera);
 }
 
-let result;
-try {
-  result = await main();
-} catch (error) {
-  complaints.push(String(error.stack ?? error));
-  result = {};
-}
-await fetch("/result", { method: "POST", body: JSON.stringify({ ...result, complaints }) });
+await post(main);

@@ -1,16 +1,7 @@
 // Loads /stage.usdz with three.js and posts to /result what stands where, every texture, every complaint and,
 // with ?pictures, what the stage's own cameras see.
 
-const complaints = [];
-for (const level of ["error", "warn"]) {
-  const original = console[level];
-  console[level] = (...words) => {
-    complaints.push(words.map(String).join(" "));
-    original(...words);
-  };
-}
-addEventListener("error", (event) => complaints.push(event.message));
-addEventListener("unhandledrejection", (event) => complaints.push(String(event.reason)));
+import { photographer, pictures, post } from "./client.js";
 
 // The loader makes a new blob of a texture for every material of every reference. Blobs of one size are one file here
 // (the test checks that sizes tell the files apart), so that an image is decoded once and known by its file's size.
@@ -42,7 +33,7 @@ async function main() {
   scene.add(group);
   scene.updateMatrixWorld(true);
   const result = { revision: THREE.REVISION, ...describe(THREE, group), failed, pictures: {} };
-  if (new URLSearchParams(location.search).has("pictures")) result.pictures = render(THREE, scene, group);
+  if (pictures !== null) result.pictures = render(THREE, scene, group);
   return result;
 }
 
@@ -86,27 +77,16 @@ function render(THREE, scene, group) {
       texture.source = sources.get(texture.image);
     }
   });
-  scene.background = new THREE.Color(0x203040);
-  scene.add(new THREE.HemisphereLight(0xffffff, 0x808080, 2));
-  const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
-  renderer.setSize(640, 360);
-  const pictures = {};
+  const photograph = photographer(THREE, scene);
+  const taken = {};
   for (const name of ["Inside", "Above"]) {
     const camera = group.getObjectByName(name);
     group.traverse((item) => {
       if (/^(Ceiling|Tube|Duct)/.test(item.name)) item.visible = name !== "Above";
     });
-    renderer.render(scene, camera);
-    pictures[name] = renderer.domElement.toDataURL("image/png");
+    taken[name] = photograph(camera);
   }
-  return pictures;
+  return taken;
 }
 
-let result;
-try {
-  result = await main();
-} catch (error) {
-  complaints.push(String(error.stack ?? error));
-  result = {};
-}
-await fetch("/result", { method: "POST", body: JSON.stringify({ ...result, complaints }) });
+await post(main);

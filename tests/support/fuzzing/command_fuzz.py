@@ -163,6 +163,7 @@ def _load_commands() -> None:
     import garage2usd.render
     from garage2usd.driving import prove_stalls
     from garage2usd.errors import RenderError
+    from garage2usd.render import drawing
     from garage2usd.view import viewer
 
     garage = garage2usd.generate(garage2usd.GarageConfig(site={"width_cells": 4, "height_cells": 5}))
@@ -177,7 +178,7 @@ def _load_commands() -> None:
         raise RenderError(0, "it is not run here")
 
     viewer.ViewerServer.show = show_and_end
-    garage2usd.render.run_blender = run_blender
+    drawing.run_blender = run_blender
     garage2usd.render.check_blender = lambda *_arguments: None
 
 

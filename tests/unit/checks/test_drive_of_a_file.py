@@ -4,8 +4,7 @@ import json
 
 import pytest
 from click.testing import CliRunner
-from pxr import Usd, UsdGeom, UsdSemantics
-from support.small_garage import SETTINGS
+from support.small_garage import SETTINGS, with_trolley
 
 from garage2usd import GarageConfig, build
 from garage2usd.cli import main
@@ -33,14 +32,7 @@ def test_a_stage_and_its_report_have_the_same_ways(made, tmp_path):
 
 
 def test_what_was_put_into_a_stage_is_driven_around_or_named(made, tmp_path):
-    stage = Usd.Stage.Open(str(made.stage))
-    stage.SetEditTarget(stage.GetSessionLayer())
-    cube = UsdGeom.Cube.Define(stage, "/Garage/Trolley")
-    cube.CreateSizeAttr(1.0)
-    cube.AddTranslateOp().Set((12.15, 0.5, 5.0))
-    UsdSemantics.LabelsAPI.Apply(cube.GetPrim(), "class").CreateLabelsAttr(["static"])
-    stage.Export(str(tmp_path / "edited.usdc"))
-    result = driven(tmp_path / "edited.usdc")
+    result = driven(with_trolley(made.stage, tmp_path / "edited.usdc", label="static"))
     assert result.exit_code == 1
     assert "Stall_r00_c01_2: no way; in the way: /Garage/Trolley" in result.stdout
 

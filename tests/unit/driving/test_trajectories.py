@@ -17,14 +17,14 @@ from support.trajectory_judge import OpenWorld, faults
 
 import garage2usd
 from garage2usd.checks.layout_reader import layout_subject
-from garage2usd.config.maps import DriveConfig
+from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Gear, Pose
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.timing import timed
 from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json
 from garage2usd.driving.turns import Steering, joining_pieces
 from garage2usd.errors import ConfigError
-from garage2usd.maps.drives import DrivePlanner, Leg
+from garage2usd.maps.drives import DrivePlanner
 
 DEFAULTS = DriveConfig().model_dump()
 BRISK = DriveConfig(
@@ -290,3 +290,11 @@ def test_the_car_stands_where_the_steering_or_the_gear_jumps():
     stands = np.diff(states.arc_m) == 0
     assert np.diff(states.time_s)[stands].sum() == pytest.approx(turned_s + DEFAULTS["shift_s"], abs=1e-6)
     assert states.arc_m[-1] == pytest.approx(9.0)
+
+
+@pytest.mark.parametrize("sharpness", [0.05, 0.5])
+def test_the_chord_of_one_turn_is_that_of_many(sharpness):
+    steering = Steering(0.2, sharpness)
+    deflections = np.array([-2.4, -1.0, -1e-3, 0.0, 1e-9, 0.5, 0.8, 2.4])
+    chords = [steering.chord(deflection) for deflection in deflections.tolist()]
+    assert chords == pytest.approx(steering.chords(deflections), abs=1e-12)

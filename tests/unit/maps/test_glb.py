@@ -18,6 +18,7 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.errors import StageError
 from garage2usd.maps.glb import write_glb
+from garage2usd.objects import PIECE_LABELS
 
 
 @pytest.fixture(scope="module")
@@ -79,21 +80,37 @@ def _class(node):
     return node.get("extras", {}).get("class")
 
 
+def test_what_is_painted_on_a_floor_is_a_node_below_it(made, tmp_path):
+    write_glb(Usd.Stage.Open(str(made.stage)), tmp_path / "garage.glb")
+    glb = Glb((tmp_path / "garage.glb").read_bytes())
+    above = {}
+    for number, node in enumerate(glb.nodes):
+        if _class(node) in PIECE_LABELS:
+            holder = glb.nodes[glb.parents[number]]
+            assert node["name"].rpartition("/")[0] == holder["name"]
+            above.setdefault(_class(node), set()).add(_class(holder))
+        else:
+            assert number not in glb.parents or "mesh" not in node
+    assert above["stall_line"] == {"parking_stall", "floor"}
+    assert above["lane_line"] == above["lane_arrow"] == {"floor"}
+
+
 FAULTS = (
+    Fault("pieces of an object on their own", "glb", "if above is not None:", "if False:"),
     Fault("mirrored z", "glb_meshes", "np.round(matrices[:, 3, :3],", "np.round(matrices[:, 3, :3] * (1, 1, -1),"),
     Fault("turned the other way", "glb_meshes", "from_matrix(axes.transpose(0, 2, 1))", "from_matrix(axes)"),
     Fault("a place off by 2 mm", "glb_meshes", "_PLACE_DIGITS, _DIGITS = 5, 7", "_PLACE_DIGITS, _DIGITS = 2, 7"),
     Fault(
         "place of another object",
         "glb",
-        "add_node(placed.path, placed.matrix",
-        "add_node(placed.path, drawn[7][0].matrix",
+        "[0]), placed.matrix",
+        "[0]), drawn[7][0].matrix",
     ),
     Fault("label off by one", "glb", 'else {"id": number}', 'else {"id": number + 1}'),
     Fault("first mesh for all", "glb_file", "key = json.dumps(primitives)", "key = str(len(primitives))"),
     Fault("texture upside down", "glb_meshes", "(1, -1) + (0, 1)", "(1, 1) + (0, 0)"),
     Fault("bump as dent", "glb_meshes", "np.where(side < 0, -1.0, 1.0)", "np.where(side < 0, 1.0, -1.0)"),
-    Fault("inside out", "glb_meshes", "inverse.ravel()[mesh.indices]", "inverse.ravel()[mesh.indices[:, ::-1]]"),
+    Fault("inside out", "glb_meshes", "inverse[mesh.indices]", "inverse[mesh.indices[:, ::-1]]"),
     Fault("all faceted", "glb_meshes", "_FACET_COS = 1 - 1e-6", "_FACET_COS = -2.0"),
     Fault("all seen from both sides", "glb_file", "double_sided=triangles.double_sided", "double_sided=True"),
     Fault("an image for each texture", "glb_materials", "if bands and bands not in self._texture_of:", "if bands:"),

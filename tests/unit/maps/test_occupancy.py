@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from support.driven_cells import covered
 from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
@@ -18,13 +19,24 @@ from garage2usd.checks.driven_ground import driven_garage
 from garage2usd.config.maps import GridConfig
 from garage2usd.driving import DesignCar, prove_garage
 from garage2usd.errors import ConfigError, StageError
-from garage2usd.maps.occupancy import write_grid
+from garage2usd.maps.occupancy import _Raster, write_grid
 
 SLACK_M = 0.02
 """By which bounds of labels may be wider than what they hold, such as a stripe on a wall."""
 LOW_M, HIGH_M = 0.1, 1.8
 APART_M = 0.1
-NOT_SOLID = {"floor", "floor_stain", "parking_stall", "stall_number", "zone_plate", "sky", "speed_bump"}
+PAINTED = {"stall_line", "lane_line", "lane_arrow", "crossing", "hatching", "stall_symbol"}
+NOT_SOLID = {
+    "floor",
+    "floor_stain",
+    "parking_stall",
+    "stall_number",
+    "zone_plate",
+    "number_plate",
+    "sky",
+    "speed_bump",
+    *PAINTED,
+}
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +79,7 @@ def judge(write, made, folder, *, side_m=0.05):
     for label, low, high in objects_of(built):
         if label in {"floor", "ramp"}:
             inside |= ((x > low[0]) & (x < high[0])) & ((y > low[2]) & (y < high[2]))[:, None]
-        if label == "floor":
+        if label == "floor" or label in PAINTED:  # paint is floor
             assert not (read.within((low[0], low[2]), (high[0], high[2])) == UNKNOWN).any()
     assert inside[read.cells == FREE].all()
     for label, low, high in objects_of(built):
@@ -104,7 +116,7 @@ def test_paths_are_free_and_walls_occupied_on_a_sample(sample, builds, tmp_path)
 
 
 def test_its_bytes_are_always_the_same(made, tmp_path):
-    files = [write_grid(made[1], tmp_path / f"{n}.yaml", GridConfig(), keepout=True, speed=True) for n in (1, 2)]
+    files = [write_grid(made[1], tmp_path / f"{n}.yaml", GridConfig(keepout=True, speed=True)) for n in (1, 2)]
     assert [file.name for file in files[0]] == [
         f"1{part}{end}" for part in ("", "_keepout", "_speed") for end in (".yaml", ".pgm")
     ]
@@ -114,7 +126,7 @@ def test_its_bytes_are_always_the_same(made, tmp_path):
 
 FAULTS = (
     Fault("mirrored y", "frame", "(1.0, -1.0)", "(1.0, 1.0)"),
-    Fault("first row lowest", "occupancy", "cells.tobytes()", "cells[::-1].tobytes()"),
+    Fault("first row lowest", "occupancy", "file.write(cells.data)", "file.write(cells[::-1].tobytes())"),
     Fault(
         "origin in the middle of a cell",
         "occupancy",
@@ -125,10 +137,10 @@ FAULTS = (
     Fault(
         "a row too high",
         "occupancy",
-        "cells[rows - highest : rows - lowest,",
-        "cells[rows - highest - 1 : rows - lowest - 1,",
+        "rows - band], inside,",
+        "rows - band], np.roll(inside, -1, axis=0),",
     ),
-    Fault("a column too far", "occupancy", "first:last][inside]", "first + 1:last + 1][inside]"),
+    Fault("a column too far", "occupancy", "np.ceil(low[side, 0]", "np.ceil(1 + low[side, 0]"),
     Fault("unknown read as free", "occupancy", "_FREE_THRESHOLD = 0.65, 0.196", "_FREE_THRESHOLD = 0.65, 0.25"),
     Fault("every cell that is touched", "occupancy", "_NEAR_CELLS = 0.25", "_NEAR_CELLS = 2.0"),
     Fault("doors shut", "occupied_ground", "if solid.label not in {_DOOR, _RAMP,", "if solid.label not in {_RAMP,"),
@@ -156,10 +168,24 @@ def test_a_planted_fault_is_found(fault, made, tmp_path):
         judge(module.write_grid, made, tmp_path)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_filled_cells_are_those_that_geos_finds_inside(seed):
+    draw = np.random.default_rng(seed)
+    rings = [shapely.Point(draw.uniform(0, 30, 2)).buffer(draw.uniform(0.2, 8), quad_segs=2) for _ in range(12)]
+    grounds = [one.difference(other) for one, other in zip(rings[::2], rings[1::2], strict=True)]
+    grounds.append(shapely.box(12.03, 12.03, 19.07, 19.07).difference(shapely.box(13.03, 13.03, 15.07, 18.07)))
+    raster = _Raster(0.1, -20, -320, (340, 345))
+    cells = np.zeros(raster.shape, dtype=np.uint8)
+    raster.fill(cells, grounds, 7)
+    x, y = np.meshgrid((np.arange(345) - 20 + 0.5) * 0.1, (np.arange(340)[::-1] - 320 + 0.5) * 0.1)
+    inside = shapely.contains_xy(shapely.union_all(grounds), x, -y)  # y is -z
+    assert ((cells == 7) == inside).all()
+
+
 def test_masks_of_filters(made, tmp_path):
     built, subject, *_ = made
     report = json.loads(built.report.read_text())
-    write_grid(subject, tmp_path / "a.yaml", GridConfig(), keepout=True, speed=True)
+    write_grid(subject, tmp_path / "a.yaml", GridConfig(keepout=True, speed=True))
     plain, keepout, speed = (read_map(tmp_path / f"a{part}.yaml") for part in ("", "_keepout", "_speed"))
     assert plain.cells.shape == keepout.cells.shape == speed.cells.shape
     assert plain.origin == keepout.origin == speed.origin

@@ -1,26 +1,22 @@
 """The scenario of a drive, read from its file alone and by ASAM's checker."""
 
 import math
-import os
-import subprocess
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 import shapely.affinity
-from support.sample_files import REPOSITORY
+from support.openscenario_checker import issues_of, needs_checker
+from support.openscenario_reader import OpenScenario
 from support.small_garage import SETTINGS
 
 import garage2usd
 from garage2usd.checks.layout_reader import layout_subject
-from garage2usd.maps.drives import DrivePlanner, Leg
+from garage2usd.config.maps import Leg
+from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.openscenario import EGO, write_scenario
 from garage2usd.maps.parked_cars import parked_cars
-
-JUDGES = REPOSITORY / ".venv/judges/bin"
-CHECKER = Path(os.environ.get("GARAGE2USD_QC_OPENSCENARIO", JUDGES / "qc_openscenario"))
 
 
 @pytest.fixture(scope="module")
@@ -62,19 +58,12 @@ def scenarios(drives, subject, tmp_path_factory):
     return written
 
 
-def places(element):
-    return [[float(at.get(name)) for name in ("x", "y", "z", "h", "p", "r")] for at in element.iter("WorldPosition")]
-
-
 @pytest.mark.parametrize("leg", list(Leg))
 def test_the_car_follows_its_trajectory_in_the_map_s_frame(drives, scenarios, leg):
-    root = ET.parse(scenarios(leg, f"{leg}.xosc")).getroot()
-    (line,) = root.iter("Polyline")
-    vertices = line.findall("Vertex")
+    scenario = OpenScenario(scenarios(leg, f"{leg}.xosc"))
     states = drives[leg].motion.sampled(0.1)
-    times = [float(vertex.get("time")) for vertex in vertices]
-    assert times == pytest.approx(states.time_s, abs=1e-6)
-    found = np.array(places(line))
+    times, found = np.split(scenario.track(), [1], axis=1)
+    assert times[:, 0] == pytest.approx(states.time_s, abs=1e-6)
     # north is the stage's -Z; the nose of a car with yaw 0 looks there
     assert found[:, 0] == pytest.approx(states.x_m, abs=1e-6)
     assert found[:, 1] == pytest.approx(-states.z_m, abs=1e-6)
@@ -84,10 +73,8 @@ def test_the_car_follows_its_trajectory_in_the_map_s_frame(drives, scenarios, le
     assert noses[1] == pytest.approx(np.cos(states.yaw_rad), abs=1e-5)
     # a nose that looks up has a negative pitch in ISO 8855
     assert found[:, 4] == pytest.approx(-states.pitch_rad, abs=1e-6)
-    init = next(private for private in root.iter("Private") if private.get("entityRef") == EGO)
-    assert places(init)[0] == pytest.approx(found[0])
-    (road,) = root.iter("LogicFile")
-    assert road.get("filepath") == "garage.xodr"
+    assert scenario.inits[EGO] == pytest.approx(found[0])
+    assert scenario.road_file == "garage.xodr"
 
 
 def test_the_box_of_the_car_lies_about_its_rear_axle(drives, scenarios):
@@ -101,33 +88,18 @@ def test_the_box_of_the_car_lies_about_its_rear_axle(drives, scenarios):
 
 
 def test_parked_cars_stand_where_the_garage_has_them(garage, drives, scenarios):
-    root = ET.parse(scenarios(Leg.BOTH, "parked.xosc")).getroot()
+    scenario = OpenScenario(scenarios(Leg.BOTH, "parked.xosc"))
     parked = drives[Leg.BOTH].route.stall
     cars = [car for car in garage.layout.of_kind("car") if car.stall != parked]
     assert cars
-    inits = {private.get("entityRef"): places(private)[0] for private in root.iter("Private")}
-    del inits[EGO]
-    assert len(inits) == len(cars)
-    boxes = {}
-    for entity in root.iter("ScenarioObject"):
-        size = entity.find(".//BoundingBox/Dimensions")
-        boxes[entity.get("name")] = float(size.get("length")), float(size.get("width"))
-    found = []
-    for name, (x, y, _, heading, _, _) in inits.items():
-        length, width = boxes[name]
-        along = np.array([math.cos(heading), math.sin(heading)])
-        across = np.array([-along[1], along[0]])
-        corners = [
-            np.array([x, y]) + s * along * length / 2 + t * across * width / 2
-            for s, t in ((1, 1), (1, -1), (-1, -1), (-1, 1))
-        ]
-        found.append((shapely.Polygon(corners), along))
+    found = [scenario.box(name) for name in scenario.vehicles if name != EGO]
+    assert len(found) == len(cars)
     for car in cars:
-        ground = shapely.union_all([shapely.Polygon(outline) for outline in car.outlines()])
-        ground = shapely.affinity.scale(ground, 1, -1, origin=(0, 0))
+        body, _ = car.outlines()  # and its mirrors
+        ground = shapely.affinity.scale(shapely.Polygon(body), 1, -1, origin=(0, 0))
         box, along = max(found, key=lambda pair: pair[0].intersection(ground).area)
         assert ground.difference(box.buffer(0.02)).is_empty
-        assert box.area < 1.35 * ground.convex_hull.area
+        assert ground.buffer(0.02).covers(box)
         nose = np.array([-math.sin(car.yaw_rad), math.cos(car.yaw_rad)])
         assert nose @ along > 0.999
 
@@ -138,16 +110,13 @@ def test_the_same_drive_has_the_same_bytes(scenarios):
     assert b"seed 2" in one
 
 
-@pytest.mark.client
-@pytest.mark.skipif(not CHECKER.exists(), reason="asam-qc-openscenarioxml is not installed beside the judges")
+@needs_checker
 @pytest.mark.parametrize("leg", list(Leg))
 def test_asam_s_checker_has_no_issue(scenarios, tmp_path, leg):
-    issues = judged(scenarios(leg, f"checked_{leg}.xosc"), tmp_path)
-    assert issues == []
+    assert issues_of(scenarios(leg, f"checked_{leg}.xosc"), tmp_path) == []
 
 
-@pytest.mark.client
-@pytest.mark.skipif(not CHECKER.exists(), reason="asam-qc-openscenarioxml is not installed beside the judges")
+@needs_checker
 def test_asam_s_checker_sees_a_scenario_that_is_broken(scenarios, tmp_path):
     text = (
         scenarios(Leg.IN, "broken.xosc")
@@ -157,18 +126,4 @@ def test_asam_s_checker_sees_a_scenario_that_is_broken(scenarios, tmp_path):
     )
     broken = tmp_path / "broken.xosc"
     broken.write_text(text)
-    assert judged(broken, tmp_path)
-
-
-def judged(file, folder):
-    """Descriptions of the issues that the checker reports."""
-    settings, result = folder / "settings.xml", folder / "result.xqar"
-    settings.write_text(
-        f'<?xml version="1.0" encoding="UTF-8"?><Config><Param name="InputFile" value="{file}"/>'
-        f'<CheckerBundle application="xoscBundle"><Param name="resultFile" value="{result}"/></CheckerBundle></Config>'
-    )
-    subprocess.run([str(CHECKER), "-c", str(settings)], cwd=folder, check=True, capture_output=True, timeout=120)
-    report = ET.parse(result).getroot()
-    checkers = list(report.iter("Checker"))
-    assert len(checkers) > 10
-    return [issue.get("description") for checker in checkers for issue in checker.findall("Issue")]
+    assert issues_of(broken, tmp_path)

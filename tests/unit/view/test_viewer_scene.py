@@ -56,23 +56,29 @@ def test_every_object_of_the_layout_is_there_once_with_its_class_id_and_place(ga
     build, scene = garage
     layout = build.garage.layout
     table = labelled_objects(build.labels)
-    assert scene.counts() == Counter(OBJECT_LABELS[place.kind] for place in layout.placements)
+    pieces = table[len(layout.placements) :]
+    classes = [*(OBJECT_LABELS[place.kind] for place in layout.placements), *(entry["class"] for entry in pieces)]
+    assert scene.counts() == Counter(classes)
     objects = {placed.path: placed for placed in scene.objects}
     assert len(objects) == len(scene.objects) == len(table)
-    for entry, placement in zip(table, layout.placements, strict=True):
-        placed = objects[entry["path"]]
-        assert placed.label == entry["class"]
+    for entry in table:
+        assert objects[entry["path"]].label == entry["class"]
         assert scene.ids[entry["path"]] == entry["id"]
+    for entry, placement in zip(table, layout.placements, strict=False):
+        placed = objects[entry["path"]]
         assert np.allclose(placed.matrix[3, :3], placement.position_m, atol=MILLIMETRE)
 
 
 def test_the_triangles_of_every_object_fill_its_bounds_in_the_label_table(garage):
     build, scene = garage
-    objects = {placed.path: placed for placed in scene.objects}
-    for entry in labelled_objects(build.labels):
-        placed = objects[entry["path"]]
+    drawn = {}
+    for placed in scene.objects:
         lights = [(light.matrix @ placed.matrix)[3:, :3] for light in scene.shapes[placed.shape].lights]
-        points = np.concatenate([drawn_points(scene, placed), *lights])
+        drawn[placed.path] = [np.concatenate([drawn_points(scene, placed), *lights])]
+    for path, own in list(drawn.items()):  # an object's bounds are around its pieces too
+        drawn.get(path.rpartition("/")[0], []).extend(own)
+    for entry in labelled_objects(build.labels):
+        points = np.concatenate(drawn[entry["path"]])
         assert np.allclose(points.min(axis=0), entry["min_m"], atol=MILLIMETRE), entry["path"]
         assert np.allclose(points.max(axis=0), entry["max_m"], atol=MILLIMETRE), entry["path"]
 

@@ -116,12 +116,7 @@ namespace Garage.Unity.Dump
         void Object(GameObject made)
         {
             json.Open('{');
-            string path = made.name;
-            for (Transform above = made.transform.parent; above != null; above = above.parent)
-            {
-                path = above.name + "/" + path;
-            }
-            Text("path", path);
+            Text("path", PathOf(made.transform));
             Truth("active", made.activeSelf);
             Truth("shown", made.activeInHierarchy);
             Number("static", made.staticFlags);
@@ -257,6 +252,16 @@ namespace Garage.Unity.Dump
             json.Close('}');
         }
 
+        static string PathOf(Transform place)
+        {
+            string path = place.name;
+            for (Transform above = place.parent; above != null; above = above.parent)
+            {
+                path = above.name + "/" + path;
+            }
+            return path;
+        }
+
         void Stall(Stall stall)
         {
             json.Key("stall");
@@ -267,6 +272,9 @@ namespace Garage.Unity.Dump
             Text("use", stall.Use);
             Text("edge", stall.EntryEdge);
             Numbers("square", new float[] { stall.Square.x, stall.Square.y });
+            json.Key("occupied");
+            json.Bool(stall.IsOccupied);
+            Text("car", stall.Car == null ? "" : PathOf(stall.Car));
             Number("node", stall.AccessNode);
             json.Key("corners");
             json.Open('[');

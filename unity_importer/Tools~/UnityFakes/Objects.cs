@@ -126,7 +126,8 @@ namespace UnityEngine
     {
         sealed class Fields
         {
-            public readonly List<FieldInfo> Arrays = new List<FieldInfo>(), Transient = new List<FieldInfo>();
+            public readonly List<FieldInfo> Arrays = new List<FieldInfo>(), Transient = new List<FieldInfo>(),
+                References = new List<FieldInfo>();
         }
 
         static readonly Dictionary<Type, Fields> FieldsOf = new Dictionary<Type, Fields>();
@@ -148,6 +149,7 @@ namespace UnityEngine
                             && (field.IsPublic || field.IsDefined(typeof(SerializeField), false));
                         if (!isSerialised && !field.FieldType.IsValueType) { fields.Transient.Add(field); }
                         else if (field.FieldType.IsArray) { fields.Arrays.Add(field); }
+                        else if (typeof(Object).IsAssignableFrom(field.FieldType)) { fields.References.Add(field); }
                         else if (!field.FieldType.IsValueType && field.FieldType != typeof(string))
                         {
                             throw new NotSupportedException("no copy is made here of " + type.Name + "." + field.Name);
@@ -165,6 +167,14 @@ namespace UnityEngine
                     throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name);
                 }
                 if (array != null) { field.SetValue(copy, array.Clone()); }
+            }
+            // Unity's copy refers to the copy of what is cloned with it
+            foreach (FieldInfo field in fields.References)
+            {
+                if ((Object)field.GetValue(this) != null)
+                {
+                    throw new NotSupportedException("no copy is made here of " + GetType().Name + "." + field.Name);
+                }
             }
             foreach (FieldInfo field in fields.Transient) { field.SetValue(copy, null); }
             return copy;

@@ -28,6 +28,13 @@ const COLOURS: Record<string, string> = {
   exit_sign: "#00c9a7",
   mirror: "#e6e9ee",
   floor_stain: "#4b3f38",
+  stall_line: "#ffffff",
+  lane_line: "#ffe45c",
+  lane_arrow: "#7dffb2",
+  crossing: "#ffb3f0",
+  hatching: "#ff9d5c",
+  stall_symbol: "#86e0ff",
+  number_plate: "#f7f3c4",
 };
 
 /** Colour of a class, as CSS has it; one that is not known gets a hue of its own by its name. */
@@ -59,9 +66,6 @@ export const OVERHEAD = new Set([
   "exit_sign",
   "light",
 ]);
-
-/** What one walks on. */
-export const GROUND = new Set(["floor", "parking_stall", "ramp", "speed_bump", "stall_number", "floor_stain"]);
 
 /** What keeps light from the floor around it. */
 export const SHADING = new Set(["car", "column", "wall", "obstacle", "charger", "traffic_cone", "barrier", "vehicle_door"]);

@@ -253,7 +253,7 @@ class Viewer {
         change: (on: boolean) => classes("ceiling", on, OVERHEAD),
       });
     if (has(["car"]))
-      rows.push({ id: "cars", name: "Cars", key: "V", on: true, hint: "Parked cars", change: (on: boolean) => classes("cars", on, ["car"]) });
+      rows.push({ id: "cars", name: "Cars", key: "V", on: true, hint: "Parked cars", change: (on: boolean) => classes("cars", on, ["car", "number_plate"]) });
     const { lanes, stalls: plan } = this;
     if (lanes && plan && scene.lanes) {
       rows.push({

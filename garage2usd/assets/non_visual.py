@@ -1,0 +1,81 @@
+"""What materials are to sensors that do not see colours, in the words of SimReady's non-visual materials."""
+
+from typing import NamedTuple
+
+from garage2usd.assets.materials import MATERIALS, Material, Touch
+
+__all__ = ["BASE_OF_TOUCH", "NON_VISUAL", "NonVisual"]
+
+_BARE_METALLIC = 0.5
+
+
+class NonVisual(NamedTuple):
+    """A material to LiDAR, radar and ultrasound.
+
+    Attributes
+    ----------
+    base
+        What it is made of.
+    coating
+        ``none``, ``paint``, ``clearcoat`` or ``paint_clearcoat``.
+    attributes
+        Some of ``emissive``, ``retroreflective`` and ``visually_transparent``, or ``none``.
+    """
+
+    base: str
+    coating: str = "none"
+    attributes: tuple[str, ...] = ("none",)
+
+
+BASE_OF_TOUCH = {
+    Touch.CONCRETE: "concrete",
+    Touch.COATING: "concrete",
+    Touch.RUBBER: "rubber",
+    Touch.STEEL: "steel",
+    Touch.PLASTIC: "plastic",
+}
+"""What has the friction of each touch."""
+_PAINTED = frozenset({Touch.COATING, Touch.STEEL})
+_BASES = {
+    "brass": "brass",
+    "cabinet_glass": "clear_glass",
+    "daylight": "none",
+    "glass": "clear_glass",
+    "hose": "fabric",
+    "lamp_front": "plexiglass",
+    "lamp_rear": "plexiglass",
+    "mirror": "mirror",
+    "number_plate": "aluminum",
+    "rim": "aluminum",
+    "screen_glow": "clear_glass",
+    "sign_blue": "aluminum",
+    "sign_ring": "aluminum",
+    "tube_glow": "plexiglass",
+}
+"""What their touch does not tell; the sky behind doors is made of nothing."""
+_TRANSPARENT = frozenset({"cabinet_glass", "glass"})
+_RETROREFLECTIVE = frozenset({"number_plate", "sign_blue", "sign_ring"})
+_BARE = frozenset({"steel_galvanised"})
+
+
+def _non_visual(key: str, material: Material) -> NonVisual:
+    is_bare = key in _BARE or material.metallic >= _BARE_METALLIC or (key in _BASES and key not in _RETROREFLECTIVE)
+    painted = (material.touch in _PAINTED and not is_bare) or key in _RETROREFLECTIVE
+    is_coated = material.clearcoat > 0 and key not in _TRANSPARENT
+    coating = {
+        (False, False): "none",
+        (True, False): "paint",
+        (False, True): "clearcoat",
+        (True, True): "paint_clearcoat",
+    }
+    said = {
+        "emissive": any(material.emissive_rgb),
+        "retroreflective": key in _RETROREFLECTIVE,
+        "visually_transparent": key in _TRANSPARENT,
+    }
+    attributes = tuple(name for name, applies in said.items() if applies) or ("none",)
+    return NonVisual(_BASES.get(key, BASE_OF_TOUCH[material.touch]), coating[painted, is_coated], attributes)
+
+
+NON_VISUAL = {key: _non_visual(key, material) for key, material in MATERIALS.items()}
+"""Every material's, by its key."""

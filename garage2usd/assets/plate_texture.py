@@ -1,0 +1,81 @@
+"""The texture of all number plates: a cell for each character, one without any, and one with the band on the left."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from garage2usd.assets.glyphs import text_shape
+
+__all__ = ["BAND", "CHARACTERS", "LETTER_SHARE", "SPACE", "bake_plates", "cell_corners"]
+
+CHARACTERS = "0123456789ABCDEFGHJKLMNPRSTUVWXYZ"
+"""Digits and capital letters, less those that are read as digits: I, O and Q."""
+SPACE, BAND = " ", "|"
+"""What stands for a cell without a character, and for that with the band."""
+_COLUMNS, _ROWS = 10, 4
+"""So that the borders of cells are short as decimals, which stages as text hold for each car."""
+_CELL_PX = 96, 160
+"""Width and height of a cell; its share of a plate is as wide for its height."""
+LETTER_SHARE = 0.68
+"""Height of a character in that of a cell, as 75 mm in 110 mm."""
+_BAND_PX = (6, 8, 58, 152)
+"""Left, top, right and bottom of the band; cells are bare along their edges, so that none shines into the next one."""
+_FINER = 8
+_SHEET_RGB, _INK_RGB, _BAND_RGB = (224, 224, 218), (22, 22, 24), (20, 62, 150)
+
+_CELL_OF = {
+    **{character: cell for cell, character in enumerate(CHARACTERS)},
+    SPACE: len(CHARACTERS),
+    BAND: len(CHARACTERS) + 1,
+}
+
+
+def cell_corners(character: str) -> NDArray[np.float64]:
+    """Texture coordinates of the cell of one character: lower left, lower right, upper right, upper left.
+
+    Parameters
+    ----------
+    character
+        One of `CHARACTERS`, `SPACE` or `BAND`.
+
+    Returns
+    -------
+    numpy.ndarray
+        float64, shape (4, 2); V counts from the lower edge of the texture.
+    """
+    row, column = divmod(_CELL_OF[character], _COLUMNS)
+    places = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    corners: NDArray[np.float64] = (places + np.array((column, _ROWS - 1 - row))) / (_COLUMNS, _ROWS)
+    return corners
+
+
+def bake_plates(_rng: np.random.Generator) -> NDArray[np.uint8]:
+    """The texture, which is drawn without any chance; uint8, shape (rows, columns, 3)."""
+    width, height = _CELL_PX
+    pixels = np.full((_ROWS * height, _COLUMNS * width, 3), _SHEET_RGB, dtype=np.uint8)
+    for character, cell in _CELL_OF.items():
+        row, column = divmod(cell, _COLUMNS)
+        window = pixels[row * height : (row + 1) * height, column * width : (column + 1) * width]
+        if character == BAND:
+            left, top, right, bottom = _BAND_PX
+            window[top:bottom, left:right] = _BAND_RGB
+        elif character != SPACE:
+            ink = _ink(character)[:, :, None]
+            window[:] = np.rint(np.array(_SHEET_RGB) * (1 - ink) + np.array(_INK_RGB) * ink).astype(np.uint8)
+    return pixels
+
+
+def _ink(character: str) -> NDArray[np.float64]:
+    """How much of each pixel of its cell a character covers; float64, shape (rows, columns), 0 to 1."""
+    width, height = _CELL_PX
+    canvas = Image.new("L", (width * _FINER, height * _FINER))
+    draw = ImageDraw.Draw(canvas)
+    shape = text_shape(character, LETTER_SHARE * height * _FINER)
+    middle = np.array([width, height]) * _FINER / 2
+    for polygon in getattr(shape, "geoms", [shape]):
+        for ring, value in [(polygon.exterior, 255), *((hole, 0) for hole in polygon.interiors)]:
+            places = np.rint(np.array(ring.coords) + middle).astype(int).tolist()
+            draw.polygon([(x, y) for x, y in places], fill=value)
+    finer = np.asarray(canvas, dtype=np.float64).reshape(height, _FINER, width, _FINER)
+    covered: NDArray[np.float64] = finer.mean(axis=(1, 3)) / 255
+    return covered

@@ -1,0 +1,101 @@
+"""Pieces of many placed meshes at once: one by one they take most of the time of what asks for them."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.checks.shapes import Body, are_upright, outlines_of
+from garage2usd.layout.grounds import Grounds, grounds_of_corners, hulls_around
+
+__all__ = ["PlacedPieces", "lows_m", "placed_pieces"]
+
+_LEAST_CORNERS = 3
+
+
+class PlacedPieces(NamedTuple):
+    """Pieces by their meshes.
+
+    Attributes
+    ----------
+    owner
+        Index of the mesh that each is of, ascending; int64, shape (pieces,).
+    counts
+        How many corners its convex outline has, seen from above; int64, shape (pieces,).
+    corners
+        (x, z) of the corners of one outline after the other, in metres; float64, shape (n, 2).
+    low_m, high_m
+        Its least and greatest height; float64, shape (pieces,).
+    """
+
+    owner: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    corners: NDArray[np.float64]
+    low_m: NDArray[np.float64]
+    high_m: NDArray[np.float64]
+
+    @property
+    def piece(self) -> NDArray[np.int64]:
+        """Number of the piece of each corner; int64, shape (n,)."""
+        return np.repeat(np.arange(len(self.counts)), self.counts)
+
+    @property
+    def have_area(self) -> NDArray[np.bool_]:
+        """Whether each is more than a line or a point; bool, shape (pieces,)."""
+        has_area: NDArray[np.bool_] = self.counts >= _LEAST_CORNERS
+        return has_area
+
+    @property
+    def footprints(self) -> Grounds:
+        """Polygons of the outlines, all of which have an area."""
+        return grounds_of_corners(self.corners, self.piece)
+
+    @property
+    def hulls(self) -> Grounds:
+        """The same, as lines and points where they have none."""
+        return hulls_around(self.corners, self.counts)
+
+    def kept(self, are_kept: NDArray[np.bool_]) -> "PlacedPieces":
+        """Some of them; bool, shape (pieces,)."""
+        corners = self.corners[np.repeat(are_kept, self.counts)]
+        return PlacedPieces(
+            self.owner[are_kept], self.counts[are_kept], corners, self.low_m[are_kept], self.high_m[are_kept]
+        )
+
+
+def lows_m(bodies: Sequence[Body]) -> NDArray[np.float64]:
+    """The least height in the world of each of many meshes; float64, shape (meshes,)."""
+    matrices = _matrices(bodies)
+    lows: NDArray[np.float64] = np.array([body.shape.lowest for body in bodies]) * matrices[:, 1, 1] + matrices[:, 3, 1]
+    for index in np.flatnonzero(~are_upright(matrices)).tolist():
+        lows[index] = bodies[index].low_m()
+    return lows
+
+
+def placed_pieces(bodies: Sequence[Body], are_whole: NDArray[np.bool_]) -> PlacedPieces:
+    """The pieces of many meshes, by mesh and then in the mesh's own order.
+
+    Parameters
+    ----------
+    bodies
+        The meshes.
+    are_whole
+        Which of them count as one piece; bool, shape (meshes,).
+    """
+    matrices = _matrices(bodies)
+    found = [body.shape.outlines(whole=whole) for body, whole in zip(bodies, are_whole.tolist(), strict=True)]
+    for index in np.flatnonzero(~are_upright(matrices)).tolist():
+        found[index] = outlines_of(bodies[index].pieces(whole=bool(are_whole[index])))
+        matrices[index] = np.eye(4)
+    owner = np.repeat(np.arange(len(found)), [len(pieces.counts) for pieces in found])
+    corners, counts, low_m, high_m = (np.concatenate(column) for column in zip(outlines_of([]), *found, strict=True))
+    x, z = corners.T
+    place = matrices[np.repeat(owner, counts)]
+    placed = [x * place[:, 0, axis] + z * place[:, 2, axis] + place[:, 3, axis] for axis in (0, 2)]
+    rise, lift = matrices[owner, 1, 1], matrices[owner, 3, 1]
+    return PlacedPieces(owner, counts, np.stack(placed, axis=1), low_m * rise + lift, high_m * rise + lift)
+
+
+def _matrices(bodies: Sequence[Body]) -> NDArray[np.float64]:
+    return np.array([body.matrix for body in bodies], dtype=np.float64).reshape(-1, 4, 4)

@@ -1,0 +1,50 @@
+"""The data card: the README of a data set, which says what is in it, where it is from and how it is read."""
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import jinja2
+
+from garage2usd.datasets.manifest import ManifestRow
+from garage2usd.datasets.recipe import Recipe, ShardForm
+from garage2usd.version import VERSION
+
+__all__ = ["data_card"]
+
+_TEMPLATE = jinja2.Template(
+    Path(__file__).with_name("card.md.jinja").read_text(encoding="utf-8"),
+    keep_trailing_newline=True,
+    autoescape=False,
+)
+
+
+def data_card(recipe: Recipe, rows: Sequence[ManifestRow]) -> str:
+    """The data card of a data set, Markdown."""
+    made = [row for row in rows if not row.error]
+    splits = [
+        {
+            "name": split,
+            "garages": sum(row.split == split for row in made),
+            "stalls": sum(row.stalls for row in made if row.split == split),
+            "cars": sum(row.cars for row in made if row.split == split),
+            "shards": len({row.shard for row in made if row.split == split}),
+        }
+        for split in recipe.splits
+    ]
+    suffixes = Counter(file.suffix for row in made for file in row.files)
+    first = next((row for row in made), None)
+    text: str = _TEMPLATE.render(
+        recipe=recipe,
+        version=VERSION,
+        rows=made,
+        stalls=sum(row.stalls for row in made),
+        failed=len(rows) - len(made),
+        splits=splits,
+        is_tar=recipe.shards.form is ShardForm.TAR,
+        suffixes=sorted(suffixes),
+        first=first.split if first else "",
+        example=first.key if first else "",
+        stage_suffix=".usdz" if recipe.make.self_contained else ".usdc",
+    )
+    return text

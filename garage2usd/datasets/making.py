@@ -1,0 +1,235 @@
+"""A data set made: plans first, then shards, then what tells of them; interrupted at any time, it goes on."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from garage2usd.datasets.card import data_card
+from garage2usd.datasets.cluster import Workers, workers
+from garage2usd.datasets.contour import contour_shape
+from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
+from garage2usd.datasets.page import write_page
+from garage2usd.datasets.plans import DrawnPlan, PlanDraw, chunks, plan_table, planned, plans_of
+from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
+from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
+from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
+from garage2usd.datasets.variety import PlanFigures
+from garage2usd.errors import ConfigError
+from garage2usd.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
+from garage2usd.progress import Progress, silent
+from garage2usd.version import VERSION
+
+__all__ = ["DataSet", "make_dataset"]
+
+PLAN_FILE, TABLE_FILE, LINES_FILE, CARD_FILE = "plans.parquet", "manifest.parquet", "manifest.jsonl", "README.md"
+PAGE_FILE = "variety.html"
+_JOURNAL = f"{HIDDEN_PREFIX}plans.jsonl"
+
+
+@dataclass(frozen=True)
+class DataSet:
+    """A data set that was made.
+
+    Attributes
+    ----------
+    folder
+        Where it is.
+    rows
+        A row a garage, by number; those that could not be made have an error.
+    """
+
+    folder: Path
+    rows: tuple[ManifestRow, ...]
+
+    @property
+    def failed(self) -> tuple[ManifestRow, ...]:
+        """The garages that could not be made."""
+        return tuple(row for row in self.rows if row.error)
+
+    def counts(self) -> dict[str, int]:
+        """How many garages each split has."""
+        return dict(Counter(row.split for row in self.rows if not row.error))
+
+
+def make_dataset(
+    recipe: Recipe,
+    folder: str | Path,
+    *,
+    worker_count: int | None = None,
+    scheduler: str | None = None,
+    resume: bool = False,
+    progress: Progress = silent,
+) -> DataSet:
+    """Make the garages of a recipe, on many processes.
+
+    The bytes are the same with any number of workers, and however often it was interrupted.
+
+    Parameters
+    ----------
+    recipe
+        What is made.
+    folder
+        Where it goes: a new or empty folder; or with `resume` that of a run of this recipe that was interrupted, or
+        whose files were damaged since, which are made again.
+    worker_count
+        How many processes are started on this machine; left out, one a core.
+    scheduler
+        Address of a Dask scheduler whose workers do the work instead; they see the folder under the same path.
+    resume
+        Whether to go on where a run of this recipe ended.
+    progress
+        Called with how many garages are planned, then made.
+
+    Raises
+    ------
+    ConfigError
+        If the folder holds something else, no garage is possible by the recipe, or the scheduler cannot be used.
+    OutputError
+        If files cannot be written, as where the disk is full; what was made until then stays for `resume`.
+    """
+    folder = Path(folder).absolute()
+    recipe.check()
+    check_writable(folder)
+    _begin(recipe, folder, resume=resume)
+    with only_run(folder):
+        sweep(folder)
+        return _make(recipe, folder, worker_count, scheduler, progress)
+
+
+def _make(recipe: Recipe, folder: Path, worker_count: int | None, scheduler: str | None, progress: Progress) -> DataSet:
+    with workers(count=worker_count, scheduler=scheduler) as pool:
+        plans = _plans(recipe, folder, pool, progress)
+        shards = shards_of(recipe, plans)
+        rows = _made(recipe, folder, pool, shards, progress)
+    rows += [failed_row(drawn, drawn.error) for drawn in plans if drawn.error]
+    rows.sort(key=lambda row: row.number)
+    sweep(folder)  # what workers that were killed left
+    with writing(folder):
+        _finish(recipe, folder, plans, rows)
+    return DataSet(folder, tuple(rows))
+
+
+def _begin(recipe: Recipe, folder: Path, *, resume: bool) -> None:
+    """Claim a folder for a recipe, or find out that it is this recipe's."""
+    note = folder / RECIPE_FILE
+    with writing(folder):
+        is_new = not folder.exists() or not any(folder.iterdir())
+        if is_new:
+            folder.mkdir(parents=True, exist_ok=True)
+            store(note, recipe.record().encode())
+            return
+        known = note.read_text(encoding="utf-8") if note.is_file() else ""
+    if known != recipe.record():
+        held = "the data set of another recipe or version" if known else "other files"
+        raise ConfigError("output", str(folder), f"a new or empty folder, as this one holds {held}")
+    if not resume:
+        raise ConfigError("output", str(folder), "a new or empty folder, or resume, as this recipe was begun there")
+
+
+def _plans(recipe: Recipe, folder: Path, pool: Workers, progress: Progress) -> list[DrawnPlan]:
+    """The plan of each garage, drawn or read."""
+    file, journal = folder / PLAN_FILE, folder / _JOURNAL
+    with suppress(OSError, ValueError, pa.ArrowException):
+        if read_sums(folder).get(PLAN_FILE, known := sha256_of(file)) != known:
+            raise ValueError(f"{PLAN_FILE} was damaged")
+        plans = plans_of(pq.read_table(file))
+        if [drawn.number for drawn in plans] == list(range(recipe.count)):
+            return plans
+    draw = PlanDraw(recipe, _journalled(journal))
+    with writing(journal), journal.open("a", encoding="utf-8") as lines:
+        while asked := draw.asked():
+            left = len(asked)
+            progress("plans", recipe.count - left, recipe.count)
+            for part, made in pool.each(planned, chunks(asked), recipe):
+                draw.add(made)
+                lines.write("".join(f"{drawn.model_dump_json()}\n" for drawn in made))
+                lines.flush()
+                left -= len(part)
+                progress("plans", recipe.count - left, recipe.count)
+    plans = draw.plans()
+    store(file, table_bytes(plan_table(plans)))
+    return plans
+
+
+def _journalled(journal: Path) -> Iterator[DrawnPlan]:
+    """What an interrupted run drew; a line that was cut off is left aside."""
+    if not journal.is_file():
+        return
+    for line in journal.read_text(encoding="utf-8", errors="replace").splitlines():
+        with suppress(ValueError):
+            yield DrawnPlan.model_validate_json(line)
+
+
+def _made(
+    recipe: Recipe, folder: Path, pool: Workers, shards: Sequence[Shard], progress: Progress
+) -> list[ManifestRow]:
+    """The rows of all garages that have a plan; shards that are not there whole are made."""
+    total = sum(len(shard.plans) for shard in shards)
+    rows: dict[str, list[ManifestRow]] = {}
+    for shard in shards:
+        there = made_rows(folder, shard, recipe.shards.form)
+        if there is not None:
+            rows[shard.name] = there
+    done = sum(map(len, rows.values()))
+    progress("garages", done, total)
+    damaged = damaged_assets(folder)
+    missing = [shard for shard in shards if shard.name not in rows]
+    for shard, made in _each(recipe, folder, pool, missing):
+        rows[shard.name] = made
+        done += len(made)
+        progress("garages", done, total)
+    # what is left of the damaged assets is made again with the garages that refer to them
+    for shard in shards:
+        if all((folder / name).exists() for name in damaged):
+            break
+        for _ in _each(recipe, folder, pool, [shard]):
+            pass
+    return [row for made in rows.values() for row in made]
+
+
+def _each(
+    recipe: Recipe, folder: Path, pool: Workers, shards: Sequence[Shard]
+) -> Iterator[tuple[Shard, list[ManifestRow]]]:
+    return pool.each(make_shard, shards, recipe, folder)
+
+
+def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
+    cells = drawn.structure.cells
+    return PlanFigures(
+        key=f"{row.number:08}",
+        split=row.split,
+        cells=cells,
+        stalls=row.stalls,
+        loops=row.loops,
+        longest_dead_end_m=row.longest_dead_end_m,
+        area_per_stall_m2=row.area_per_stall_m2,
+        contour=contour_shape(cells),
+        level=Level(row.difficulty) if row.difficulty else None,
+    )
+
+
+def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequence[ManifestRow]) -> None:
+    """Write what tells of the whole; the sums last, as they say that it is whole."""
+    store(folder / PLAN_FILE, table_bytes(plan_table(plans)))
+    store(folder / TABLE_FILE, table_bytes(manifest_table(rows)))
+    store(folder / LINES_FILE, text_of_rows(rows).encode())
+    splits = list(recipe.splits)
+    figures = [_plan_figures(row, drawn) for row, drawn in zip(rows, plans, strict=True) if not row.error]
+    page = folder / f"{HIDDEN_PREFIX}{PAGE_FILE}"
+    write_page(
+        page,
+        sorted(figures, key=lambda plan: splits.index(plan.split)),
+        title=recipe.name,
+        facts={"recipe": RECIPE_FILE, "seed": str(recipe.seed), "garage2usd": VERSION},
+    )
+    page.replace(folder / PAGE_FILE)
+    store(folder / CARD_FILE, data_card(recipe, rows).encode())
+    store(folder / SUMS_FILE, sums_text(folder).encode())
+    with suppress(FileNotFoundError):
+        (folder / _JOURNAL).unlink()

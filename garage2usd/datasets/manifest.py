@@ -1,0 +1,150 @@
+"""The manifest of a data set: a row a garage, with what it is, what it has, and its files with their digests."""
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from garage2usd.settings import Record
+
+__all__ = [
+    "MANIFEST_SCHEMA",
+    "FileEntry",
+    "ManifestRow",
+    "manifest_table",
+    "rows_of_text",
+    "table_bytes",
+    "text_of_rows",
+]
+
+
+class FileEntry(Record):
+    """A file of a garage: what its name ends in after the garage's key, its size, and its SHA-256."""
+
+    suffix: str
+    bytes: int
+    sha256: str
+
+
+class ManifestRow(Record):
+    """A garage of a data set.
+
+    Attributes
+    ----------
+    number
+        From 0 on.
+    key
+        What the names of its files begin with: ``train-000003/00000312``; empty where there is none.
+    split, shard
+        Where it is: ``train``, ``train-000003``.
+    seed, attempt
+        By which it was drawn.
+    alternatives
+        Name of the alternative of each group of the recipe.
+    config_digest, structure_digest
+        As its report has them.
+    plan_digest
+        Of its plan in squares, the same if it is turned or mirrored.
+    rows, cols
+        Of S.
+    squares
+        How many are inside.
+    stalls, standard_stalls, ev_stalls, accessible_stalls, cars
+        How many.
+    loops, longest_dead_end_m, area_per_stall_m2, stair_cores, mean_lux
+        As its report has them.
+    difficulty, difficulty_score
+        Of the garage (`garage2usd.datasets.difficulty`); empty and -1 where it was not asked for or no stall is proven.
+    normal_stalls, complex_stalls, extreme_stalls, unproven_stalls
+        How many stalls that take cars are of each level, or have no proven way; 0 where it was not asked for.
+    check_errors, check_warnings
+        Findings of the rules that `garage2usd build` runs.
+    files
+        Its files.
+    error
+        Why there is no garage; empty where there is one.
+    """
+
+    number: int
+    key: str
+    split: str
+    shard: str
+    seed: int
+    attempt: int
+    alternatives: dict[str, str]
+    config_digest: str = ""
+    structure_digest: str = ""
+    plan_digest: str = ""
+    rows: int = 0
+    cols: int = 0
+    squares: int = 0
+    stalls: int = 0
+    standard_stalls: int = 0
+    ev_stalls: int = 0
+    accessible_stalls: int = 0
+    cars: int = 0
+    loops: int = 0
+    longest_dead_end_m: float = 0.0
+    area_per_stall_m2: float = 0.0
+    stair_cores: int = 0
+    mean_lux: float = 0.0
+    difficulty: str = ""
+    difficulty_score: float = -1.0
+    normal_stalls: int = 0
+    complex_stalls: int = 0
+    extreme_stalls: int = 0
+    unproven_stalls: int = 0
+    check_errors: int = 0
+    check_warnings: int = 0
+    files: tuple[FileEntry, ...] = ()
+    error: str = ""
+
+
+_FILE = pa.struct([("suffix", pa.string()), ("bytes", pa.int64()), ("sha256", pa.string())])
+_TYPES: dict[Any, pa.DataType] = {int: pa.int64(), float: pa.float64(), str: pa.string()}
+_NESTED = {"alternatives": pa.string(), "files": pa.list_(_FILE)}
+MANIFEST_SCHEMA = pa.schema(
+    [
+        pa.field(name, _NESTED.get(name) or _TYPES[field.annotation], nullable=False)
+        for name, field in ManifestRow.model_fields.items()
+    ]
+)
+"""The columns of ``manifest.parquet``: those of `ManifestRow`, ``alternatives`` as JSON, none of them null."""
+
+
+def manifest_table(rows: Sequence[ManifestRow]) -> pa.Table:
+    """Rows as a table."""
+    return pa.Table.from_pylist([_flat(row) for row in rows], schema=MANIFEST_SCHEMA)
+
+
+def rows_of_table(table: pa.Table) -> list[ManifestRow]:
+    """The rows of a table."""
+    return [_row(row) for row in table.to_pylist()]
+
+
+def text_of_rows(rows: Iterable[ManifestRow]) -> str:
+    """Rows as JSON lines, with the columns of the table."""
+    return "".join(json.dumps(_flat(row), separators=(",", ":")) + "\n" for row in rows)
+
+
+def rows_of_text(text: str) -> list[ManifestRow]:
+    """The rows of JSON lines; raises ValueError for what are none."""
+    return [_row(json.loads(line)) for line in text.splitlines()]
+
+
+def table_bytes(table: pa.Table) -> bytes:
+    """A table as Parquet, the same bytes each time."""
+    sink = pa.BufferOutputStream()
+    pq.write_table(table, sink, compression="zstd")
+    return bytes(sink.getvalue())
+
+
+def _row(values: dict[str, Any]) -> ManifestRow:
+    return ManifestRow.model_validate({**values, "alternatives": json.loads(values["alternatives"])})
+
+
+def _flat(row: ManifestRow) -> dict[str, Any]:
+    values = row.model_dump(mode="json")
+    return {**values, "alternatives": json.dumps(values["alternatives"], sort_keys=True, separators=(",", ":"))}

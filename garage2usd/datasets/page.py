@@ -1,0 +1,147 @@
+"""The page of a data set: what its plans look like and how much they differ, in one file that opens offline."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.datasets.charts import bars, histogram, split_colours
+from garage2usd.datasets.contour import ContourShape
+from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
+from garage2usd.errors import MissingExtraError
+from garage2usd.structure.symmetry import cropped_cells
+from garage2usd.view.drawing import Colour
+from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail
+from garage2usd.view.svg import to_svg
+
+try:
+    from jinja2 import Environment, StrictUndefined
+    from markupsafe import Markup
+except ModuleNotFoundError as error:
+    raise MissingExtraError("the page of a data set", "dataset", "Jinja2") from error
+
+__all__ = ["write_page"]
+
+_TEMPLATE = Path(__file__).with_name("page.html.jinja")
+_MOST_DRAWN = 200
+_THUMBNAIL_WORDS = {
+    "stalls": "free beside a lane: stalls",
+    "lane": "lane",
+    "dead_end": "lane of a dead end",
+    "entrance": "entrance",
+    "exit": "exit",
+    "free": "free",
+    "obstacle": "obstacle",
+}
+
+
+def write_page(
+    path: Path,
+    plans: Sequence[PlanFigures],
+    *,
+    title: str = "Data set of parking garages",
+    facts: Mapping[str, str] | None = None,
+    most_drawn: int = _MOST_DRAWN,
+) -> Variety:
+    """Write the page of a set of plans.
+
+    Parameters
+    ----------
+    path
+        The HTML file.
+    plans
+        The plans, in the order in which they are drawn.
+    title
+        What the page is headed with.
+    facts
+        What else is said under the title, by name: the seed, say, or a version.
+    most_drawn
+        How many plans are drawn at most, evenly spread over all of them.
+
+    Returns
+    -------
+    Variety
+        The figures on the page.
+
+    Notes
+    -----
+    The page needs nothing but itself. The same plans give the same bytes, with the same version of matplotlib.
+    """
+    variety = Variety(plans)
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(_TEMPLATE.read_text(encoding="utf-8"))
+    text = template.render(
+        title=title,
+        facts=facts or {},
+        variety=variety,
+        colours=split_colours(variety.splits),
+        median=_median(variety.values("nearest_share")),
+        spreads={words: _columns(variety, figure) for figure, words in FIGURES.items()},
+        kinds=_kinds(variety),
+        charts=_charts(variety),
+        legend=[(_THUMBNAIL_WORDS[kind], kind) for kind in THUMBNAIL_COLOURS],
+        fills={kind: _css(colour) for kind, colour in THUMBNAIL_COLOURS.items()},
+        plans=[(plan, _thumbnail(plan)) for plan in _evenly(variety.plans, most_drawn)],
+        number=_number,
+    )
+    path.write_text(text, encoding="utf-8", newline="\n")
+    return variety
+
+
+def _evenly(plans: Sequence[PlanFigures], most: int) -> list[PlanFigures]:
+    """At most so many plans, evenly spread, the first and the last one among them."""
+    count = min(len(plans), most)
+    return [plans[place] for place in np.linspace(0, len(plans) - 1, count).round().astype(int).tolist()]
+
+
+def _columns(variety: Variety, figure: str) -> list[Spread]:
+    """The spread of a figure over all plans and over those of each split."""
+    return [variety.spread(figure, split=split) for split in (None, *variety.splits)]
+
+
+def _kinds(variety: Variety) -> dict[str, dict[str, list[int]]]:
+    """How many plans are of each shape of contour and level of difficulty: in all, and in each split."""
+    splits = (None, *variety.splits)
+    contours = [variety.contours(split=split) for split in splits]
+    levels = [variety.levels(split=split) for split in splits]
+    kinds = {"Contour": {str(shape): [found[shape] for found in contours] for shape in ContourShape}}
+    if any(levels[0].values()):
+        kinds["Difficulty"] = {str(level): [found[level] for found in levels] for level in Level}
+    return kinds
+
+
+def _charts(variety: Variety) -> list[Markup]:
+    histograms = [
+        histogram({split: variety.values(figure, split=split) for split in variety.splits}, words)
+        for figure, words in FIGURES.items()
+    ]
+    for name, count in (("Shape of the contour", variety.contours), ("Difficulty of the garage", variety.levels)):
+        found = {split: {str(kind): many for kind, many in count(split=split).items()} for split in variety.splits}
+        if any(many for kinds in found.values() for many in kinds.values()):
+            histograms.append(bars(found, name))
+    return [Markup(chart) for chart in histograms]  # noqa: S704 - matplotlib has escaped what it was given
+
+
+def _thumbnail(plan: PlanFigures) -> Markup:
+    cells = cropped_cells(plan.cells)
+    rows, cols = cells.shape
+    title = f"{plan.key}: {rows} x {cols} squares, {plan.stalls} stalls, {plan.area_per_stall_m2:.1f} m2 a stall"
+    return Markup(to_svg(draw_thumbnail(cells, title)))  # noqa: S704 - ElementTree has escaped the key
+
+
+def _median(values: NDArray[np.float64]) -> float | None:
+    return float(np.median(values)) if values.size else None
+
+
+def _css(colour: Colour) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*colour)
+
+
+def _number(value: Any) -> str:  # noqa: ANN401 - whatever the template has
+    """A figure as people read it: whole, with a decimal, or a dash where there is none."""
+    if value is None:
+        return "\N{EN DASH}"
+    return f"{value:,.0f}" if float(value).is_integer() else f"{value:,.1f}"

@@ -1,0 +1,271 @@
+"""Plans of a data set: drawn first, compared turned and mirrored, and drawn again where one is there already."""
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
+
+import numpy as np
+import pyarrow as pa
+from pydantic import Field
+
+from garage2usd.config import GarageConfig
+from garage2usd.datasets.difficulty import Level, garage_difficulty, stall_difficulties
+from garage2usd.datasets.recipe import Distinct, Recipe
+from garage2usd.errors import ConfigError, Garage2UsdError
+from garage2usd.pipeline import generate, generate_plan
+from garage2usd.planning import Plan, evaluate
+from garage2usd.reading.report import LearningFigures
+from garage2usd.report import learning_figures
+from garage2usd.settings import Record
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.symmetry import plan_digest
+
+__all__ = ["DrawnPlan", "PlanDraw", "chunks", "plan_table", "planned", "plans_of", "proportional", "replanned", "said"]
+
+Key = TypeVar("Key")
+
+_CHUNK = 8
+_SAME = 1e-9
+
+
+class DrawnPlan(Record):
+    """A plan of a data set, or why there is none.
+
+    Attributes
+    ----------
+    number, attempt
+        Which garage it is of, from 0 on, and the how manieth draw, from 0 on.
+    seed
+        The garage's, by which its settings are drawn too.
+    alternatives
+        Name of the alternative of each group of the recipe.
+    rows
+        S with lanes, a string of symbols a row (see `garage2usd.structure.grid.Cell`); none where drawing failed.
+    column_widths_mm, row_depths_mm
+        R and C.
+    digest
+        Of S, the same if it is turned or mirrored (`garage2usd.structure.symmetry.plan_digest`).
+    gave_way
+        The rules of circulation that the plan breaks though they are asked for, and where.
+    learning
+        What learning alone found.
+    level
+        How difficult the garage is, where the recipe asks for levels; else None.
+    error
+        Why there is no garage; empty where there is one.
+    """
+
+    number: int
+    attempt: int
+    seed: int
+    alternatives: dict[str, str] = Field(default_factory=dict)
+    rows: tuple[str, ...] = ()
+    column_widths_mm: tuple[int, ...] = ()
+    row_depths_mm: tuple[int, ...] = ()
+    digest: str = ""
+    gave_way: dict[str, str] = Field(default_factory=dict)
+    learning: LearningFigures | None = None
+    level: Level | None = None
+    error: str = ""
+
+    @property
+    def structure(self) -> Structure:
+        """S, R and C."""
+        cells = cells_from_text("\n".join(self.rows), field="S")
+        return Structure(cells, np.array(self.column_widths_mm), np.array(self.row_depths_mm))
+
+
+def planned(recipe: Recipe, asked: Sequence[tuple[int, int]]) -> list[DrawnPlan]:
+    """Draw the settings of garages and plan their lanes.
+
+    Parameters
+    ----------
+    recipe
+        The recipe.
+    asked
+        (number, attempt) of each.
+    """
+    return [_planned(recipe, number, attempt) for number, attempt in asked]
+
+
+def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
+    seed = recipe.garage_seed(number, attempt)
+    try:
+        config, alternatives = recipe.drawn(seed)
+        plan = generate_plan(config)
+        level = _level(config, plan) if recipe.difficulty else None
+    except OSError:  # of the machine, and not of this garage
+        raise
+    except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
+        return DrawnPlan(number=number, attempt=attempt, seed=seed, error=said(error))
+    structure = plan.structure
+    return DrawnPlan(
+        number=number,
+        attempt=attempt,
+        seed=seed,
+        alternatives=alternatives,
+        rows=tuple(str(structure).splitlines()),
+        column_widths_mm=tuple(structure.column_widths_mm.tolist()),
+        row_depths_mm=tuple(structure.row_depths_mm.tolist()),
+        digest=plan_digest(structure.cells),
+        gave_way=dict(plan.gave_way),
+        learning=learning_figures(plan, config),
+        level=level,
+    )
+
+
+def _level(config: GarageConfig, plan: Plan) -> Level | None:
+    return garage_difficulty(stall_difficulties(generate(config, plan=plan))).level
+
+
+def said(error: Exception) -> str:
+    """An error in one line."""
+    text = " ".join(str(error).split())
+    return text if isinstance(error, Garage2UsdError) else f"{type(error).__name__}: {text}"
+
+
+def replanned(drawn: DrawnPlan, config: GarageConfig) -> Plan:
+    """The plan itself, without what learning met on the way."""
+    structure = drawn.structure
+    return Plan(structure, evaluate(structure, bay=config.bay, plan=config.plan), gave_way=drawn.gave_way)
+
+
+class PlanDraw:
+    """Which plans a data set takes: each garage draws until it has one that no garage before it has.
+
+    Of two garages that draw one plan at the same attempt the one with the lesser number keeps it, and one that was
+    taken at an earlier attempt stays, so that the outcome is the same in whatever order plans are made.
+
+    Parameters
+    ----------
+    recipe
+        The recipe.
+    known
+        What was drawn before, in a run that was interrupted.
+    """
+
+    def __init__(self, recipe: Recipe, known: Iterable[DrawnPlan] = ()) -> None:
+        self._recipe = recipe
+        self._found = {(drawn.number, drawn.attempt): drawn for drawn in known}
+        self._taken: dict[int, DrawnPlan] = {}
+        self._digests: set[str] = set()
+        self._pending = list(range(recipe.count))
+        self._room = proportional(recipe.difficulty, recipe.count)
+        self._attempt = 0
+
+    def add(self, drawn: Iterable[DrawnPlan]) -> None:
+        """Note what was drawn."""
+        self._found.update(((each.number, each.attempt), each) for each in drawn)
+
+    def asked(self) -> list[tuple[int, int]]:
+        """(number, attempt) of what is to be drawn next; empty when all garages have a plan or no attempt is left.
+
+        Raises
+        ------
+        ConfigError
+            If no garage at all could be drawn.
+        """
+        while self._pending and self._attempt < self._recipe.attempts:
+            asked = [(number, self._attempt) for number in self._pending]
+            missing = [each for each in asked if each not in self._found]
+            if missing:
+                return missing
+            self._pending = [number for number, attempt in asked if not self._takes(self._found[number, attempt])]
+            self._attempt += 1
+        missing_levels = {level: count for level, count in self._room.items() if count}
+        if missing_levels and any(not self._found[number, self._attempt - 1].error for number in self._pending):
+            wanted = proportional(self._recipe.difficulty, self._recipe.count)
+            said = ", ".join(f"{count} of {wanted[level]} {level}" for level, count in missing_levels.items())
+            allowed = f"shares that its garages reach in {self._recipe.attempts} attempts each; not found were {said}"
+            raise ConfigError("difficulty", dict(self._recipe.difficulty), allowed)
+        if not self._taken:
+            raise ConfigError(
+                "garage", self._why(0), f"settings by which one of {self._recipe.count} garages is possible"
+            )
+        return []
+
+    def plans(self) -> list[DrawnPlan]:
+        """One of each garage, by number; with an error where its attempts were used up."""
+        return [
+            self._taken.get(number)
+            or DrawnPlan(
+                number=number,
+                attempt=self._recipe.attempts - 1,
+                seed=self._recipe.garage_seed(number, self._recipe.attempts - 1),
+                error=f"{self._why(number)} ({self._recipe.attempts} attempts)",
+            )
+            for number in range(self._recipe.count)
+        ]
+
+    def _takes(self, drawn: DrawnPlan) -> bool:
+        is_there = self._recipe.distinct is Distinct.PLAN and drawn.digest in self._digests
+        if drawn.error or is_there:
+            return False
+        if self._room:
+            if drawn.level is None or not self._room.get(drawn.level):
+                return False
+            self._room[drawn.level] -= 1
+        self._taken[drawn.number] = drawn
+        self._digests.add(drawn.digest)
+        return True
+
+    def _why(self, number: int) -> str:
+        """What was wrong with a garage at the last attempt."""
+        return self._found[number, self._recipe.attempts - 1].error or "its plans are those of other garages"
+
+
+def proportional(ratios: Mapping[Key, float], total: int) -> dict[Key, int]:
+    """Whole numbers in these ratios that add up to a total, by the method of largest remainders (Hamilton)."""
+    if not ratios:
+        return {}
+    shares = np.array(list(ratios.values())) / sum(ratios.values()) * total
+    counts = np.floor(shares + _SAME).astype(np.int64)
+    left = np.argsort(-(shares - counts), kind="stable")[: total - int(counts.sum())]
+    counts[left] += 1
+    return dict(zip(ratios, counts.tolist(), strict=True))
+
+
+def chunks(asked: Sequence[tuple[int, int]]) -> list[Sequence[tuple[int, int]]]:
+    """What is planned at once: seconds, which is little where a worker is lost."""
+    return [asked[first : first + _CHUNK] for first in range(0, len(asked), _CHUNK)]
+
+
+_SCHEMA = pa.schema(
+    [
+        pa.field("number", pa.int64(), nullable=False),
+        pa.field("attempt", pa.int32(), nullable=False),
+        pa.field("seed", pa.int64(), nullable=False),
+        pa.field("alternatives", pa.map_(pa.string(), pa.string()), nullable=False),
+        pa.field("rows", pa.list_(pa.string()), nullable=False),
+        pa.field("column_widths_mm", pa.list_(pa.int32()), nullable=False),
+        pa.field("row_depths_mm", pa.list_(pa.int32()), nullable=False),
+        pa.field("digest", pa.string(), nullable=False),
+        pa.field("gave_way", pa.map_(pa.string(), pa.string()), nullable=False),
+        pa.field("learning", pa.string(), nullable=False),
+        pa.field("level", pa.string(), nullable=True),
+        pa.field("error", pa.string(), nullable=False),
+    ]
+)
+
+
+def plan_table(plans: Sequence[DrawnPlan]) -> pa.Table:
+    """Plans as a table, from which `plans_of` reads them again; what learning found is JSON in it."""
+    rows = []
+    for drawn in plans:
+        row = drawn.model_dump(mode="json")
+        for name in ("alternatives", "gave_way"):
+            row[name] = sorted(row[name].items())
+        row["learning"] = "" if drawn.learning is None else drawn.learning.model_dump_json()
+        rows.append(row)
+    return pa.Table.from_pylist(rows, schema=_SCHEMA)
+
+
+def plans_of(table: pa.Table) -> list[DrawnPlan]:
+    """The plans of a table."""
+    plans = []
+    for row in table.to_pylist():
+        for name in ("alternatives", "gave_way"):
+            row[name] = dict(row[name])
+        row["learning"] = json.loads(row["learning"]) if row["learning"] else None
+        plans.append(DrawnPlan.model_validate(row))
+    return plans

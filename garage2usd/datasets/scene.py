@@ -1,0 +1,167 @@
+"""One garage of a data set as files beside each other, whose names begin with its number."""
+
+import gzip
+import hashlib
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+
+from garage2usd.checks import Severity, check_layout
+from garage2usd.datasets.difficulty import garage_difficulty, stall_difficulties
+from garage2usd.datasets.manifest import FileEntry, ManifestRow
+from garage2usd.datasets.plans import DrawnPlan, replanned
+from garage2usd.datasets.recipe import MakeConfig, Recipe
+from garage2usd.exports import export
+from garage2usd.layout import StallUse
+from garage2usd.output import json_text
+from garage2usd.pipeline import Garage, generate, stage_metadata
+from garage2usd.planning import measured_circulation
+from garage2usd.reading.report import Report
+from garage2usd.report import make_report, write_report
+from garage2usd.stage import StageFormat, arrangement_of, write_labels, write_stage
+from garage2usd.view.plan_picture import draw_plan
+from garage2usd.view.raster import to_image, write_png
+
+__all__ = ["key_of", "make_scene"]
+
+_DIGITS = 8
+_TEXTS = {".json", ".osm", ".xodr", ".xosc", ".yaml"}
+
+
+def key_of(shard: str, number: int) -> str:
+    """What the paths of a garage's files begin with, within the folder of shards."""
+    return f"{shard}/{number:0{_DIGITS}}"
+
+
+def make_scene(
+    recipe: Recipe, drawn: DrawnPlan, folder: Path, *, split: str, shard: str, assets: Path | None
+) -> ManifestRow:
+    """Make a garage's files.
+
+    Parameters
+    ----------
+    recipe
+        What is made.
+    drawn
+        Its plan.
+    folder
+        An existing folder, as deep in the data set as the one in which the files will stand.
+    split, shard
+        Where it goes.
+    assets
+        Folder of the assets that all stages share; None where each is self-contained.
+
+    Returns
+    -------
+    ManifestRow
+        Its row in the manifest.
+
+    Raises
+    ------
+    Garage2UsdError
+        If it cannot be made.
+    """
+    config, alternatives = recipe.drawn(drawn.seed)
+    garage = generate(config, plan=replanned(drawn, config))
+    stem = f"{drawn.number:0{_DIGITS}}"
+    report = make_report(
+        config=config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds={}, learning=drawn.learning
+    )
+    write_report(folder / f"{stem}.report.json", report)
+    _write_files(garage, folder, stem, recipe.make, assets)
+    difficulty = _difficulty(garage, folder / f"{stem}.difficulty.json", recipe.make)
+    if recipe.make.gzip:
+        _compress(folder, stem)
+    findings = Counter(finding.severity for finding in check_layout(garage.layout, garage.graph, config))
+    return ManifestRow(
+        number=drawn.number,
+        key=key_of(shard, drawn.number),
+        split=split,
+        shard=shard,
+        seed=drawn.seed,
+        attempt=drawn.attempt,
+        alternatives=alternatives,
+        plan_digest=drawn.digest,
+        check_errors=findings[Severity.ERROR],
+        check_warnings=findings[Severity.WARNING],
+        **difficulty,
+        files=tuple(_entry(path, stem) for path in sorted(folder.glob(f"{stem}.*"))),
+        **_figures(garage, report),
+    )
+
+
+def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> None:
+    arrangement = arrangement_of(garage.layout, garage.config.stage)
+    if make.stage:
+        suffix = StageFormat.USDZ if make.self_contained else StageFormat.USDC
+        stage = write_stage(
+            garage.layout,
+            garage.graph,
+            folder / f"{stem}{suffix}",
+            arrangement=arrangement,
+            metadata=stage_metadata(garage),
+            config=garage.config.stage,
+            shared=assets,
+            own=f"{stem}.",
+        )
+        if make.exports:
+            export(stage.stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps)
+    if make.labels:
+        write_labels(garage.layout, folder / f"{stem}.labels.json", arrangement=arrangement)
+    if make.plan:
+        write_png(to_image(draw_plan(garage.layout, garage.graph)), folder / f"{stem}.plan.png")
+
+
+def _difficulty(garage: Garage, path: Path, make: MakeConfig) -> dict[str, str | int | float]:
+    """What the manifest says of the difficulty of a garage, whose stalls have theirs in a file."""
+    if not make.difficulty:
+        return {}
+    stalls = stall_difficulties(garage)
+    table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
+    path.write_text(json_text({"stalls": table}), encoding="utf-8")
+    found = garage_difficulty(stalls)
+    return {
+        "difficulty": str(found.level or ""),
+        "difficulty_score": -1.0 if found.score is None else found.score,
+        "normal_stalls": found.normal,
+        "complex_stalls": found.complex,
+        "extreme_stalls": found.extreme,
+        "unproven_stalls": found.unproven,
+    }
+
+
+def _figures(garage: Garage, report: Report) -> dict[str, str | int | float]:
+    layout, uses = garage.layout, Counter(stall.use for stall in garage.layout.stalls)
+    counts = layout.counts()
+    circulation = measured_circulation(layout.structure)
+    light = layout.illuminance
+    return {
+        "config_digest": report.config_digest,
+        "structure_digest": report.structure_digest,
+        "rows": layout.structure.shape[0],
+        "cols": layout.structure.shape[1],
+        "squares": counts["floor"],
+        "stalls": len(layout.stalls),
+        "standard_stalls": uses[StallUse.STANDARD],
+        "ev_stalls": uses[StallUse.EV],
+        "accessible_stalls": uses[StallUse.ACCESSIBLE],
+        "cars": counts["car"],
+        "loops": circulation.circulation.loops,
+        "longest_dead_end_m": circulation.dead_end_m,
+        "area_per_stall_m2": round(layout.area_per_stall_m2, 3),
+        "stair_cores": len(layout.cores),
+        "mean_lux": light.stalls.mean if light and light.stalls else 0.0,
+    }
+
+
+def _compress(folder: Path, stem: str) -> None:
+    """Compress a garage's files of text, the same bytes each time."""
+    for path in sorted(folder.glob(f"{stem}.*")):
+        if path.suffix in _TEXTS:
+            path.with_name(f"{path.name}.gz").write_bytes(gzip.compress(path.read_bytes(), compresslevel=6, mtime=0))
+            path.unlink()
+
+
+def _entry(path: Path, stem: str) -> FileEntry:
+    data = path.read_bytes()
+    return FileEntry(suffix=path.name.removeprefix(stem), bytes=len(data), sha256=hashlib.sha256(data).hexdigest())

@@ -1,0 +1,47 @@
+"""Tables of settings as recipes have them, with distributions in place of values."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeGuard
+
+from garage2usd.datasets.distribution import distribution_of
+
+__all__ = ["first_value", "over", "resolved"]
+
+
+def over(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+    """Settings with others over them, table by table; a distribution goes over a table or value as a whole."""
+    merged = dict(settings)
+    for key, value in above.items():
+        below = merged.get(key)
+        merged[key] = over(below, value) if _is_table(below, key) and _is_table(value, key) else value
+    return merged
+
+
+def _is_table(value: object, key: str) -> TypeGuard[Mapping[str, Any]]:
+    """Whether a value holds settings, and is no distribution."""
+    return isinstance(value, Mapping) and distribution_of(value, field=key) is None
+
+
+def resolved(settings: Mapping[str, Any], within: str, resolve: Callable[[Any, str], Any]) -> dict[str, Any]:
+    """Settings with a value for each distribution, which `resolve` gives for it and its dotted name."""
+    found = {}
+    for key, value in settings.items():
+        field = f"{within}.{key}"
+        if _is_table(value, field):
+            found[key] = resolved(value, field, resolve)
+        else:
+            found[key] = resolve(value, field)
+    return found
+
+
+def first_value(
+    value: object, field: str, *, ends_of: dict[str, tuple[Any, ...]], given: Mapping[str, Any] | None = None
+) -> object:
+    """The given or else the first value of a distribution, whose ends are noted."""
+    distribution = distribution_of(value, field=field)
+    if distribution is None:
+        return value
+    if given and field in given:
+        return given[field]
+    ends_of[field] = distribution.ends()
+    return ends_of[field][0]

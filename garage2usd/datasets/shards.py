@@ -1,0 +1,192 @@
+"""Shards: garages of one split that are made, packed and put into place together, whole or not at all."""
+
+import hashlib
+import io
+import secrets
+import shutil
+import tarfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from garage2usd.datasets.manifest import ManifestRow, rows_of_text, text_of_rows
+from garage2usd.datasets.plans import DrawnPlan, proportional, said
+from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
+from garage2usd.datasets.scene import make_scene
+from garage2usd.output import HIDDEN_PREFIX, store, writing
+from garage2usd.randomness import Step, generator
+
+__all__ = ["SHARD_FOLDER", "Shard", "made_rows", "make_shard", "shard_members", "shards_of", "sweep"]
+
+SHARD_FOLDER = "shards"
+_SHARD_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class Shard:
+    """Garages that go into one file or folder.
+
+    Attributes
+    ----------
+    name
+        ``train-000003``: its split, and its number within it.
+    split
+        Its split.
+    plans
+        Those of its garages, by number.
+    """
+
+    name: str
+    split: str
+    plans: tuple[DrawnPlan, ...]
+
+
+def shards_of(recipe: Recipe, plans: Sequence[DrawnPlan]) -> list[Shard]:
+    """Deal the garages out to splits, by ratio and seed, and within these to shards by number.
+
+    Parameters
+    ----------
+    recipe
+        Ratios, seed, and how many garages a shard has.
+    plans
+        One a garage; those with an error are left out.
+    """
+    good = [drawn for drawn in plans if not drawn.error]
+    order = generator(recipe.seed, Step.SPLITS).permutation(len(good))
+    shards = []
+    first = 0
+    for split, count in proportional(recipe.splits, len(good)).items():
+        members = [good[number] for number in sorted(order[first : first + count].tolist())]
+        first += count
+        for number, start in enumerate(range(0, count, recipe.shards.garages)):
+            part = tuple(members[start : start + recipe.shards.garages])
+            shards.append(Shard(f"{split}-{number:0{_SHARD_DIGITS}}", split, part))
+    return shards
+
+
+def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
+    """Make a shard's garages and put them into place, with their rows beside them.
+
+    Parameters
+    ----------
+    recipe
+        What is made.
+    folder
+        Of the data set.
+    shard
+        Its garages.
+
+    Returns
+    -------
+    list of ManifestRow
+        Of its garages; one that could not be made has its error there.
+
+    Raises
+    ------
+    OutputError
+        If files cannot be written; no shard is left.
+    """
+    place = folder / SHARD_FOLDER
+    assets = None if recipe.make.self_contained else folder / ASSET_FOLDER
+    with writing(place), _hidden_folder(place) as staging:
+        rows = [_row(recipe, drawn, staging, shard, assets) for drawn in shard.plans]
+        if recipe.shards.form is ShardForm.TAR:
+            packed = staging / f"{HIDDEN_PREFIX}{shard.name}.tar"
+            _pack(packed, staging, rows)
+            packed.replace(place / f"{shard.name}.tar")
+        else:
+            shutil.rmtree(place / shard.name, ignore_errors=True)
+            staging.rename(place / shard.name)
+        # the rows come last: where they stand, all of it does
+        store(place / f"{shard.name}.jsonl", text_of_rows(rows).encode())
+    return rows
+
+
+def _row(recipe: Recipe, drawn: DrawnPlan, staging: Path, shard: Shard, assets: Path | None) -> ManifestRow:
+    try:
+        return make_scene(recipe, drawn, staging, split=shard.split, shard=shard.name, assets=assets)
+    except OSError:  # of the machine, and not of this garage
+        raise
+    except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
+        for path in staging.glob(f"{drawn.number:08}.*"):
+            path.unlink()
+        return failed_row(drawn, said(error), split=shard.split)
+
+
+def failed_row(drawn: DrawnPlan, error: str, *, split: str = "") -> ManifestRow:
+    """The row of a garage that there is not."""
+    return ManifestRow(
+        number=drawn.number,
+        key="",
+        split=split,
+        shard="",
+        seed=drawn.seed,
+        attempt=drawn.attempt,
+        alternatives=drawn.alternatives,
+        error=error,
+    )
+
+
+def made_rows(folder: Path, shard: Shard, form: ShardForm) -> list[ManifestRow] | None:
+    """The rows of a shard that is there and holds what they say; None where it has to be made."""
+    try:
+        rows = rows_of_text((folder / SHARD_FOLDER / f"{shard.name}.jsonl").read_text(encoding="utf-8"))
+    except (OSError, ValueError, KeyError):
+        return None
+    if [(row.number, row.seed) for row in rows] != [(drawn.number, drawn.seed) for drawn in shard.plans]:
+        return None
+    named = {f"{row.key}{file.suffix}": file.sha256 for row in rows for file in row.files}
+    try:
+        held = {
+            f"{shard.name}/{name}": hashlib.sha256(data).hexdigest()
+            for name, data in shard_members(folder, shard.name, form)
+        }
+    except (OSError, tarfile.TarError):
+        return None
+    return rows if held == named else None
+
+
+def shard_members(folder: Path, name: str, form: ShardForm) -> Iterator[tuple[str, bytes]]:
+    """Name and contents of each file of a shard; raises OSError or tarfile.TarError where it is damaged."""
+    if form is ShardForm.FOLDER:
+        for path in sorted((folder / SHARD_FOLDER / name).iterdir()):
+            yield path.name, path.read_bytes()
+        return
+    with tarfile.open(folder / SHARD_FOLDER / f"{name}.tar") as archive:
+        for member in archive:
+            held = archive.extractfile(member)
+            yield member.name.rpartition("/")[2], held.read() if held else b""
+
+
+def sweep(folder: Path) -> None:
+    """Remove what runs that were killed left unfinished."""
+    for path in (folder / SHARD_FOLDER).glob(f"{HIDDEN_PREFIX}*"):
+        if path.is_dir():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)
+
+
+def _pack(path: Path, folder: Path, rows: Sequence[ManifestRow]) -> None:
+    """Pack the files of garages, which stay together, as WebDataset wants them; the same bytes each time."""
+    with tarfile.open(path, "w", format=tarfile.USTAR_FORMAT) as archive:
+        for row in rows:
+            for file in row.files:
+                name = f"{row.key}{file.suffix}"
+                data = (folder / name.rpartition("/")[2]).read_bytes()
+                entry = tarfile.TarInfo(name)
+                entry.size = len(data)
+                archive.addfile(entry, io.BytesIO(data))
+
+
+@contextmanager
+def _hidden_folder(place: Path) -> Iterator[Path]:
+    """A folder in `place` to make files in, which is gone afterwards unless it was renamed."""
+    place.mkdir(parents=True, exist_ok=True)
+    folder = place / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}"
+    folder.mkdir()
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)

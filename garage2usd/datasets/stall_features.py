@@ -1,0 +1,136 @@
+"""What makes a stall hard to drive into, measured on the proof of its ways and on the layout."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.driving import StallProof, prove_stalls
+from garage2usd.errors import ConfigError
+from garage2usd.layout import Layout
+from garage2usd.layout.lighting import direct_lux
+from garage2usd.layout.stall_table import EDGES
+from garage2usd.pipeline import Garage
+
+__all__ = ["StallFeatures", "measured_stalls"]
+
+_DIGITS = 6
+_WIDEST_COLUMN_M = 1.2
+_SAME_ROW_M = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class StallFeatures:
+    """What is known of one stall that takes cars.
+
+    Attributes
+    ----------
+    stall
+        Its name.
+    gear_changes_in, gear_changes_out
+        How often the design car stops to go the other way on the proven ways in and out; None where none are proven.
+    clearance_m
+        What is left at least between the car and everything else on both ways, at most 1 m; None where none are proven.
+    is_clear_when_full
+        Whether the ways are clear with a car in every other stall, not only with those that stand there; None where
+        none are proven.
+    aisle_width_m
+        Clear width between the columns on both sides of the lane at its mouth.
+    occupied_neighbours
+        How many of the two stalls beside it hold a car, also across a column: 0 to 2.
+    illuminance_lux
+        Direct light on the floor in its middle, by the point-by-point method.
+    """
+
+    stall: str
+    gear_changes_in: int | None
+    gear_changes_out: int | None
+    clearance_m: float | None
+    is_clear_when_full: bool | None
+    aisle_width_m: float
+    occupied_neighbours: int
+    illuminance_lux: float
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether there are ways in and out."""
+        return self.clearance_m is not None
+
+
+def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = None) -> tuple[StallFeatures, ...]:
+    """Measure each stall that takes cars, in the order of the layout.
+
+    Parameters
+    ----------
+    garage
+        The garage.
+    proofs
+        What `garage2usd.driving.prove_stalls` found for it; left out, it is asked here.
+
+    Raises
+    ------
+    ConfigError
+        If the proofs are not those of the garage's stalls.
+    """
+    layout, graph = garage.layout, garage.graph
+    stalls = [(row, stall) for row, stall in enumerate(layout.stalls) if stall.use.takes_cars]
+    if proofs is None:
+        proofs = prove_stalls(layout, graph, most_explained=0)
+    names = [stall.name for _, stall in stalls]
+    if [proof.stall for proof in proofs] != names:
+        raise ConfigError("proofs", f"{len(proofs)} proofs", f"a proof for each of the {len(names)} stalls, in order")
+    neighbours, lux = _occupied_neighbours(layout).tolist(), _stall_lux(layout).tolist()
+    return tuple(
+        _features(
+            proof,
+            aisle_width_m=round(graph.clear_aisle_m(stall.access_square, stall.edge), _DIGITS),
+            occupied_neighbours=neighbours[row],
+            illuminance_lux=round(lux[row], _DIGITS),
+        )
+        for (row, stall), proof in zip(stalls, proofs, strict=True)
+    )
+
+
+def _features(
+    proof: StallProof, *, aisle_width_m: float, occupied_neighbours: int, illuminance_lux: float
+) -> StallFeatures:
+    if proof.way_in is None or proof.way_out is None:
+        return StallFeatures(proof.stall, None, None, None, None, aisle_width_m, occupied_neighbours, illuminance_lux)
+    return StallFeatures(
+        proof.stall,
+        proof.way_in.gear_changes,
+        proof.way_out.gear_changes,
+        round(min(proof.way_in.clearance_m, proof.way_out.clearance_m), _DIGITS),
+        proof.is_full,
+        aisle_width_m,
+        occupied_neighbours,
+        illuminance_lux,
+    )
+
+
+def _stall_lux(layout: Layout) -> NDArray[np.float64]:
+    """Illuminance in the middle of each stall, from the tubes inside and not from those over ramps; shape (stalls,)."""
+    tubes = [place for place in layout.of_kind("light") if place.square is not None]
+    lux: NDArray[np.float64] = layout.illuminance.luminance_nit * direct_lux(layout.stalls.centre_m, tubes)
+    return lux
+
+
+def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:
+    """How many of the stalls beside each stall hold a car; shape (stalls,)."""
+    stalls, is_taken = layout.stalls, layout.cars_in_stalls() >= 0
+    is_along_x = np.array([edge.along_x for edge in EDGES])[stalls.edge]
+    x, z = stalls.centre_m.T
+    along, across = np.where(is_along_x, x, z), np.where(is_along_x, z, x)
+    order = np.lexsort((along, np.round(across, 3), stalls.edge))
+    one, other = order[:-1], order[1:]
+    widths = (stalls.size_m[one, 0] + stalls.size_m[other, 0]) / 2
+    is_beside = (
+        (stalls.edge[one] == stalls.edge[other])
+        & (np.abs(across[other] - across[one]) < _SAME_ROW_M)
+        & (along[other] - along[one] < widths + _WIDEST_COLUMN_M + _SAME_ROW_M)
+    )
+    count = np.zeros(len(stalls), dtype=np.int64)
+    np.add.at(count, one[is_beside], is_taken[other[is_beside]])
+    np.add.at(count, other[is_beside], is_taken[one[is_beside]])
+    return count

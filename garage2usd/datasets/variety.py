@@ -1,0 +1,230 @@
+"""How much the plans of a set differ: figures of each, of each split, and how far each is from the next one."""
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.datasets.contour import ContourShape
+from garage2usd.datasets.difficulty import Level
+from garage2usd.structure.grid import Cell, CellArray
+from garage2usd.structure.symmetry import canonical_cells, eight_symmetries, plan_digest
+
+__all__ = ["FIGURES", "PlanFigures", "Spread", "Variety", "nearest_shares"]
+
+_ROWS_AT_ONCE = 1024
+"""Bounds the memory that pairs of plans take."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlanFigures:
+    """A plan of a data set with what is known of it.
+
+    Attributes
+    ----------
+    key
+        Its name in the data set.
+    split
+        Name of the part of the data set that it belongs to, ``train`` for example.
+    cells
+        S, int8, shape (rows, cols).
+    stalls
+        How many it has.
+    loops
+        How many independent loops its lanes have.
+    longest_dead_end_m
+        Depth of its deepest dead end, 0 without any.
+    area_per_stall_m2
+        Floor inside the contour over the number of stalls.
+    contour
+        Shape of its contour.
+    level
+        How difficult its garage is; None where that is not known.
+    """
+
+    key: str
+    split: str
+    cells: CellArray
+    stalls: int
+    loops: int
+    longest_dead_end_m: float
+    area_per_stall_m2: float
+    contour: ContourShape
+    level: Level | None = None
+
+    @cached_property
+    def canonical(self) -> CellArray:
+        """S cropped and turned, as `garage2usd.structure.symmetry.canonical_cells` has it."""
+        return canonical_cells(self.cells)
+
+    @cached_property
+    def digest(self) -> str:
+        """The same for all turns and mirror images of a plan."""
+        return plan_digest(self.canonical)
+
+    @property
+    def squares(self) -> int:
+        """How many squares lie inside, obstacles apart."""
+        return int((self.cells != Cell.OBSTACLE).sum())
+
+
+FIGURES = MappingProxyType(
+    {
+        "squares": "Squares",
+        "stalls": "Stalls",
+        "area_per_stall_m2": "Floor per stall, m\N{SUPERSCRIPT TWO}",
+        "loops": "Loops",
+        "longest_dead_end_m": "Longest dead end, m",
+        "nearest_share": "Distance to the nearest plan, %",
+    }
+)
+"""What is told of a set of plans, with its name and unit for people; `Variety.values` has the numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """A figure over some plans.
+
+    Attributes
+    ----------
+    count
+        How many plans have it.
+    least, mean, greatest
+        None where no plan has it.
+    """
+
+    count: int
+    least: float | None
+    mean: float | None
+    greatest: float | None
+
+
+class Variety:
+    """The variety of a set of plans.
+
+    Attributes
+    ----------
+    plans
+        The plans in their order.
+    splits
+        Names of the splits, each where its first plan comes.
+    nearest_share
+        How far each plan is from the nearest other one, see `nearest_shares`; float64, shape (plans,).
+    """
+
+    def __init__(self, plans: Sequence[PlanFigures]) -> None:
+        self.plans = tuple(plans)
+        self.splits = tuple(dict.fromkeys(plan.split for plan in self.plans))
+        self.nearest_share = nearest_shares([plan.canonical for plan in self.plans])
+
+    def values(self, figure: str, *, split: str | None = None) -> NDArray[np.float64]:
+        """One of `FIGURES` of the plans that have it, in the order of the plans, the nearest share in per cent.
+
+        Parameters
+        ----------
+        figure
+            Its name.
+        split
+            The split whose plans are asked for; all of them if left out.
+        """
+        if figure == "nearest_share":
+            found = 100 * self.nearest_share
+        else:
+            found = np.array([getattr(plan, figure) for plan in self.plans], dtype=np.float64)
+        is_asked = np.array([split is None or plan.split == split for plan in self.plans], dtype=np.bool_)
+        values: NDArray[np.float64] = found[is_asked & ~np.isnan(found)]
+        return values
+
+    def spread(self, figure: str, *, split: str | None = None) -> Spread:
+        """Least, mean and greatest of one of `FIGURES`; parameters as for `values`."""
+        values = self.values(figure, split=split).tolist()
+        if not values:
+            return Spread(0, None, None, None)
+        return Spread(len(values), min(values), math.fsum(values) / len(values), max(values))
+
+    def contours(self, *, split: str | None = None) -> dict[ContourShape, int]:
+        """How many plans have each shape of contour, of a split or of all."""
+        count = Counter(plan.contour for plan in self._of(split))
+        return {shape: count[shape] for shape in ContourShape}
+
+    def levels(self, *, split: str | None = None) -> dict[Level, int]:
+        """How many plans are of each level of difficulty, of a split or of all; those without any are left out."""
+        count = Counter(plan.level for plan in self._of(split))
+        return {level: count[level] for level in Level}
+
+    @cached_property
+    def distinct(self) -> int:
+        """How many plans there are that are not the same but for a turn or a mirror image."""
+        return len({plan.digest for plan in self.plans})
+
+    @cached_property
+    def shared(self) -> int:
+        """How many plans are in more than one split, turned or mirrored maybe."""
+        splits_of: dict[str, set[str]] = {}
+        for plan in self.plans:
+            splits_of.setdefault(plan.digest, set()).add(plan.split)
+        return sum(len(splits) > 1 for splits in splits_of.values())
+
+    def _of(self, split: str | None) -> Iterator[PlanFigures]:
+        return (plan for plan in self.plans if split is None or plan.split == split)
+
+
+def nearest_shares(plans: Sequence[CellArray]) -> NDArray[np.float64]:
+    """How far each plan is from the nearest other one of its shape.
+
+    Parameters
+    ----------
+    plans
+        Canonical forms of S (see `garage2usd.structure.symmetry.canonical_cells`), int8, shape (rows, cols) each.
+
+    Returns
+    -------
+    ndarray
+        float64, shape (plans,): the least share of the shape's squares, those outside the contour included, that differ
+        from another plan of the same shape however that is turned and mirrored. 0 where there is the same plan again,
+        NaN where no other plan has its shape.
+
+    Notes
+    -----
+    Squares that agree are counted for all pairs at once, by products of matrices that hold 1 where a square has a
+    value: ten thousand plans of 7 x 9 squares take a few seconds.
+    """
+    shares = np.full(len(plans), np.nan)
+    members: dict[tuple[int, ...], list[int]] = {}
+    for number, cells in enumerate(plans):
+        members.setdefault(cells.shape, []).append(number)
+    for numbers in members.values():
+        if len(numbers) > 1:
+            shares[numbers] = _nearest_of_shape(np.array([plans[number] for number in numbers]))
+    return shares
+
+
+def _nearest_of_shape(plans: NDArray[np.int8]) -> NDArray[np.float64]:
+    """The same for at least two plans of one shape; int8, shape (plans, rows, cols)."""
+    count, squares = len(plans), plans[0].size
+    own = _indicators(plans)
+    # the image of each plan under a symmetry is that symmetry of the numbers of the squares
+    order = np.arange(squares).reshape(plans[0].shape)
+    turns = [image.ravel() for image in eight_symmetries(order) if image.shape == order.shape]
+    most = np.zeros(count, dtype=np.float32)
+    for start in range(0, count, _ROWS_AT_ONCE):
+        some = slice(start, start + _ROWS_AT_ONCE)
+        for turn in turns:
+            agreeing = own[some].reshape(-1, own.shape[1] * squares) @ own[:, :, turn].reshape(count, -1).T
+            rows = np.arange(len(agreeing))
+            agreeing[rows, start + rows] = -1  # a plan is not its own neighbour
+            most[some] = np.maximum(most[some], agreeing.max(axis=1))
+    shares: NDArray[np.float64] = 1 - most.astype(np.float64) / squares
+    return shares
+
+
+def _indicators(plans: NDArray[np.int8]) -> NDArray[np.float32]:
+    """1 where a square has a value; float32, shape (plans, values, squares)."""
+    flat = plans.reshape(len(plans), 1, -1)
+    indicators: NDArray[np.float32] = (flat == np.array(list(Cell), dtype=np.int8)[:, None]).astype(np.float32)
+    return indicators

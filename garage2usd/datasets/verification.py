@@ -1,0 +1,198 @@
+"""A data set verified: every file hashed, every stage opened and checked, every plan compared with all others."""
+
+import hashlib
+import tarfile
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from garage2usd.checks import Severity, check_file
+from garage2usd.datasets.cluster import workers
+from garage2usd.datasets.making import LINES_FILE, PLAN_FILE, TABLE_FILE
+from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table, rows_of_text
+from garage2usd.datasets.plans import DrawnPlan, plans_of
+from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
+from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
+from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
+from garage2usd.errors import ConfigError, Garage2UsdError
+from garage2usd.output import staging_folder
+from garage2usd.progress import Progress, silent
+from garage2usd.structure.symmetry import plan_digest
+
+__all__ = ["Fault", "verify_dataset"]
+
+_STAGES = (".usdc", ".usdz")
+
+
+@dataclass(frozen=True, order=True)
+class Fault:
+    """What is wrong with a data set, and where: a file, or a garage's key."""
+
+    place: str
+    what: str
+
+
+def verify_dataset(
+    folder: str | Path,
+    *,
+    worker_count: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress = silent,
+) -> list[Fault]:
+    """Find what is wrong with a data set.
+
+    That is files that are not as they were made, stages that do not open or have errors by `garage2usd check`, rows
+    that contradict files, and plans that are there twice.
+
+    Parameters
+    ----------
+    folder
+        The data set, which is only read.
+    worker_count, scheduler, progress
+        As for `garage2usd.datasets.make_dataset`.
+
+    Returns
+    -------
+    list of Fault
+        Sorted by place; empty where nothing is wrong.
+
+    Raises
+    ------
+    ConfigError
+        If the folder is no data set that was finished.
+    """
+    folder = Path(folder).absolute()
+    if not (folder / RECIPE_FILE).is_file():
+        raise ConfigError("verify", str(folder), "the folder of a data set")
+    if not (folder / SUMS_FILE).is_file():
+        raise ConfigError("verify", str(folder), "a data set that is finished; --resume finishes this one")
+    faults = list(_of_files(folder))
+    try:
+        recipe = load_recipe(folder / RECIPE_FILE)
+        rows = _rows(folder)
+        plans = plans_of(pq.read_table(folder / PLAN_FILE))
+    except (OSError, ValueError, KeyError, pa.ArrowException, Garage2UsdError) as error:
+        return sorted({*faults, Fault("manifest", f"cannot be read, so that garages were not looked at ({error})")})
+    faults += _of_rows(folder, rows)
+    faults += _of_plans(recipe, rows, plans)
+    made = [row for row in rows if not row.error]
+    shards = sorted({row.shard for row in made})
+    tasks = [_Task(name, tuple(row for row in made if row.shard == name)) for name in shards]
+    with workers(count=worker_count, scheduler=scheduler) as pool:
+        for number, (_, found) in enumerate(pool.each(_of_shard, tasks, folder, recipe), 1):
+            faults += found
+            progress("shards", number, len(shards))
+    return sorted(set(faults))
+
+
+@dataclass(frozen=True)
+class _Task:
+    """A shard that is verified, with the rows of its garages."""
+
+    shard: str
+    rows: tuple[ManifestRow, ...]
+
+
+def _of_files(folder: Path) -> Iterator[Fault]:
+    """Files that are missing, are others than they were, or do not belong there."""
+    try:
+        sums = read_sums(folder)
+    except ValueError as error:
+        yield Fault(SUMS_FILE, str(error))
+        return
+    there = set(files_of(folder))
+    for name, digest in sums.items():
+        if name not in there:
+            yield Fault(name, "is missing")
+        elif sha256_of(folder / name) != digest:
+            yield Fault(name, "is not as it was made: its SHA-256 is another")
+    for name in sorted(there - set(sums)):
+        yield Fault(name, "is not of this data set")
+
+
+def _rows(folder: Path) -> list[ManifestRow]:
+    table = pq.read_table(folder / TABLE_FILE)
+    if not table.schema.equals(MANIFEST_SCHEMA):
+        raise ValueError(f"{TABLE_FILE} has other columns than manifests have")
+    return rows_of_table(table)
+
+
+def _of_rows(folder: Path, rows: Sequence[ManifestRow]) -> Iterator[Fault]:
+    """Manifests that contradict each other."""
+    by_number = {row.number: row for row in rows}
+    texts = [LINES_FILE, *(f"{SHARD_FOLDER}/{name}.jsonl" for name in sorted({row.shard for row in rows if row.shard}))]
+    for name in texts:
+        try:
+            others = rows_of_text((folder / name).read_text(encoding="utf-8"))
+        except (OSError, ValueError, KeyError) as error:
+            yield Fault(name, f"cannot be read ({error})")
+            continue
+        wrong = [other.number for other in others if by_number.get(other.number) != other]
+        if wrong:
+            yield Fault(name, f"says of garage {wrong[0]} what {TABLE_FILE} does not say")
+
+
+def _of_plans(recipe: Recipe, rows: Sequence[ManifestRow], plans: Sequence[DrawnPlan]) -> Iterator[Fault]:
+    """Plans that are there twice, or are others than rows say."""
+    by_number = {drawn.number: drawn for drawn in plans}
+    same: dict[str, list[ManifestRow]] = defaultdict(list)
+    for row in rows:
+        if row.error:
+            continue
+        drawn = by_number.get(row.number)
+        digest = plan_digest(drawn.structure.cells) if drawn and not drawn.error else ""
+        if digest != row.plan_digest:
+            yield Fault(row.key, f"has another plan in {PLAN_FILE}")
+        same[digest].append(row)
+    if recipe.distinct is Distinct.PLAN:
+        for group in same.values():
+            first, *others = group
+            for other in others:
+                where = "the same split" if other.split == first.split else f"{first.split} and {other.split}"
+                yield Fault(other.key, f"has the plan of {first.key}: {where}")
+
+
+def _of_shard(folder: Path, recipe: Recipe, task: _Task) -> list[Fault]:
+    """What is wrong with the garages of a shard."""
+    return list(_faults_of_shard(folder, recipe, task))
+
+
+def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Fault]:
+    expected = {f"{row.key}{file.suffix}": file.sha256 for row in task.rows for file in row.files}
+    with staging_folder() as staging:
+        if (folder / ASSET_FOLDER).is_dir():
+            (staging / ASSET_FOLDER).symlink_to(folder / ASSET_FOLDER, target_is_directory=True)
+        unpacked = staging / SHARD_FOLDER / task.shard
+        unpacked.mkdir(parents=True)
+        held = set()
+        try:
+            for name, data in shard_members(folder, task.shard, recipe.shards.form):
+                path = f"{task.shard}/{name}"
+                held.add(path)
+                if hashlib.sha256(data).hexdigest() != expected.get(path):
+                    yield Fault(path, "is not as it was made: its SHA-256 is another")
+                (unpacked / name).write_bytes(data)
+        except (OSError, tarfile.TarError) as error:
+            yield Fault(f"{SHARD_FOLDER}/{task.shard}", f"cannot be read ({error})")
+        for path in sorted(set(expected) - held):
+            yield Fault(path, "is missing in its shard")
+        for row in task.rows:
+            for suffix in _STAGES:
+                stage = staging / SHARD_FOLDER / f"{row.key}{suffix}"
+                if stage.is_file():
+                    yield from _of_stage(stage, row.key)
+
+
+def _of_stage(stage: Path, key: str) -> Iterator[Fault]:
+    try:
+        findings, profile = check_file(stage)
+    except Garage2UsdError as error:
+        yield Fault(key, f"its stage does not open ({error})")
+        return
+    for finding in findings:
+        if finding.severity is Severity.ERROR:
+            yield Fault(key, f"{finding.rule} by {profile.name}: {finding.place} {finding.message}")

@@ -1,0 +1,76 @@
+"""The number plates of parked cars, each car's with a text of its own."""
+
+from collections.abc import Iterable
+
+from garage2usd.assets.plate_texture import CHARACTERS
+from garage2usd.config.vehicles import DRIVEN_PLATE
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.placement import Placement, Stall, of_spec, placed
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.number_plate import NumberPlateSpec
+from garage2usd.randomness import Step
+
+__all__ = ["number_plates"]
+
+_DIGITS = "0123456789"
+_LETTERS = "".join(character for character in CHARACTERS if character not in _DIGITS)
+_PATTERN = (_LETTERS, _DIGITS, _DIGITS, " ", _LETTERS, _DIGITS, _DIGITS)
+"""Like those of many countries, and at the time of writing that of none, so that nobody's own plate is meant."""
+_TEXTS = len(_LETTERS) ** 2 * len(_DIGITS) ** 4
+_NEXT = 1_299_709
+"""By how much the number of a text grows where it is taken already: a prime, so that all are gone through."""
+
+
+def number_plates(stalls: Iterable[Stall], cars: Iterable[Placement], draws: SquareDraws) -> list[Placement]:
+    """The plates of each car.
+
+    Parameters
+    ----------
+    stalls
+        All stalls in reading order. Each draws a text, whether a car stands in it or not, so that a car's text depends
+        on no other car.
+    cars
+        The parked cars.
+    draws
+        Where squares share them, cars in equal places of equal squares have equal plates; all others differ.
+    """
+    text_of = _texts(list(stalls), draws)
+    return [
+        placed(
+            f"NumberPlate_{car.ordinal}",
+            NumberPlateSpec(spec.body, text_of[car.stall]),
+            (car.position_m[0], car.position_m[2]),
+            yaw_rad=car.yaw_rad,
+            square=car.square,
+            ordinal=car.ordinal,
+        )
+        for car, spec in of_spec(cars, CarSpec)
+        if car.stall is not None
+    ]
+
+
+def _texts(stalls: list[Stall], draws: SquareDraws) -> dict[str, str]:
+    """The text that the car in each stall has or would have, by the stall's name."""
+    shares = draws.of_step(Step.NUMBER_PLATES, max((stall.ordinal for stall in stalls), default=0))
+    text_of: dict[float, str] = {}
+    taken = {DRIVEN_PLATE}
+    texts = {}
+    for stall in stalls:
+        share = float(shares[stall.square][stall.ordinal - 1])
+        if share not in text_of:
+            number = int(share * _TEXTS)
+            while (text := _text(number)) in taken:
+                number = (number + _NEXT) % _TEXTS
+            taken.add(text)
+            text_of[share] = text
+        texts[stall.name] = text_of[share]
+    return texts
+
+
+def _text(number: int) -> str:
+    """The text of a number below `_TEXTS`."""
+    characters = []
+    for choices in reversed(_PATTERN):
+        number, place = divmod(number, len(choices))
+        characters.append(choices[place])
+    return "".join(reversed(characters))

@@ -1,0 +1,99 @@
+"""A garage as a Lanelet2 map with the tags of Autoware."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from garage2usd.checks import Subject
+from garage2usd.config.maps import MapsConfig
+from garage2usd.maps.lane_bounds import Bound, LaneBounds, lane_bounds
+from garage2usd.maps.lanelet2_parking import add_lots, add_stalls
+from garage2usd.maps.lanelet2_stops import add_stops
+from garage2usd.maps.network import LEFT, Network
+from garage2usd.maps.osm_file import Member, OsmFile
+from garage2usd.maps.road_builder import network_of
+from garage2usd.maps.stage_facts import stage_facts
+from garage2usd.maps.xml_text import number_text
+
+__all__ = ["write_lanelet2"]
+
+_FORMAT = "1"
+_STRAIGHT_RAD = 0.1
+
+
+def write_lanelet2(
+    subject: Subject, path: Path, settings: MapsConfig, *, network: Network | None = None
+) -> tuple[LaneBounds, ...]:
+    """Write a garage as a Lanelet2 file, in the frame of all maps (`garage2usd.maps.frame`).
+
+    Parameters
+    ----------
+    subject
+        The garage.
+    path
+        The file; its folder is there.
+    settings
+        Where on the earth it lies, and how fast cars may drive.
+    network
+        What `garage2usd.maps.road_builder.network_of` finds in it, if that is known already.
+
+    Returns
+    -------
+    tuple of LaneBounds
+        The lanes that lanelets were made of.
+
+    Raises
+    ------
+    StageError
+        If the garage has no whole lane graph.
+
+    Notes
+    -----
+    A lanelet is a driving lane of a road of `garage2usd.maps.network`, with the numbers that both have in the OpenDRIVE
+    map. The last points of one are the first of the next, and the two of an aisle share its middle line. Bounds lie
+    within a millimetre of the lane's; where a bend is tighter than its lane is wide, the inner one is straight.
+    Latitude and longitude are those of the projection that the OpenDRIVE map names. Stalls are those of
+    `garage2usd.maps.lanelet2_parking`.
+    """
+    lanes = lane_bounds(network or network_of(subject))
+    osm = OsmFile(settings.latitude_deg, settings.longitude_deg)
+    feet = add_stalls(osm, subject, lanes)
+    stops = add_stops(osm, subject, lanes)
+    ways: dict[Bound, int] = {}
+    for lane in lanes:
+        for bound, is_left in ((lane.left, True), (lane.right, False)):
+            if bound not in ways:
+                places = feet.along(bound)
+                is_turned = lane.lane == LEFT and not is_left
+                ways[bound] = osm.way(osm.points(reversed(places) if is_turned else places), _bound_tags(bound))
+        members = [Member("way", ways[lane.left], "left"), Member("way", ways[lane.right], "right")]
+        members += [Member("relation", rule, "regulatory_element") for rule in stops.get(lane, ())]
+        osm.relation(members, _lanelet_tags(lane, settings))
+    add_lots(osm, lanes, feet)
+    facts = {name: str(value) for name, value in stage_facts(subject.stage).items()}
+    version = facts.pop("version", "")
+    header = {"format_version": _FORMAT, "map_version": version, "name": Path(subject.source).stem, **facts}
+    osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
+    return lanes
+
+
+def _bound_tags(bound: Bound) -> dict[str, str]:
+    """Of a side; nobody changes to the lane that comes towards him, and stalls are entered across all others."""
+    return {"type": "line_thin", "subtype": "dashed", "lane_change": "no"} if bound.is_middle else {"type": "virtual"}
+
+
+def _lanelet_tags(lane: LaneBounds, settings: MapsConfig) -> Mapping[str, str]:
+    turn = {}
+    if lane.road.junction is not None:
+        is_straight = abs(lane.turned_rad) < _STRAIGHT_RAD
+        turn = {"turn_direction": "straight" if is_straight else "left" if lane.turned_rad > 0 else "right"}
+    return {
+        "type": "lanelet",
+        "subtype": "road",
+        "location": "urban",
+        "one_way": "yes",
+        "participant:vehicle": "yes",
+        "speed_limit": number_text(settings.speed_limit_km_h),
+        **turn,
+        "road": str(lane.road.number),
+        "lane": str(lane.lane),
+    }

@@ -1,0 +1,199 @@
+"""Stalls of a Lanelet2 map: areas, Autoware's parking spaces, the ground between them and the lanes, parking lots."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.checks import Subject
+from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.maps.frame import map_points
+from garage2usd.maps.lane_bounds import Bound, LaneBounds
+from garage2usd.maps.osm_file import Member, OsmFile, Place
+from garage2usd.maps.xml_text import number_text
+from garage2usd.reading.ground import StallOutline
+
+__all__ = ["Feet", "add_lots", "add_stalls"]
+
+Floats = NDArray[np.float64]
+
+_MOST_ASIDE = 2.0
+"""Where a lane lies farther ahead of a corner than this many times its distance, it bends away from there."""
+_GRID_M = 1e-4
+"""To which outlines are rounded to be joined."""
+_BEHIND_M = 1e-3
+"""Where a mouth touches the lane, the lane is found from a little inside the stall."""
+
+
+class _Foot(NamedTuple):
+    """Where the lane begins ahead of a corner: the place, on which bound, and how far along that.
+
+    The ends of lanes have no bound.
+    """
+
+    place: Place
+    bound: Bound | None
+    run_m: float
+
+
+class Feet:
+    """Places on the bounds of lanes where the ground before stalls ends.
+
+    Parameters
+    ----------
+    lanes
+        All lanes; those that are not level are left out.
+    """
+
+    def __init__(self, lanes: Sequence[LaneBounds]) -> None:
+        self._bounds: list[Bound | None] = []
+        lines: list[shapely.LineString] = []
+        for lane in lanes:
+            if any(place[2] for place in lane.left.places):
+                continue
+            ends = ([side.places[end] for side in (lane.left, lane.right)] for end in (0, -1))
+            for bound, places in (*((bound, bound.places) for bound in lane.outer), *((None, end) for end in ends)):
+                self._bounds.append(bound)
+                lines.append(shapely.LineString([place[:2] for place in places]))
+        self._tree = shapely.STRtree(lines)
+        self._on: dict[Bound, dict[float, Place]] = {}
+        self._runs: dict[Bound, list[float]] = {}
+        self.grounds: Grounds = np.empty(0, dtype=object)
+        """Outlines of the stalls that take cars, and of the ground between them and the lanes."""
+
+    def before(self, mouths: Floats, ahead: Floats) -> list[list[Place]]:
+        """Where the lane begins before mouths, from their right to their left; empty where all lanes are ramps.
+
+        Parameters
+        ----------
+        mouths
+            Left and right corner of each; shape (n, 2, 2).
+        ahead
+            Unit vectors out of the stalls; shape (n, 2).
+        """
+        if not len(self._tree):
+            return [[] for _ in mouths]
+        feet = self._feet(mouths[:, ::-1].reshape(-1, 2), np.repeat(ahead, 2, axis=0))
+        return [self._between(*pair) for pair in zip(feet[::2], feet[1::2], strict=True)]
+
+    def _between(self, right: _Foot, left: _Foot) -> list[Place]:
+        """The places of a lane's side from a foot to another."""
+        bound = right.bound
+        if bound is None or bound is not left.bound:
+            return [right.place, left.place]
+        low_m, high_m = sorted((right.run_m, left.run_m))
+        runs = zip(bound.places, self._runs_of(bound), strict=True)
+        between = [place for place, run_m in runs if low_m < run_m < high_m]
+        return [right.place, *(between if right.run_m < left.run_m else reversed(between)), left.place]
+
+    def along(self, bound: Bound) -> list[Place]:
+        """The places of a bound, with the feet on it."""
+        feet = self._on.get(bound)
+        if not feet:
+            return bound.places
+        runs = dict(zip(self._runs_of(bound)[1:-1], bound.places[1:-1], strict=True))
+        inner = sorted({**runs, **feet}.items())
+        return [bound.places[0], *(place for _, place in inner), bound.places[-1]]
+
+    def _runs_of(self, bound: Bound) -> list[float]:
+        """How far along a bound each of its places lies."""
+        if bound not in self._runs:
+            flat = [place[:2] for place in bound.places]
+            self._runs[bound] = shapely.line_locate_point(shapely.LineString(flat), shapely.points(flat)).tolist()
+        return self._runs[bound]
+
+    def _feet(self, corners: Floats, ahead: Floats) -> list[_Foot]:
+        """Where the lane begins ahead of corners, or nearest to them where it bends away."""
+        lines = self._tree.geometries
+        starts = shapely.points(corners - _BEHIND_M * ahead)
+        nearest = self._tree.nearest(starts)
+        reach_m = _MOST_ASIDE * shapely.distance(lines[nearest], starts)
+        rays = shapely.linestrings(np.stack([shapely.get_coordinates(starts), corners + reach_m[:, None] * ahead], 1))
+        corner, crossed = self._tree.query(rays, predicate="intersects")
+        # where none is crossed, the way leads to the nearest
+        missed = np.setdiff1d(np.arange(len(corners)), corner)
+        aims = np.concatenate([shapely.intersection(lines[crossed], rays[corner]), lines[nearest[missed]]])
+        corner, line = np.concatenate([corner, missed]), np.concatenate([crossed, nearest[missed]])
+        ways = shapely.shortest_line(starts[corner], aims)
+        order = np.lexsort((line, np.round(shapely.length(ways) / _GRID_M), corner))
+        order = order[np.unique(corner[order], return_index=True)[1]]
+        ends = shapely.get_point(ways[order], 1)
+        runs_m = shapely.line_locate_point(lines[line[order]], ends)
+        feet = []
+        for (x, y), index, run_m in zip(
+            shapely.get_coordinates(ends).tolist(), line[order].tolist(), runs_m.tolist(), strict=True
+        ):
+            foot = _Foot((x, y, 0.0), self._bounds[index], run_m)
+            if foot.bound is not None:
+                self._on.setdefault(foot.bound, {})[run_m] = foot.place
+            feet.append(foot)
+        return feet
+
+
+def add_stalls(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> Feet:
+    """Write all stalls.
+
+    A stall that takes cars is an area of the subtype `parking` around its corners, and a way from the middle of its
+    mouth to that of its rear with its width, as Autoware has it. The ground between its mouth and the lane is an area
+    of the subtype `parking_access`, whose corners are points of the lane's bound and of the stall. Hatched ground is a
+    polygon of the type that Autoware has for it.
+    """
+    taken = subject.taken_stalls
+    feet = Feet(lanes)
+    parking = [stall for stall in subject.stalls if stall.takes_cars]
+    mouths = map_points([stall.corners[:2] for stall in parking]).reshape(-1, 2, 2)
+    outwards = map_points([stall.outwards for stall in parking]).reshape(-1, 2)
+    before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))
+    corners_of: Floats = map_points([stall.corners for stall in subject.stalls]).reshape(-1, 4, 2)
+    ends_of = corners_of.reshape(-1, 2, 2, 2).mean(axis=2).tolist()
+    widths_m = np.linalg.norm(corners_of[:, 1] - corners_of[:, 0], axis=1).tolist()
+    grounds = []
+    for stall, corners, ends, width_m in zip(subject.stalls, corners_of.tolist(), ends_of, widths_m, strict=True):
+        points = [osm.point((x, y, 0.0)) for x, y in corners]
+        tags = _stall_tags(stall, is_taken=stall in taken)
+        if not stall.takes_cars:
+            osm.polygon(points, {"type": "hatched_road_markings", **tags})
+            continue
+        sides = [_side(osm, points[index], points[(index + 1) % 4], is_open=index == 0) for index in range(4)]
+        _area(osm, sides, {"subtype": "parking", **tags})
+        middle = [osm.point((x, y, 0.0)) for x, y in ends]
+        osm.new_way(middle, {"type": "parking_space", "width": number_text(width_m), **tags})
+        grounds.append(corners)
+        before = before_of[stall]
+        lane = osm.points(before)
+        around = [(points[0], points[1]), (points[1], lane[0]), lane, (lane[-1], points[0])] if lane else []
+        ways = [_side(osm, *line, is_open=True) for line in around if len(set(line)) > 1]
+        if len(ways) > 2:  # noqa: PLR2004 - else the mouth lies on the lane
+            _area(osm, ways, {"subtype": "parking_access"})
+            grounds.append([*corners[:2], *(place[:2] for place in before)])
+    feet.grounds = grounds_of(grounds)
+    return feet
+
+
+def add_lots(osm: OsmFile, lanes: Sequence[LaneBounds], feet: Feet) -> None:
+    """Write the ground of stalls and lanes as Autoware's parking lots; ramps are not part of them.
+
+    Autoware parks where both the car and its goal lie within one lot, so that lots reach over the lanes.
+    """
+    level = grounds_of([lane.ground for lane in lanes if not any(place[2] for place in lane.left.places)])
+    ground = shapely.union_all(shapely.make_valid([*level, *feet.grounds]), grid_size=_GRID_M)
+    for part in shapely.get_parts(ground):
+        if shapely.intersects(part, feet.grounds).any():
+            corners = shapely.get_coordinates(shapely.normalize(part).exterior)[:-1].tolist()
+            osm.polygon(osm.points((x, y, 0.0) for x, y in corners), {"type": "parking_lot"})
+
+
+def _stall_tags(stall: StallOutline, *, is_taken: bool) -> dict[str, str]:
+    numbered = {} if stall.number is None else {"ref": str(stall.number)}
+    return {"name": stall.name, **numbered, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
+
+
+def _side(osm: OsmFile, *points: int, is_open: bool) -> int:
+    return osm.way(points, {"type": "virtual"} if is_open else {"type": "line_thin", "subtype": "solid"})
+
+
+def _area(osm: OsmFile, ways: Sequence[int], tags: dict[str, str]) -> None:
+    members = [Member("way", way, "outer") for way in ways]
+    osm.relation(members, {"type": "multipolygon", **tags, "location": "urban", "participant:vehicle": "yes"})

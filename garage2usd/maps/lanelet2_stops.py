@@ -1,0 +1,118 @@
+"""Lines of a Lanelet2 map at which cars stop before gates and slow down before speed bumps."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from garage2usd.checks import Subject
+from garage2usd.layout.grounds import hulls_of
+from garage2usd.maps.frame import map_points
+from garage2usd.maps.lane_bounds import LaneBounds
+from garage2usd.maps.network import LEFT
+from garage2usd.maps.osm_file import Member, OsmFile
+
+__all__ = ["add_stops"]
+
+_BEFORE_M = 1.0
+"""From a line to what stands or lies beyond it."""
+_STEP_M = 0.02
+"""Between places on a lane at which it is looked whether something lies across it."""
+_SIGNS = {"barrier": ("lift_gate", "stop_sign"), "speed_bump": ("bump", "de112")}
+"""What Lanelet2 calls the things that cars stop or slow down at, by their class, and the sign of the same meaning."""
+
+
+class _Thing(NamedTuple):
+    """Something that cars pass: its class, its path in the stage, and its outline in the map."""
+
+    label: str
+    name: str
+    outline: shapely.Geometry
+
+
+def add_stops(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
+    """Write a line before each gate and each speed bump, and a rule that names both.
+
+    Parameters
+    ----------
+    osm
+        The file.
+    subject
+        The garage.
+    lanes
+        All lanes.
+
+    Returns
+    -------
+    dict of LaneBounds to list of int
+        Numbers of the rules of each lane that has any. Where something lies less than a metre behind the beginning of
+        a lane, the line lies on those that lead to it, and so does the rule.
+    """
+    ends = [
+        (
+            osm.points((lane.left.places[0], lane.right.places[0])),
+            osm.points((lane.left.places[-1], lane.right.places[-1])),
+        )
+        for lane in lanes
+    ]
+    before: dict[tuple[int, ...], list[LaneBounds]] = defaultdict(list)
+    for lane, (start, end) in zip(lanes, ends, strict=True):
+        before[start if lane.lane == LEFT else end].append(lane)
+    rules: dict[tuple[LaneBounds, str], int] = {}
+    by_place = shapely.STRtree([shapely.Polygon(lane.ground) for lane in lanes])
+    for thing in _things(subject):
+        for index in sorted(by_place.query(thing.outline, predicate="intersects").tolist()):
+            lane, (start, end) = lanes[index], ends[index]
+            across = _across(lane, thing)
+            if across is None:
+                continue
+            left_m = _BEFORE_M - across[0]
+            leading = before[end if lane.lane == LEFT else start] if left_m > 0 else []
+            stops = [(other, other.road.line.length_m - left_m) for other in leading] or [(lane, -left_m)]
+            for other, stop_m in stops:
+                if (other, thing.name) not in rules:
+                    stop = osm.new_way(_line_across(osm, other, max(stop_m, 0.0)), {"type": "stop_line"})
+                    rules[other, thing.name] = _add_rule(osm, lane, thing, sum(across) / 2, stop)
+    found = defaultdict(list)
+    for (lane, _), rule in rules.items():
+        found[lane].append(rule)
+    return found
+
+
+def _things(subject: Subject) -> Iterator[_Thing]:
+    for thing in subject.things:
+        if thing.label in _SIGNS:
+            pieces = [map_points(outline) for body in thing.bodies for outline, _, _ in body.pieces()]
+            outline = shapely.union_all(hulls_of(pieces)).buffer(_STEP_M)
+            shapely.prepare(outline)
+            yield _Thing(thing.label, thing.name, outline)
+
+
+def _across(lane: LaneBounds, thing: _Thing) -> tuple[float, float] | None:
+    """From how far to how far along a lane something reaches over its middle; None if it does not."""
+    road, length_m = lane.road, lane.road.line.length_m
+    runs = np.linspace(0.0, length_m, math.ceil(length_m / _STEP_M) + 1)
+    over = runs[shapely.contains_xy(thing.outline, road.middle_points(lane.lane, runs))]
+    if not len(over):
+        return None
+    start_m, end_m = float(over[0]), float(over[-1])
+    return (length_m - end_m, length_m - start_m) if lane.lane == LEFT else (start_m, end_m)
+
+
+def _add_rule(osm: OsmFile, lane: LaneBounds, thing: _Thing, run_m: float, stop: int) -> int:
+    kind, sign = _SIGNS[thing.label]
+    symbol = osm.new_way(_line_across(osm, lane, run_m), {"type": kind, "subtype": sign, "name": thing.name})
+    members = [Member("way", symbol, "refers"), Member("way", stop, "ref_line")]
+    return osm.relation(members, {"type": "regulatory_element", "subtype": "traffic_sign"})
+
+
+def _line_across(osm: OsmFile, lane: LaneBounds, run_m: float) -> tuple[int, ...]:
+    """Points from the left of a lane to its right, as its driver sees them, at a length along it."""
+    road, is_left = lane.road, lane.lane == LEFT
+    run_m = road.line.length_m - run_m if is_left else run_m
+    lanes, height = road.lanes_at(run_m), road.height_m(run_m)
+    outer_m = lanes.middle_m + (lanes.left_m if is_left else -lanes.right_m)
+    return osm.points((*road.line.beside(run_m, side_m), height) for side_m in (lanes.middle_m, outer_m))

@@ -1,0 +1,200 @@
+"""A garage as an OpenDRIVE 1.8 map."""
+
+import math
+import xml.etree.ElementTree as ET
+from collections import defaultdict
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from garage2usd.checks import Subject
+from garage2usd.config.maps import MapsConfig
+from garage2usd.maps.frame import projection
+from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road
+from garage2usd.maps.opendrive_objects import (
+    MapObject,
+    Signal,
+    add_objects,
+    add_signals,
+    signals_of,
+    solids_of,
+    stalls_of,
+)
+from garage2usd.maps.road_builder import network_of
+from garage2usd.maps.road_places import RoadPlaces
+from garage2usd.maps.stage_facts import stage_facts
+from garage2usd.maps.xml_text import child, write_xml
+
+__all__ = ["write_opendrive"]
+
+_CENTRE_LINE_M = 0.12
+_AROUND_M = 10.0
+"""Of the bounds of the map around its roads."""
+
+
+def write_opendrive(subject: Subject, path: Path, settings: MapsConfig, *, network: Network | None = None) -> Network:
+    """Write a garage as an OpenDRIVE 1.8 file, in the frame of all maps (`garage2usd.maps.frame`).
+
+    Parameters
+    ----------
+    subject
+        The garage.
+    path
+        The file; its folder is there.
+    settings
+        Where on the earth it lies, and how fast cars may drive.
+    network
+        What `garage2usd.maps.road_builder.network_of` finds in it, if that is known already.
+
+    Returns
+    -------
+    Network
+        The roads of the file.
+
+    Raises
+    ------
+    StageError
+        If the garage has no whole lane graph.
+
+    Notes
+    -----
+    Numbers of roads, junctions and objects are integers, as CARLA wants them; the ids of stalls are names. Stalls,
+    columns and walls lie beside straight roads (`garage2usd.maps.road_places`), with outlines as they stand in the
+    stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
+    """
+    network = network or network_of(subject)
+    first_number = 1 + len(network.roads) + len(network.junctions)
+    places = RoadPlaces(network, subject.stalls, first_number=first_number)
+    objects: dict[Road, list[tuple[int, MapObject]]] = defaultdict(list)
+    signals: dict[Road, list[tuple[int, Signal]]] = defaultdict(list)
+    number = 0
+    for thing in (*stalls_of(subject, places, network), *solids_of(subject, places)):
+        number += 1
+        objects[thing.road].append((number, thing))
+    for sign in signals_of(subject, places):
+        number += 1
+        signals[sign.road].append((number, sign))
+    root = ET.Element("OpenDRIVE")
+    _add_header(root, subject, network, settings)
+    for road in (*network.roads, *places.lines):
+        element = _add_road(root, road, settings)
+        if road in objects:
+            add_objects(child(element, "objects"), objects[road])
+        if road in signals:
+            add_signals(child(element, "signals"), signals[road])
+    for junction in network.junctions:
+        _add_junction(root, junction, network)
+    write_xml(root, path)
+    return network
+
+
+def _add_header(root: ET.Element, subject: Subject, network: Network, settings: MapsConfig) -> None:
+    facts = stage_facts(subject.stage)
+    ends = np.array([road.line.at(s)[:2] for road in network.roads for s in (0.0, road.line.length_m)])
+    (west, south), (east, north) = ends.min(axis=0) - _AROUND_M, ends.max(axis=0) + _AROUND_M
+    header = child(
+        root,
+        "header",
+        revMajor="1",
+        revMinor="8",
+        name=Path(subject.source).stem,
+        version=str(facts.get("version", "")),
+        vendor="garage2usd",
+        north=north,
+        south=south,
+        east=east,
+        west=west,
+    )
+    child(header, "geoReference").text = projection(settings.latitude_deg, settings.longitude_deg)
+    for name, value in facts.items():
+        child(header, "userData", code=name, value=str(value))
+
+
+def _add_road(root: ET.Element, road: Road, settings: MapsConfig) -> ET.Element:
+    junction = "-1" if road.junction is None else str(road.junction)
+    element = child(
+        root, "road", name="", length=road.line.length_m, id=str(road.number), junction=junction, rule="RHT"
+    )
+    if road.predecessor is not None or road.successor is not None:
+        link = child(element, "link")
+        for tag, neighbour in (("predecessor", road.predecessor), ("successor", road.successor)):
+            if neighbour is not None:
+                _add_neighbour(link, tag, neighbour)
+    kind = child(element, "type", s=0, type="lowSpeed")
+    child(kind, "speed", max=settings.speed_limit_km_h, unit="km/h")
+    plan, s_m = child(element, "planView"), 0.0
+    for arc in road.line.arcs:
+        (x, y), heading = arc.start, math.remainder(arc.heading_rad, math.tau)
+        geometry = child(plan, "geometry", s=s_m, x=x, y=y, hdg=heading, length=arc.length_m)
+        if arc.curvature_per_m == 0.0:
+            child(geometry, "line")
+        else:
+            child(geometry, "arc", curvature=arc.curvature_per_m)
+        s_m += arc.length_m
+    elevation = child(element, "elevationProfile")
+    profile = road.profile_m or ((0.0, 0.0), (road.line.length_m, 0.0))
+    for (start, height), (end, next_height) in pairwise(profile):
+        child(elevation, "elevation", s=start, a=height, b=(next_height - height) / (end - start), c=0, d=0)
+    _add_lanes(element, road, settings)
+    return element
+
+
+def _add_neighbour(link: ET.Element, tag: str, neighbour: Neighbour) -> None:
+    if neighbour.is_junction:
+        child(link, tag, elementType="junction", elementId=str(neighbour.number))
+    else:
+        at = "start" if neighbour.at_start else "end"
+        child(link, tag, elementType="road", elementId=str(neighbour.number), contactPoint=at)
+
+
+def _add_lanes(element: ET.Element, road: Road, settings: MapsConfig) -> None:
+    lanes = child(element, "lanes")
+    if road.start.middle_m or road.end.middle_m:
+        a, b, c, d = _eased(road.start.middle_m, road.end.middle_m, road.line.length_m)
+        child(lanes, "laneOffset", s=0, a=a, b=b, c=c, d=d)
+    section = child(lanes, "laneSection", s=0)
+    for side, number in (("left", LEFT), ("center", 0), ("right", RIGHT)):
+        if number == 0:
+            centre = child(child(section, side), "lane", id="0", type="none", level="false")
+            is_marked = road.lanes == (LEFT, RIGHT) and road.line.is_straight
+            mark = {"type": "broken" if is_marked else "none", "color": "white", "width": _CENTRE_LINE_M}
+            child(centre, "roadMark", sOffset=0, **mark)
+        elif number in road.lanes:
+            lane = child(child(section, side), "lane", id=str(number), type="driving", level="false")
+            _add_lane(lane, road, number)
+            # beside that of the road, which SUMO does not read
+            child(lane, "speed", sOffset=0, max=settings.speed_limit_km_h, unit="km/h")
+
+
+def _add_lane(lane: ET.Element, road: Road, number: int) -> None:
+    before, after = road.lane_before.get(number), road.lane_after.get(number)
+    if before is not None or after is not None:
+        link = child(lane, "link")
+        if before is not None:
+            child(link, "predecessor", id=str(before))
+        if after is not None:
+            child(link, "successor", id=str(after))
+    a, b, c, d = _eased(road.start.width_m(number), road.end.width_m(number), road.line.length_m)
+    child(lane, "width", sOffset=0, a=a, b=b, c=c, d=d)
+
+
+def _eased(start: float, end: float, length_m: float) -> tuple[float, float, float, float]:
+    """The cubic from a value to another that is level at both ends."""
+    rise = end - start
+    return start, 0.0, 3 * rise / length_m**2, -2 * rise / length_m**3
+
+
+def _add_junction(root: ET.Element, junction: Junction, network: Network) -> None:
+    name = network.squares[junction.square].name
+    element = child(root, "junction", id=str(junction.number), name=name, type="default")
+    for index, link in enumerate(junction.links):
+        connection = child(
+            element,
+            "connection",
+            id=str(index),
+            incomingRoad=str(link.incoming),
+            connectingRoad=str(link.connecting),
+            contactPoint="start",
+        )
+        child(connection, "laneLink", from_=str(link.from_lane), to=str(link.to_lane))

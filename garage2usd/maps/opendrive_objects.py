@@ -1,0 +1,289 @@
+"""Stalls, building, speed bumps and signs as objects and signals of OpenDRIVE's roads."""
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.checks import Subject
+from garage2usd.checks.shapes import Thing
+from garage2usd.layout import StallUse
+from garage2usd.maps.frame import heading_rad, map_point, map_points
+from garage2usd.maps.network import Network, Road
+from garage2usd.maps.road_places import RoadPlaces
+from garage2usd.maps.xml_text import child
+from garage2usd.reading.ground import StallOutline
+
+__all__ = ["MapObject", "Signal", "add_objects", "add_signals", "signals_of", "solids_of", "stalls_of"]
+
+Floats = NDArray[np.float64]
+
+_ACCESS = {StallUse.STANDARD: "car", StallUse.ACCESSIBLE: "handicapped", StallUse.EV: "electric"}
+_LINE_WIDTH_M = 0.12
+_TYPES = {
+    "column": ("pole", "column"),
+    "wall": ("barrier", "wall"),
+    "obstacle": ("building", "core"),
+    "speed_bump": ("roadSurface", "speedBump"),
+    "barrier": ("barrier", "gate"),
+}
+"""OpenDRIVE's type and a subtype for what stands, by its class."""
+_SIGNS = {"traffic_sign": ("DE", "286"), "exit_sign": ("OpenDRIVE", "-1")}
+"""Country and number of signs: no stopping for longer than three minutes (Zeichen 286 of the German StVO); the signs
+of escape routes of ISO 7010 have no number in a road traffic act."""
+_APART_M = 0.01
+"""Walls in line that are no farther apart are one."""
+_DIGITS = 3
+_DEEP_M = 0.002
+"""By which single precision may have what stands on the floor below it."""
+
+
+class MapObject(NamedTuple):
+    """An object beside a road.
+
+    Attributes
+    ----------
+    road, s_m, t_m
+        Which road, how far along it, and how far to its left its middle lies.
+    heading_rad
+        Of its own axis u, in the map.
+    corners_m
+        (u, v) of its outline; float64, shape (n, 2).
+    name, type, subtype
+        As OpenDRIVE says them.
+    bottom_m, height_m
+        Over the road.
+    stall
+        Where it is one.
+    data
+        What OpenDRIVE has no attribute for.
+    """
+
+    road: Road
+    s_m: float
+    t_m: float
+    heading_rad: float
+    corners_m: Floats
+    name: str
+    type: str
+    subtype: str
+    bottom_m: float = 0.0
+    height_m: float = 0.0
+    stall: StallOutline | None = None
+    data: tuple[tuple[str, str], ...] = ()
+
+
+class Signal(NamedTuple):
+    """A sign beside a road; its front looks where `heading_rad` says, in the map."""
+
+    road: Road
+    s_m: float
+    t_m: float
+    heading_rad: float
+    name: str
+    country: str
+    type: str
+    bottom_m: float
+    height_m: float
+    width_m: float
+
+
+def stalls_of(subject: Subject, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
+    """Each stall; its axis u leads from its mouth to its rear, its corners are those of `StallOutline`."""
+    taken = subject.taken_stalls
+    through = {number: road for road in network.roads if road.junction is None for number in road.squares}
+    meeting = {junction.square: junction.number for junction in network.junctions}
+    for stall in subject.stalls:
+        road, s_m, t_m = places.of_stall(stall)
+        ahead = map_point(stall.outwards)
+        heading = math.atan2(-ahead[1], -ahead[0])
+        away = map_points(stall.corners) - map_points(stall.centre)
+        access = through.get(stall.access)
+        data = [("use", str(stall.use)), ("occupied", "true" if stall in taken else "false")]
+        data += [] if stall.number is None else [("number", str(stall.number))]
+        data += [("accessRoad", str(access.number))] if access is not None else []
+        data += [("accessJunction", str(meeting[stall.access]))] if stall.access in meeting else []
+        kind = "parkingSpace" if stall.takes_cars else "none"
+        yield MapObject(
+            road,
+            s_m,
+            t_m,
+            heading,
+            _turned(away, -heading),
+            stall.name,
+            kind,
+            str(stall.use),
+            stall=stall,
+            data=tuple(data),
+        )
+
+
+def solids_of(subject: Subject, places: RoadPlaces) -> Iterator[MapObject]:
+    """Columns, walls, obstacles, gates and speed bumps by their outlines; walls in line are one object."""
+    pieces: dict[str, list[tuple[str, shapely.Polygon, float, float]]] = {label: [] for label in _TYPES}
+    for solid in subject.solids.standing(*_TYPES):
+        outline = shapely.transform(solid.footprint, map_points)
+        pieces[solid.label].append((solid.name, outline, solid.bottom_m, solid.top_m))
+    for label, found in pieces.items():
+        for name, outline, low_m, high_m in _joined_walls(found) if label == "wall" else found:
+            middle = outline.centroid
+            road, s_m, t_m = places.of_point((middle.x, middle.y))
+            corners = shapely.get_coordinates(shapely.normalize(outline))[:-1] - (middle.x, middle.y)
+            bottom_m = _over_road(low_m, road, s_m)
+            height_m = max(_over_road(high_m, road, s_m) - bottom_m, 0.0)
+            yield MapObject(road, s_m, t_m, 0.0, corners, name, *_TYPES[label], bottom_m, height_m)
+
+
+def signals_of(subject: Subject, places: RoadPlaces) -> Iterator[Signal]:
+    """The signs of a garage."""
+    for thing in subject.things:
+        if thing.label in _SIGNS and thing.bodies:
+            yield _signal(thing, places)
+
+
+def add_objects(parent: ET.Element, objects: Iterable[tuple[int, MapObject]]) -> None:
+    """Write objects with their numbers into a road."""
+    for number, thing in objects:
+        low, high = thing.corners_m.min(axis=0), thing.corners_m.max(axis=0)
+        length_m, width_m = (high - low).tolist()
+        element = child(
+            parent,
+            "object",
+            id=str(number),
+            name=thing.name,
+            type=thing.type,
+            subtype=thing.subtype,
+            s=thing.s_m,
+            t=thing.t_m,
+            zOffset=thing.bottom_m,
+            hdg=_about_road(thing.heading_rad, thing.road, thing.s_m),
+            pitch=0,
+            roll=0,
+            orientation="none",
+            length=length_m,
+            width=width_m,
+            height=thing.height_m,
+            dynamic="no",
+        )
+        outline = child(child(element, "outlines"), "outline", id="0", outer="true", closed="true")
+        for index, (u, v) in enumerate(thing.corners_m.tolist()):
+            child(outline, "cornerLocal", id=str(index), u=u, v=v, z=0, height=thing.height_m)
+        if thing.stall is not None and thing.stall.takes_cars:
+            child(element, "parkingSpace", access=_ACCESS.get(thing.stall.use, "car"))
+            _add_markings(element, thing.corners_m)
+        for code, value in thing.data:
+            child(element, "userData", code=code, value=value)
+
+
+def add_signals(parent: ET.Element, signals: Iterable[tuple[int, Signal]]) -> None:
+    """Write signs with their numbers into a road."""
+    for number, sign in signals:
+        child(
+            parent,
+            "signal",
+            id=str(number),
+            name=sign.name,
+            s=sign.s_m,
+            t=sign.t_m,
+            zOffset=sign.bottom_m,
+            hOffset=_about_road(sign.heading_rad, sign.road, sign.s_m),
+            pitch=0,
+            roll=0,
+            orientation="none",
+            dynamic="no",
+            country=sign.country,
+            type=sign.type,
+            subtype="-1",
+            height=sign.height_m,
+            width=sign.width_m,
+        )
+
+
+def _add_markings(element: ET.Element, corners: Floats) -> None:
+    """The lines on three sides of a stall; its mouth has none."""
+    markings = child(element, "markings")
+    for start, end in ((1, 2), (2, 3), (3, 0)):
+        line = child(
+            markings,
+            "marking",
+            color="white",
+            width=_LINE_WIDTH_M,
+            zOffset=0,
+            startOffset=0,
+            stopOffset=0,
+            lineLength=float(np.linalg.norm(corners[start] - corners[end])),
+            spaceLength=0,
+        )
+        for corner in (start, end):
+            child(line, "cornerReference", id=str(corner))
+
+
+def _signal(thing: Thing, places: RoadPlaces) -> Signal:
+    """A sign; it looks to its own +Z."""
+    points = np.concatenate([body.world_points() for body in thing.bodies])
+    low, high = points.min(axis=0), points.max(axis=0)
+    front = thing.bodies[0].matrix[2, [0, 2]]
+    middle = float(low[0] + high[0]) / 2, -float(low[2] + high[2]) / 2
+    road, s_m, t_m = places.of_point(middle)
+    across = np.array([front[1], -front[0]]) / (np.linalg.norm(front) or 1.0)
+    country, number = _SIGNS[thing.label]
+    return Signal(
+        road,
+        s_m,
+        t_m,
+        heading_rad(math.atan2(-front[0], -front[1])),
+        thing.name.rpartition("/")[2],
+        country,
+        number,
+        _over_road(float(low[1]), road, s_m),
+        round(float(high[1] - low[1]), _DIGITS),
+        round(float(np.ptp(points[:, [0, 2]] @ across)), _DIGITS),
+    )
+
+
+def _joined_walls(
+    walls: Sequence[tuple[str, shapely.Polygon, float, float]],
+) -> Iterator[tuple[str, shapely.Polygon, float, float]]:
+    """Walls as boxes, those that continue each other as one."""
+    rows: dict[tuple[int, float, float, float, float], list[tuple[float, float, str]]] = {}
+    for name, outline, bottom_m, top_m in walls:
+        if outline.area < (1 - 1e-3) * outline.envelope.area:
+            yield name, outline, bottom_m, top_m
+            continue
+        x, y, right, top = (round(value, _DIGITS) for value in outline.bounds)
+        heights = round(bottom_m, _DIGITS), round(top_m, _DIGITS)
+        is_upright = top - y > right - x
+        start, end, low, high = (y, top, x, right) if is_upright else (x, right, y, top)
+        rows.setdefault((int(is_upright), low, high, *heights), []).append((start, end, name))
+    for (is_upright, low, high, bottom_m, top_m), spans in sorted(rows.items()):
+        spans.sort()
+        while spans:
+            start, end, name = spans.pop(0)
+            while spans and spans[0][0] <= end + _APART_M:
+                end = max(end, spans.pop(0)[1])
+            yield (
+                name,
+                shapely.box(*((low, start, high, end) if is_upright else (start, low, end, high))),
+                bottom_m,
+                top_m,
+            )
+
+
+def _over_road(height_m: float, road: Road, s_m: float) -> float:
+    """A height as one over a road; what single precision has a little below it lies on it."""
+    over_m = round(height_m - road.height_m(s_m), _DIGITS)
+    return over_m if over_m < -_DEEP_M else max(over_m, 0.0)
+
+
+def _about_road(heading: float, road: Road, s_m: float) -> float:
+    return math.remainder(heading - road.line.at(s_m)[2], math.tau)
+
+
+def _turned(points: Floats, angle_rad: float) -> Floats:
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    turned: Floats = points @ np.array([[cos, sin], [-sin, cos]])
+    return turned

@@ -1,0 +1,326 @@
+"""Makes the roads and junctions of a garage from its lane squares."""
+# Over 300 lines: roads of aisles, portals and junctions share which squares are taken and which ends meet.
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import shapely
+
+from garage2usd.checks import Subject
+from garage2usd.driving import RampFloor
+from garage2usd.errors import StageError
+from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
+from garage2usd.maps.reference_line import Point, straight, turn
+from garage2usd.maps.squares import OUTSIDE, Opening, Square, lane_squares
+
+__all__ = ["network_of"]
+
+_MOST_PORTAL_LANE_M = 3.75
+"""A wider door or ramp keeps a margin on both sides of its one lane."""
+_PROFILE_M = 5e-4
+"""How far heights of ramps may be off where their profile is written with fewer points."""
+_LEAST_M = 1e-6
+
+
+def network_of(subject: Subject) -> Network:
+    """The roads of a garage's lane graph.
+
+    Squares that are passed through straight on are one road, from one bend, junction, portal or dead end to the next; a
+    bend is a road of its own, and so is the way from a portal's door to the top of its ramp. A square in which three or
+    more ways meet is a junction; roads reach a little into its square, so that two junctions side by side have a road
+    between them. Cars keep to the right. The one lane of a portal lies in the middle of its door.
+
+    Raises
+    ------
+    StageError
+        If the garage has no whole lane graph.
+    """
+    if not subject.has_whole_graph or not subject.edges:
+        raise StageError(subject.source, "it has no whole lane graph, so that nothing says where its roads are")
+    return _Builder(lane_squares(subject)).network()
+
+
+class _Meeting(NamedTuple):
+    """Where ends of roads meet: at the side between two squares, or within a junction at its opening to another."""
+
+    square: int
+    other: int
+    is_in_junction: bool = False
+
+
+class _Reach(NamedTuple):
+    """How far a road goes on straight from a side on."""
+
+    end: Point
+    meeting: _Meeting | None
+    squares: tuple[int, ...]
+    left_by: tuple[Opening, ...]
+
+
+class _Path(NamedTuple):
+    """A road as it is planned: from where to where, round which corner, with which lanes, and what it meets."""
+
+    ends: tuple[Point, Point]
+    lanes: tuple[Lanes, Lanes]
+    meetings: tuple[_Meeting | None, _Meeting | None]
+    squares: tuple[int, ...] = ()
+    corner: Point | None = None
+    profile_m: tuple[tuple[float, float], ...] = ()
+
+
+class _Builder:
+    """Makes roads square by square, then joins their ends."""
+
+    def __init__(self, squares: tuple[Square, ...]) -> None:
+        self._squares = squares
+        self._roads: list[Road] = []
+        self._meetings: dict[Road, tuple[_Meeting | None, _Meeting | None]] = {}
+        self._ends: dict[_Meeting, list[tuple[Road, bool]]] = {}
+        self._taken: set[int] = set()
+        self._crossed: set[_Meeting] = set()
+
+    def network(self) -> Network:
+        for square in self._squares:
+            if square.is_portal:
+                self._portal(square)
+        inner = [square for square in self._squares if not square.is_portal]
+        sides = ((opening.is_one_way, square, opening) for square in inner for opening in square.openings)
+        # what is driven in both directions comes first: it takes a square that lies between the two kinds
+        for _, square, opening in sorted(sides, key=lambda side: side[0]):
+            self._aisle(square, opening)
+        for square in inner:
+            if square.openings and not square.is_junction and square.number not in self._taken:
+                self._lone_square(square)
+        junctions = self._junctions()
+        numbers = {junction.square: junction.number for junction in junctions}
+        for road in self._meetings:
+            self._join(road, numbers)
+        return Network(tuple(self._roads), junctions, self._squares)
+
+    # Aisles
+
+    def _aisle(self, square: Square, opening: Opening) -> None:
+        """The road across a side between two squares that are no portals, as far as it goes straight on."""
+        if self._squares[opening.towards].is_portal or _side(square.number, opening.towards) in self._crossed:
+            return
+        beyond = self._squares[opening.towards]
+        behind, ahead = self._reach(square, opening), self._reach(beyond, beyond.opening(square.number))
+        self._crossed.add(_side(square.number, opening.towards))
+        along = opening.lets_out or any(side.lets_in for side in behind.left_by)
+        along = along or any(side.lets_out for side in ahead.left_by)
+        against = opening.lets_in or any(side.lets_out for side in behind.left_by)
+        against = against or any(side.lets_in for side in ahead.left_by)
+        lanes = _halves(opening.width_m, along=along, against=against)
+        squares = (*reversed(behind.squares), *ahead.squares)
+        self._add(_Path((behind.end, ahead.end), (lanes, lanes), (behind.meeting, ahead.meeting), squares))
+
+    def _reach(self, square: Square, entered: Opening) -> _Reach:
+        """How far a road that comes through an opening of a square goes on."""
+        numbers: list[int] = []
+        left_by: list[Opening] = []
+        while True:
+            if square.is_junction:
+                end, meeting = entered.inside(entered.inset_m), _inside(square.number, entered.towards)
+                break
+            onward = square.far_from(entered)
+            is_dead_end = len(square.openings) == 1
+            if square.number in self._taken or (onward is None and not is_dead_end):
+                end, meeting = entered.place, _side(square.number, entered.towards)
+                break
+            numbers.append(square.number)
+            if onward is None:
+                return _Reach(square.end_opposite(entered), None, tuple(numbers), tuple(left_by))
+            left_by.append(onward)
+            following = self._squares[onward.towards]
+            is_alike = (onward.lets_out, onward.lets_in) == (entered.lets_in, entered.lets_out)
+            if following.is_portal or not is_alike:
+                end, meeting = onward.place, _side(square.number, onward.towards)
+                break
+            self._crossed.add(_side(square.number, onward.towards))
+            square, entered = following, following.opening(square.number)
+        return _Reach(end, meeting, tuple(numbers), tuple(left_by))
+
+    def _lone_square(self, square: Square) -> None:
+        """A bend, or a square beside portals alone."""
+        first, last = square.openings[0], square.openings[-1]
+        is_dead_end = first is last
+        along = first.lets_in or (last.lets_out and not is_dead_end)
+        against = first.lets_out or (last.lets_in and not is_dead_end)
+        lanes = (
+            _halves(first.width_m, along=along, against=against),
+            _halves(last.width_m, along=along, against=against),
+        )
+        ends = first.place, square.end_opposite(first) if is_dead_end else last.place
+        meetings = _side(square.number, first.towards), None if is_dead_end else _side(square.number, last.towards)
+        self._add(_Path(ends, lanes, meetings, (square.number,), None if is_dead_end else square.middle))
+
+    # Portals
+
+    def _portal(self, square: Square) -> None:
+        """The way from outside to a portal's square, and from there to its neighbours."""
+        door, inner = square.opening(OUTSIDE), [side for side in square.openings if side.towards != OUTSIDE]
+        reach_m = door.inset_m if square.is_junction else 0.0
+        ramp, away_m = square.ramp, square.outside_m
+        lane = _passing(door)
+        meeting = (_inside if square.is_junction else _side)(square.number, OUTSIDE)
+        if ramp is not None or square.is_junction:
+            profile = () if ramp is None else _profile(ramp, away_m + reach_m)
+            path = _Path((door.inside(-away_m), door.inside(reach_m)), (lane, lane), (None, meeting), (), None, profile)
+            self._add(path, is_turned=door.lets_out)
+        for opening in inner:
+            beyond = self._squares[opening.towards]
+            is_led_here = beyond.is_portal and door.lets_out
+            if is_led_here and square.is_junction:
+                continue  # the road of the entrance beside this exit leads into it
+            is_led_on = beyond.is_junction and not is_led_here
+            outer_m = beyond.opening(square.number).inset_m if is_led_on else 0.0
+            outer = _inside(beyond.number, square.number) if is_led_on else _side(square.number, beyond.number)
+            end, last = opening.inside(-outer_m), _passing(opening)
+            if square.is_junction:
+                start, before = opening.inside(opening.inset_m), _inside(square.number, beyond.number)
+                path = _Path((start, end), (last, last), (before, outer))
+            else:
+                path = _Path((door.place, end), (lane, last), (meeting, outer), (square.number,), square.middle)
+            self._add(path, is_turned=door.lets_out)
+        if not inner:
+            path = _Path((door.place, square.end_opposite(door)), (lane, lane), (meeting, None), (square.number,))
+            self._add(path, is_turned=door.lets_out)
+
+    # Junctions
+
+    def _junctions(self) -> tuple[Junction, ...]:
+        """The roads that connect others in the squares of junctions, whose numbers follow those of all roads."""
+        ways = [(square, list(self._connections(square))) for square in self._squares if square.is_junction]
+        junctions = []
+        for number, (square, connections) in enumerate(ways, len(self._roads) + 1):
+            for road, _ in connections:
+                road.junction = number
+            junctions.append(Junction(number, square.number, tuple(link for _, link in connections)))
+        return tuple(junctions)
+
+    def _connections(self, square: Square) -> Iterator[tuple[Road, LaneLink]]:
+        for entered in square.openings:
+            for left in square.openings:
+                if entered is not left and entered.lets_in and left.lets_out:
+                    yield self._connection(square, entered, left)
+
+    def _connection(self, square: Square, entered: Opening, left: Opening) -> tuple[Road, LaneLink]:
+        first, last = _passing(entered), _passing(left)
+        start, end = entered.inside(entered.inset_m), left.inside(left.inset_m)
+        corner = None
+        if square.far_from(entered) is not left:
+            # along the middle of the lane, which turns tighter or wider than a line in the middle of both roads
+            inwards = -entered.outwards[0], -entered.outwards[1]
+            start = _beside(start, inwards, first.centre_m(RIGHT))
+            end = _beside(end, left.outwards, last.centre_m(RIGHT))
+            corner = _crossing(start, inwards, end, left.outwards)
+            first, last = (Lanes(lanes.right_m / 2, 0.0, lanes.right_m) for lanes in (first, last))
+        road = Road(
+            len(self._roads) + 1,
+            straight(start, end) if corner is None else turn(start, corner, end),
+            first,
+            last,
+            (square.number,),
+        )
+        self._roads.append(road)
+        ((incoming, comes_at_start),) = self._ends[_inside(square.number, entered.towards)]
+        ((outgoing, goes_at_start),) = self._ends[_inside(square.number, left.towards)]
+        from_lane, to_lane = (LEFT if comes_at_start else RIGHT), (RIGHT if goes_at_start else LEFT)
+        road.predecessor = Neighbour(incoming.number, at_start=comes_at_start)
+        road.successor = Neighbour(outgoing.number, at_start=goes_at_start)
+        road.lane_before, road.lane_after = {RIGHT: from_lane}, {RIGHT: to_lane}
+        return road, LaneLink(incoming.number, road.number, from_lane, RIGHT)
+
+    # All roads
+
+    def _add(self, path: _Path, *, is_turned: bool = False) -> None:
+        """Add a road, from its end to its start where cars drive so; one without a length is left out."""
+        if is_turned or path.lanes[0].right_m == 0:
+            path = _from_end(path)
+        start, end = path.ends
+        line = straight(start, end) if path.corner is None else turn(start, path.corner, end)
+        self._taken.update(path.squares)
+        if line.length_m < _LEAST_M:
+            return
+        road = Road(len(self._roads) + 1, line, *path.lanes, path.squares, path.profile_m)
+        self._roads.append(road)
+        self._meetings[road] = path.meetings
+        for meeting, at_start in zip(path.meetings, (True, False), strict=True):
+            if meeting is not None:
+                self._ends.setdefault(meeting, []).append((road, at_start))
+
+    def _join(self, road: Road, junction_of: dict[int, int]) -> None:
+        before, after = self._meetings[road]
+        road.predecessor, road.lane_before = self._beyond(road, before, junction_of, at_start=True)
+        road.successor, road.lane_after = self._beyond(road, after, junction_of, at_start=False)
+
+    def _beyond(
+        self, road: Road, meeting: _Meeting | None, junction_of: dict[int, int], *, at_start: bool
+    ) -> tuple[Neighbour | None, dict[int, int]]:
+        """What a road goes on as at one of its ends, and as which lanes."""
+        if meeting is None:
+            return None, {}
+        if meeting.is_in_junction:
+            return Neighbour(junction_of[meeting.square], is_junction=True), {}
+        for other, other_at_start in self._ends[meeting]:
+            if other is not road:
+                # the same lane goes on in a road of the same direction, the other one in a road that comes towards it
+                sign = 1 if at_start != other_at_start else -1
+                lanes = {lane: sign * lane for lane in road.lanes if sign * lane in other.lanes}
+                return Neighbour(other.number, at_start=other_at_start), lanes
+        return None, {}
+
+
+def _side(square: int, other: int) -> _Meeting:
+    return _Meeting(max(square, other), min(square, other))
+
+
+def _inside(square: int, other: int) -> _Meeting:
+    return _Meeting(square, other, is_in_junction=True)
+
+
+def _halves(width_m: float, *, along: bool, against: bool) -> Lanes:
+    """A lane on each half of a carriageway that is driven on."""
+    return Lanes(0.0, width_m / 2 * against, width_m / 2 * along)
+
+
+def _passing(opening: Opening) -> Lanes:
+    """The lane through an opening, seen along it: on the right half, or in the middle of a door."""
+    if opening.towards != OUTSIDE:
+        return _halves(opening.width_m, along=True, against=False)
+    width_m = min(opening.width_m, _MOST_PORTAL_LANE_M)
+    return Lanes(width_m / 2, 0.0, width_m)
+
+
+def _from_end(path: _Path) -> _Path:
+    """A road from its end to its start, each lane on the side where it is seen then; one lane stays as it is said."""
+    length_m = max((run for run, _ in path.profile_m), default=0.0)
+    one_way = path.lanes[0].left_m == 0
+    lanes = path.lanes if one_way else tuple(Lanes(-lane.middle_m, lane.right_m, lane.left_m) for lane in path.lanes)
+    return path._replace(
+        ends=(path.ends[1], path.ends[0]),
+        lanes=(lanes[1], lanes[0]),
+        meetings=(path.meetings[1], path.meetings[0]),
+        squares=tuple(reversed(path.squares)),
+        profile_m=tuple((length_m - run, height) for run, height in reversed(path.profile_m)),
+    )
+
+
+def _beside(place: Point, along: Point, left_m: float) -> Point:
+    return place[0] - along[1] * left_m, place[1] + along[0] * left_m
+
+
+def _crossing(start: Point, along: Point, end: Point, onward: Point) -> Point:
+    """Where a line from a point on crosses one that leads to another point."""
+    over = along[0] * onward[1] - along[1] * onward[0]
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    run = (dx * onward[1] - dy * onward[0]) / over
+    return start[0] + run * along[0], start[1] + run * along[1]
+
+
+def _profile(ramp: RampFloor, length_m: float) -> tuple[tuple[float, float], ...]:
+    """Heights along the way from the top of a ramp into the garage, in straight stretches."""
+    top_m = float(ramp.runs_m[-1])
+    down = [(top_m - run, height) for run, height in zip(ramp.runs_m.tolist(), ramp.heights_m.tolist(), strict=True)]
+    line = shapely.LineString([*down[::-1], (length_m, down[0][1])]).simplify(_PROFILE_M)
+    return tuple((s, height) for s, height in shapely.get_coordinates(line).tolist())

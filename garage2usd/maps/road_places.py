@@ -1,0 +1,114 @@
+"""Which road an object of a map lies beside, and where along it."""
+
+import math
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from garage2usd.maps.frame import map_point
+from garage2usd.maps.network import Lanes, Network, Road
+from garage2usd.maps.reference_line import Point, ReferenceLine, straight
+from garage2usd.maps.squares import Square
+from garage2usd.reading.ground import StallOutline
+
+__all__ = ["RoadPlaces"]
+
+_BEYOND_M = 0.5
+"""How far a line without lanes goes on beyond the objects on it."""
+_NEAR_M = 25.0
+"""What has no road nearer than this lies beside the line along all of the garage."""
+_WITHOUT_LANES = Lanes(0.0, 0.0, 0.0)
+
+
+class RoadPlaces:
+    """The straight roads of a garage, and lines without lanes for what lies beside none of them.
+
+    Parameters
+    ----------
+    network
+        The roads.
+    stalls
+        All stalls.
+    first_number
+        Of the lines without lanes.
+
+    Notes
+    -----
+    Objects lie beside straight roads alone: programs that follow a road's arc as a polyline find other places. A stall
+    lies beside the straight road through the square that it opens onto, else beside a line through the middle of that
+    square along its mouth.
+    """
+
+    def __init__(self, network: Network, stalls: Iterable[StallOutline], *, first_number: int) -> None:
+        self._roads = [road for road in network.roads if road.junction is None and road.line.is_straight]
+        self._next = first_number
+        self.lines: list[Road] = []
+        """The roads without lanes."""
+        self._of_stall: dict[StallOutline, Road] = {}
+        self._add_stalls(stalls, network.squares)
+        self._straights = (*self._roads, *self.lines)
+        arcs = [road.line.arcs[0] for road in self._straights]
+        self._starts = np.array([arc.start for arc in arcs]).reshape(-1, 2)
+        headings = np.array([arc.heading_rad for arc in arcs])
+        self._along = np.stack([np.cos(headings), np.sin(headings)], axis=1).reshape(-1, 2)
+        self._lengths = np.array([arc.length_m for arc in arcs])
+
+    def of_stall(self, stall: StallOutline) -> tuple[Road, float, float]:
+        """The road that a stall lies beside, with (s, t) of its middle."""
+        road = self._of_stall[stall]
+        return road, *road.line.foot(map_point(stall.centre))
+
+    def of_point(self, point: Point) -> tuple[Road, float, float]:
+        """The nearest straight road beside which a point lies, with its (s, t)."""
+        away = np.array(point) - self._starts
+        s = (away * self._along).sum(axis=1)
+        t = self._along[:, 0] * away[:, 1] - self._along[:, 1] * away[:, 0]
+        distance = np.where((s >= 0) & (s <= self._lengths), np.abs(t), np.inf)
+        nearest = int(distance.argmin()) if len(distance) else 0
+        if len(distance) and distance[nearest] <= _NEAR_M:
+            return self._straights[nearest], float(s[nearest]), float(t[nearest])
+        road = self._line_along_all
+        return road, *road.line.foot(point)
+
+    def _add_stalls(self, stalls: Iterable[StallOutline], squares: Sequence[Square]) -> None:
+        through = {number: road for road in self._roads for number in road.squares}
+        without: dict[tuple[int, Point], list[StallOutline]] = {}
+        for stall in stalls:
+            road = through.get(stall.access)
+            if road is not None and 0.0 <= road.line.foot(map_point(stall.centre))[0] <= road.line.length_m:
+                self._of_stall[stall] = road
+            else:
+                x, y = map_point(stall.outwards)
+                # along the mouth, in the same direction for stalls that face each other
+                along = max((round(-y, 6) + 0.0, round(x, 6) + 0.0), (round(y, 6) + 0.0, round(-x, 6) + 0.0))
+                without.setdefault((stall.access, along), []).append(stall)
+        for (number, along), beside in without.items():
+            line = _line(squares[number].middle, along, [map_point(stall.centre) for stall in beside])
+            road = self._new_line(line, number)
+            self._of_stall.update(dict.fromkeys(beside, road))
+
+    @cached_property
+    def _line_along_all(self) -> Road:
+        """A line under all of the garage and as much again on both sides."""
+        ends = self._starts + self._along * self._lengths[:, None]
+        points = np.concatenate([self._starts, ends])
+        low, high = points.min(axis=0), points.max(axis=0)
+        reach = float((high - low).max()) + _NEAR_M
+        start, end = (float(low[0]) - reach, float(low[1])), (float(high[0]) + reach, float(low[1]))
+        return self._new_line(straight(start, end))
+
+    def _new_line(self, line: ReferenceLine, *squares: int) -> Road:
+        road = Road(self._next, line, _WITHOUT_LANES, _WITHOUT_LANES, squares)
+        self._next += 1
+        self.lines.append(road)
+        return road
+
+
+def _line(middle: Point, along: Point, points: Sequence[Point]) -> ReferenceLine:
+    """A line through a point on which the feet of others lie."""
+    runs = [(x - middle[0]) * along[0] + (y - middle[1]) * along[1] for x, y in points]
+    length = math.hypot(*along)
+    low, high = min(0.0, *runs) - _BEYOND_M, max(0.0, *runs) + _BEYOND_M
+    start, end = ((middle[0] + run * along[0] / length, middle[1] + run * along[1] / length) for run in (low, high))
+    return straight(start, end)

@@ -1,0 +1,81 @@
+"""XML files of maps: elements with numbers as attributes, the same text for the same map."""
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
+from pathlib import Path
+
+__all__ = ["child", "element_lines", "number_text", "tag_text", "write_lines", "write_xml"]
+
+_DIGITS = 9
+_DECLARATION = "<?xml version='1.0' encoding='utf-8'?>"
+_INDENT, _END = "  ", " />"
+_SPECIAL = re.compile(r"[&<>\r\n\t]")
+_ESCAPES = str.maketrans(
+    {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\r": "&#13;", "\n": "&#10;", "\t": "&#09;"}
+)
+_TEXT_ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;"})
+
+
+@lru_cache(maxsize=2**16)
+def number_text(value: float) -> str:
+    """A number to the nanometre, as short as it can be."""
+    rounded = round(float(value), _DIGITS) + 0.0
+    return str(int(rounded)) if rounded == int(rounded) else repr(rounded)
+
+
+def child(parent: ET.Element, tag: str, /, **attributes: float | str) -> ET.Element:
+    """A new element in another one; a name that Python keeps for itself ends in an underscore here."""
+    texts = {
+        name.rstrip("_"): value if isinstance(value, str) else number_text(value) for name, value in attributes.items()
+    }
+    return ET.SubElement(parent, tag, texts)
+
+
+def tag_text(tag: str, attributes: Mapping[str, str]) -> str:
+    """A tag with its attributes, without the bracket that ends it."""
+    text = "".join([f' {name}="{value}"' for name, value in attributes.items()])
+    if _SPECIAL.search(text) or text.count('"') != 2 * len(attributes):
+        text = "".join([f' {name}="{value.translate(_ESCAPES)}"' for name, value in attributes.items()])
+    return f"<{tag}{text}"
+
+
+def element_lines(element: ET.Element, *, indent: str = _INDENT, end: str = _END) -> list[str]:
+    """The lines of an element whose tags have no namespaces, and of all within it.
+
+    Parameters
+    ----------
+    element
+        It has either text or other elements.
+    indent
+        Before an element within another one.
+    end
+        Of an element without anything in it.
+    """
+    lines: list[str] = []
+    _add_lines(lines, element, "", indent, end)
+    return lines
+
+
+def _add_lines(lines: list[str], element: ET.Element, before: str, indent: str, end: str) -> None:
+    text = before + tag_text(element.tag, element.attrib)
+    if len(element):
+        lines.append(f"{text}>")
+        for inner in element:
+            _add_lines(lines, inner, before + indent, indent, end)
+        lines.append(f"{before}</{element.tag}>")
+    elif element.text:
+        lines.append(f"{text}>{element.text.translate(_TEXT_ESCAPES)}</{element.tag}>")
+    else:
+        lines.append(text + end)
+
+
+def write_xml(root: ET.Element, path: Path) -> None:
+    """Write a file as `write_lines` does."""
+    write_lines(element_lines(root), path)
+
+
+def write_lines(lines: Iterable[str], path: Path) -> None:
+    """Write the lines of a file's one element, in UTF-8, with line feeds."""
+    path.write_bytes("\n".join([_DECLARATION, *lines, ""]).encode())

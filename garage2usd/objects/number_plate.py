@@ -1,0 +1,40 @@
+"""Number plates of parked cars."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+from garage2usd.assets.mesh import Asset
+from garage2usd.assets.number_plates import PLATE_CHARACTERS, number_plates
+from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.objects.kind import Kind, Spec, VariantSet
+
+__all__ = ["KIND", "NumberPlateSpec"]
+
+KIND = Kind(
+    "number_plate",
+    number=35,
+    label="number_plate",
+    cityscapes="car",
+    is_solid=False,
+    follows=VariantSet.OCCUPANCY,
+)
+"""To Cityscapes, whose class of them is drawn in no picture, they are part of the car."""
+
+_BODIES = {body.name: body for body in CAR_BODIES}
+
+
+@dataclass(frozen=True)
+class NumberPlateSpec(Spec, kind=KIND):
+    """The front and the rear plate of a car; origin where the car's is, in the middle of its footprint, nose to -Z."""
+
+    body: str
+    text: str
+
+    @property
+    def shape(self) -> Self:
+        """The plates of the same body without text, as all are one asset: texture coordinates make the difference."""
+        return replace(self, text=" " * PLATE_CHARACTERS)
+
+    def asset(self) -> Asset:
+        """Both plates with the text."""
+        return number_plates(_BODIES[self.body], self.text)

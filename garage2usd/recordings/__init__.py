@@ -1,0 +1,219 @@
+"""What the sensors of a rig record along a drive: pictures with ground truth, points, masks and calibration."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from garage2usd.config.maps import DriveConfig
+from garage2usd.errors import ConfigError
+from garage2usd.output import check_writable, publish, unfinished_folder
+from garage2usd.progress import Progress, silent
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.labels import read_labels
+from garage2usd.recordings.birds_eye import check_birds_eye
+from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
+from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
+from garage2usd.recordings.way import Way
+from garage2usd.render import Picture, SlotFormat
+from garage2usd.render.blender_process import check_blender
+from garage2usd.render.frames_file import write_frames
+from garage2usd.render.pictures import write_mask
+from garage2usd.render.slot_labels import SlotLabels, check_slots
+from garage2usd.sensors.birds_eye import BirdsEye
+from garage2usd.sensors.calibration import write_calibration
+from garage2usd.sensors.ego_mask import body_named, ego_mask
+from garage2usd.sensors.point_cloud_files import CloudFormat
+from garage2usd.sensors.recording import Recording
+from garage2usd.sensors.rig import Rig, read_rig
+
+if TYPE_CHECKING:
+    from garage2usd.recordings.sweeps import Sweeps
+    from garage2usd.render.pictures import VisibleInstance
+
+__all__ = ["CloudFormat", "Recorded", "Sequence", "record"]
+
+_LEAST_STEP_M = 0.01
+_CALIBRATION = "calibration"
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """The files of a recording.
+
+    Attributes
+    ----------
+    folder, frames
+        Where it stands, and the table of its frames in it.
+    recording
+        What each sensor recorded when, as the formats of sequences take it.
+    """
+
+    folder: Path
+    frames: Path
+    recording: Recording
+
+
+def record(
+    stage: str | Path,
+    output: str | Path,
+    *,
+    rig: str | Path | Rig,
+    along: str,
+    every_m: float = 1.0,
+    scale: float = 1.0,
+    samples: int = 64,
+    seed: int = 0,
+    pictures: Collection[Picture] = tuple(Picture),
+    slots: Collection[SlotFormat] | None = None,
+    birds_eye: BirdsEye | None = None,
+    points: Collection[CloudFormat] = tuple(CloudFormat),
+    sequences: Collection[Sequence] = (),
+    settings: DriveConfig | None = None,
+    progress: Progress = silent,
+) -> Recorded:
+    """Record a drive through a stage with the sensors of a rig.
+
+    Parameters
+    ----------
+    stage
+        A stage of garage2usd, also one that other tools have edited.
+    output
+        Folder that the recording goes to; files of the same names are replaced. Until it is finished, the frames that
+        are stand in ``<output>.unfinished``, and the same call goes on from there.
+    rig
+        A `Rig`, the name of a shipped one, or a TOML file.
+    along
+        ``ENTRANCE:STALL``, as ``1:A1-08``: the way that the design car is proven to drive from an entrance, by its
+        number from 1 on, to a stall, by its name or the number painted in it; without a number that of the shortest
+        way. The car that is parked in the stall is left out. Or the name of a camera of the stage that moves.
+    every_m
+        Between two places on the way.
+    scale
+        Of the sides of the pictures.
+    samples, seed, pictures, slots
+        As `garage2usd.render.render_stage` has them; the seed is that of LiDARs' noise too.
+    birds_eye
+        Bird's-eye views at each place as well, with masks of free space and of the vehicle; None for none.
+    points
+        What the points of LiDARs are written as.
+    sequences
+        What the whole is written as beside that, each in a folder of its name.
+    settings
+        How the car drives.
+    progress
+        Told of the drive, and of the samples that are done.
+
+    Raises
+    ------
+    ConfigError
+        If the rig, the way or the output cannot be used, or there is no way to the stall.
+    MissingExtraError
+        If Blender, which a rig without cameras does not need, what casts rays or what writes bags is not installed.
+    OutputError
+        If the files cannot be written. They appear whole or not at all.
+    RenderError
+        If Blender fails.
+    StageError
+        If the stage cannot be read.
+    """
+    path, folder = Path(stage), Path(output)
+    chosen = (rig if isinstance(rig, Rig) else read_rig(rig)).scaled(scale)
+    if every_m < _LEAST_STEP_M:
+        raise ConfigError("every_m", every_m, f"{_LEAST_STEP_M} m or more")
+    kinds, formats = _written(chosen, pictures, points)
+    if birds_eye is not None:
+        check_birds_eye(chosen, kinds)
+    asked = frozenset(sequences)
+    check_sequences(asked, chosen, kinds, formats)
+    if chosen.cameras:
+        check_blender()
+    check_writable(folder)
+    opened = open_stage(path)
+    progress("drive", 0, 1)
+    way = Way(opened, path, along, every_m, settings or DriveConfig())
+    scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)
+    progress("drive", 1, 1)
+    if slots is not None:
+        check_slots(opened, slots, scene.views, kinds)
+    sweeps = None
+    if formats or asked:
+        from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - of an extra, which pictures do without
+
+        sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
+    key = scene.key(path, kinds, samples=samples, seed=seed)
+    with unfinished_folder(folder, key) as unfinished:
+        finished, work = unfinished / "finished", unfinished / "work"
+        work.mkdir(exist_ok=True)
+        finished.mkdir(exist_ok=True)
+        visible: list[list[VisibleInstance] | None] = []
+        made = [finished / kind for kind in kinds]
+        about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about}
+        if chosen.cameras:
+            visible = scene.drawing(work, finished, kinds, samples=samples, seed=seed).draw(work, progress)
+            made += _write_calibrations(chosen, finished)
+            if scene.birds_eye is not None:
+                made.append(scene.birds_eye.write_masks(finished, body_named(chosen.car)))
+        if sweeps is not None and formats:
+            about["sweeps"] = sweeps.write(finished, work, progress)
+            made.append(finished / POINTS_FOLDER)
+        if sweeps is not None:
+            made += _write_sequences(
+                asked, _recording(scene, sweeps, path, finished, kinds), finished, sweeps, progress
+            )
+        table = write_frames(
+            finished / "frames.json",
+            [(view, seen, []) for view, seen in zip(scene.views, visible, strict=True)],
+            scene.labels,
+            kinds,
+            stage=path,
+            about=about,
+        )
+        free = () if way.stall is None else (way.stall.name,)
+        told = [] if slots is None else SlotLabels(opened, scene.labels, scene.views, finished, free).write(slots)
+        places = publish([*made, *told, table], folder)
+    return Recorded(folder, places[-1], _recording(scene, sweeps, path, folder, kinds))
+
+
+def _written(
+    rig: Rig, pictures: Collection[Picture], points: Collection[CloudFormat]
+) -> tuple[tuple[Picture, ...], tuple[CloudFormat, ...]]:
+    """The kinds of pictures of a rig's cameras, and the formats of its LiDARs' points."""
+    kinds = tuple(kind for kind in Picture if kind in pictures) if rig.cameras else ()
+    if rig.cameras and not kinds:
+        raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
+    formats = tuple(kind for kind in CloudFormat if kind in points) if rig.lidars else ()
+    if rig.lidars and not formats:
+        raise ConfigError("points", list(points), f"at least one of {', '.join(CloudFormat)}")
+    return kinds, formats
+
+
+def _write_calibrations(rig: Rig, finished: Path) -> list[Path]:
+    """Write the calibration of each camera, and the mask of the car that carries it."""
+    folders = [finished / name for name in (EGO_FOLDER, _CALIBRATION)]
+    for folder in folders:
+        folder.mkdir(exist_ok=True)
+    for camera in rig.cameras:
+        write_calibration(camera, finished / _CALIBRATION)
+        if camera.mount == "vehicle":
+            write_mask(ego_mask(camera, body_named(rig.car)), finished / EGO_FOLDER / f"{camera.name}.png")
+    return folders
+
+
+def _write_sequences(
+    asked: Collection[Sequence], recording: Recording, finished: Path, sweeps: "Sweeps", progress: Progress
+) -> Iterator[Path]:
+    for kind in Sequence:
+        if kind in asked:
+            progress(kind.value, 0, 1)
+            yield write_sequence(kind, recording, finished, sweeps)
+            progress(kind.value, 1, 1)
+
+
+def _recording(
+    scene: Scene, sweeps: "Sweeps | None", path: Path, folder: Path, kinds: tuple[Picture, ...]
+) -> Recording:
+    """What cameras and LiDARs recorded, place by place."""
+    pictures = scene.recording(path, folder, kinds)
+    shots = [*pictures.shots, *(sweeps.shots(folder) if sweeps else ())]
+    return replace(pictures, shots=tuple(sorted(shots, key=lambda shot: shot.pose)))

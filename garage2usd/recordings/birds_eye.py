@@ -1,0 +1,117 @@
+"""The bird's-eye views of a recording, with masks of free space and of the vehicle."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from PIL import Image
+
+from garage2usd.config.vehicles import DRIVEN_PAINT, CarBody
+from garage2usd.errors import ConfigError
+from garage2usd.objects.car import CarSpec
+from garage2usd.reading.labels import Labels
+from garage2usd.recordings.way import Way
+from garage2usd.render import Picture
+from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
+from garage2usd.render.cameras import View
+from garage2usd.render.pictures import classes_of, read_ids, write_mask
+from garage2usd.sensors.birds_eye import BirdsEye, free_space
+from garage2usd.sensors.poses import CAR_FROM_VEHICLE, VehiclePose
+from garage2usd.sensors.rig import Rig
+
+__all__ = ["FREE_FOLDER", "BirdsEyeViews", "check_birds_eye"]
+
+FREE_FOLDER = "free_space"
+"""Of the masks of free space."""
+_NAME = "birds_eye"
+
+
+def check_birds_eye(rig: Rig, kinds: Collection[Picture]) -> None:
+    """Find out before anything is drawn whether bird's-eye views can be recorded.
+
+    Raises
+    ------
+    ConfigError
+        If the rig has no cameras, beside whose pictures they are drawn, or no picture is that tells free space.
+    """
+    if not rig.cameras:
+        raise ConfigError("birds_eye", rig.name, "bird's-eye views beside the pictures of a rig with cameras")
+    if not {Picture.SEMANTIC, Picture.INSTANCE}.intersection(kinds):
+        allowed = f"{Picture.SEMANTIC} or {Picture.INSTANCE} among them, from which free space is told"
+        raise ConfigError("pictures", ",".join(kinds), allowed)
+
+
+class BirdsEyeViews:
+    """One view at each place of a way.
+
+    Attributes
+    ----------
+    views, hidden
+        The views, and the ids that each looks through.
+    """
+
+    def __init__(
+        self, settings: BirdsEye, way: Way, labels: Labels, *, left_out: Sequence[int], ego_folder: str
+    ) -> None:
+        """Place the views; `left_out` has ids that no view shows."""
+        self._settings, self._way, self._labels = settings, way, labels
+        self._ego_mask = f"{ego_folder}/{_NAME}.png"
+        self.views = [self._view(number, pose) for number, pose in enumerate(way.poses)]
+        self.hidden = [[*looked_through(labels, settings), *left_out]] * len(self.views)
+
+    def write_masks(self, finished: Path, car: CarBody) -> Path:
+        """Write the masks of free space beside the pictures, and that of the vehicle.
+
+        Returns
+        -------
+        Path
+            The folder of those of free space.
+        """
+        (finished / FREE_FOLDER).mkdir(exist_ok=True)
+        ground = self._settings.ground_mask(_outlines_m(car))
+        write_mask(ground, finished / self._ego_mask)
+        names = {number: entry.name for number, entry in self._labels.classes.items()}
+        for view, pose in zip(self.views, self._way.poses, strict=True):
+            free = free_space(self._classes(view, finished), names)
+            if not self._settings.cars:
+                free &= ~self._settings.ground_mask(self._cars_m(pose))
+            write_mask(free, finished / FREE_FOLDER / f"{view.name}.png")
+        return finished / FREE_FOLDER
+
+    def _view(self, number: int, pose: VehiclePose) -> View:
+        view = birds_eye_view(f"{_NAME}_{number:04d}", self._settings, pose.vehicle_to_world)
+        facts = {
+            "sensor": _NAME,
+            "pose": number,
+            **pose.facts,
+            "size_px": list(view.size_px),
+            "ego_mask": self._ego_mask,
+            "free_space": f"{FREE_FOLDER}/{view.name}.png",
+            "hidden_objects": self._way.left_out,
+        }
+        return replace(view, facts={**view.facts, **facts})
+
+    def _classes(self, view: View, finished: Path) -> NDArray[np.uint8]:
+        """Id of the class that each pixel shows."""
+        semantic = finished / Picture.SEMANTIC / f"{view.name}{Picture.SEMANTIC.extension}"
+        if semantic.is_file():
+            with Image.open(semantic) as picture:
+                return np.array(picture)
+        instance = read_ids(finished / Picture.INSTANCE / f"{view.name}{Picture.INSTANCE.extension}")
+        return classes_of(instance, self._labels.class_ids)
+
+    def _cars_m(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
+        """Grounds of the parked cars around, in the vehicle's frame."""
+        to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ self._way.to_stage
+        grounds = (ground for name, (ground, _) in self._way.subject.cars.items() if name not in self._way.left_out)
+        corners = [np.asarray(shapely.get_coordinates(ground)) for ground in grounds]
+        return [np.insert(each, 1, 0.0, axis=1) @ to_vehicle[:2, :3].T + to_vehicle[:2, 3] for each in corners]
+
+
+def _outlines_m(car: CarBody) -> list[NDArray[np.float64]]:
+    """Grounds of a car and its mirrors in ISO 8855's axes, from the middle of the rear axle."""
+    outlines = [np.array(outline) - (0.0, car.rear_axle_m) for outline in CarSpec(car.name, DRIVEN_PAINT).outlines()]
+    return [np.insert(each, 1, 0.0, axis=1) @ CAR_FROM_VEHICLE[:3, :2] for each in outlines]

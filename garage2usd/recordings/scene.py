@@ -1,0 +1,154 @@
+"""What a recording draws: its views, and the stage with the vehicle in it."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from pxr import Ar, Usd, UsdUtils
+
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.labels import Labels
+from garage2usd.recordings.birds_eye import BirdsEyeViews
+from garage2usd.recordings.way import Way
+from garage2usd.render import Picture
+from garage2usd.render.cameras import USD_FROM_OPENCV, View
+from garage2usd.render.drawing import Drawing
+from garage2usd.sensors.birds_eye import BirdsEye
+from garage2usd.sensors.camera import Camera
+from garage2usd.sensors.ego_mask import body_named
+from garage2usd.sensors.poses import VehiclePose
+from garage2usd.sensors.recording import Recording, Shot
+from garage2usd.sensors.rig import Rig
+from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
+from garage2usd.version import VERSION
+
+__all__ = ["EGO_FOLDER", "POINTS_FOLDER", "Scene"]
+
+EGO_FOLDER = "ego"
+"""Of the masks of the car that carries the cameras."""
+POINTS_FOLDER = "points"
+"""Holds a folder for each LiDAR, with its points at each place of the way."""
+
+
+class Scene:
+    """The views of a recording, and what they look through."""
+
+    def __init__(self, stage: Usd.Stage, labels: Labels, way: Way, rig: Rig, birds_eye: BirdsEye | None = None) -> None:
+        self._stage, self._way, self._rig = stage, way, rig
+        self._ego_id = max(labels.ids.values(), default=0) + 1
+        cars = [number for number, entry in labels.classes.items() if entry.name == "car"]
+        self.labels = replace(
+            labels,
+            ids={**labels.ids, EGO_PATH: self._ego_id},
+            class_ids={**labels.class_ids, self._ego_id: cars[0] if cars else 0},
+        )
+        self._left_out = [labels.ids[name] for name in labels.with_plates(way.left_out) if name in labels.ids]
+        self.shots = list(self._shots())
+        views = [self._view(camera, number, pose) for camera, number, pose in self.shots]
+        left_out = [*self._left_out, self._ego_id]
+        self.birds_eye = (
+            BirdsEyeViews(birds_eye, way, labels, left_out=left_out, ego_folder=EGO_FOLDER) if birds_eye else None
+        )
+        self.views = [*views, *(self.birds_eye.views if self.birds_eye else ())]
+
+    def hidden(self) -> list[list[int]]:
+        """For each view the ids that it looks through: the car that carries its camera, and the one in the stall."""
+        shots = [
+            [*self._left_out, self._ego_id] if camera.mount == "vehicle" else self._left_out
+            for camera, _, _ in self.shots
+        ]
+        return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
+
+    def drawing(self, work: Path, finished: Path, kinds: Sequence[Picture], *, samples: int, seed: int) -> Drawing:
+        """How the views are drawn: the stage with the vehicle in it, which other cameras than its own see."""
+        with_car = work / "stage.usdc"
+        with_car.unlink(missing_ok=True)
+        write_stage_with_car(with_car, self._stage, body_named(self._rig.car))
+        moved = [None if camera.mount == "vehicle" else self._way.car_moved(pose) for camera, _, pose in self.shots]
+        moved += [None] * (len(self.views) - len(moved))
+        return Drawing(
+            open_stage(with_car),
+            self.labels,
+            self.views,
+            self.hidden(),
+            kinds,
+            samples,
+            seed,
+            finished,
+            frozenset({self._ego_id}),
+            moved,
+        )
+
+    def recording(self, path: Path, folder: Path, kinds: Sequence[Picture]) -> Recording:
+        """What was recorded, with the files of the pictures."""
+        return Recording(
+            self._rig.name,
+            path,
+            tuple(
+                Shot(
+                    view.name,
+                    camera,
+                    number,
+                    pose.time_s,
+                    self._way.mount_to_world(camera, pose),
+                    {kind.value: folder / kind / f"{view.name}{kind.extension}" for kind in kinds},
+                )
+                for view, (camera, number, pose) in zip(self.views, self.shots, strict=False)
+            ),
+        )
+
+    def _shots(self) -> Iterator[tuple[Camera, int, VehiclePose]]:
+        for number, pose in enumerate(self._way.poses):
+            for camera in self._rig.cameras:
+                yield camera, number, pose
+
+    def _view(self, camera: Camera, number: int, pose: VehiclePose) -> View:
+        lens = camera.lens
+        sensor_to_world = self._way.mount_to_world(camera, pose) @ camera.sensor_to_vehicle
+        placed = (
+            {"sensor_to_vehicle": camera.sensor_to_vehicle.tolist(), "ego_mask": f"{EGO_FOLDER}/{camera.name}.png"}
+            if camera.mount == "vehicle"
+            else {"sensor_to_world": sensor_to_world.tolist()}
+        )
+        facts = {
+            "sensor": camera.name,
+            "mount": camera.mount,
+            "pose": number,
+            **pose.facts,
+            "size_px": list(lens.size_px),
+            "lens": lens.parameters(),
+            "vehicle_to_world": pose.vehicle_to_world.tolist(),
+            **placed,
+            "hidden_objects": self._way.left_out,
+        }
+        name = f"{camera.name}_{number:04d}"
+        return View(name, camera.name, None, lens, lens.size_px, sensor_to_world @ USD_FROM_OPENCV, facts)
+
+    def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int) -> str:
+        """Tells recordings apart whose frames differ."""
+        document: dict[str, Any] = {
+            "version": VERSION,
+            "stage": _digest(self._stage, path),
+            "views": [[view.name, view.lens_job(), view.camera_to_world.tolist(), view.facts] for view in self.views],
+            "hidden": self.hidden(),
+            "car": self._rig.car,
+            "kinds": kinds,
+            "samples": samples,
+            "seed": seed,
+        }
+        return hashlib.sha256(json.dumps(document).encode()).hexdigest()
+
+
+def _digest(stage: Usd.Stage, path: Path) -> str:
+    """Of all files that a stage is read from, and of its table of labels."""
+    layers, assets, _ = UsdUtils.ComputeAllDependencies(stage.GetRootLayer().identifier)
+    names = [*(layer.realPath for layer in layers), *assets, str(path.with_name(f"{path.stem}_labels.json"))]
+    files = {Ar.SplitPackageRelativePathOuter(name)[0] for name in names}
+    digest = hashlib.sha256()
+    for file in sorted(map(Path, files), key=lambda file: file.name):
+        if file.is_file():
+            digest.update(hashlib.sha256(file.read_bytes()).digest())
+    return digest.hexdigest()

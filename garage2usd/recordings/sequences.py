@@ -1,0 +1,88 @@
+"""A recording in the formats of sequences: nuScenes' tables, a ROS 2 bag."""
+
+import shutil
+from collections.abc import Collection
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garage2usd.errors import ConfigError
+from garage2usd.render.pictures import Picture
+from garage2usd.sensors.camera import PinholeCamera
+from garage2usd.sensors.point_cloud_files import CloudFormat
+from garage2usd.sensors.poses import MAP_TO_Y_UP, y_up_to_stage
+from garage2usd.sensors.recording import Recording
+from garage2usd.sensors.rig import Rig
+
+if TYPE_CHECKING:
+    from garage2usd.recordings.sweeps import Sweeps
+
+__all__ = ["Sequence", "check_sequences", "write_sequence"]
+
+
+class Sequence(StrEnum):
+    """What a recording is written as beside its own files."""
+
+    NUSCENES = "nuscenes"
+    """Tables of nuScenes."""
+    ROS2 = "ros2"
+    """A ROS 2 bag."""
+
+
+def check_sequences(
+    asked: Collection[Sequence], rig: Rig, pictures: Collection[Picture], points: Collection[CloudFormat]
+) -> None:
+    """Find out before the work whether what is recorded can be written as sequences.
+
+    Raises
+    ------
+    ConfigError
+        If a rig or what is recorded of it does not suit them.
+    MissingExtraError
+        If what writes them is not installed.
+    """
+    if not asked:
+        return
+    if rig.lidars and CloudFormat.NPZ not in points:
+        raise ConfigError("points", ", ".join(points), "npz among them, of which nuScenes and ROS 2 are made")
+    has_colour = Picture.COLOUR in pictures
+    if rig.cameras and not rig.lidars and not has_colour:
+        raise ConfigError("only", ", ".join(pictures), "colour among them, of which nuScenes and ROS 2 are made")
+    if Sequence.NUSCENES in asked:
+        if not rig.lidars and not any(isinstance(camera, PinholeCamera) for camera in rig.cameras):
+            raise ConfigError("rig", rig.name, "a rig with a LiDAR or a pinhole camera, for nuScenes")
+        away = [sensor.name for sensor in rig.sensors if sensor.mount != "vehicle"]
+        if away:
+            raise ConfigError("rig", away[0], "sensors on the vehicle, for nuScenes")
+    if Sequence.ROS2 in asked:
+        import garage2usd.sensors.ros_bag  # noqa: F401, PLC0415 - raises here, and not after hours, without its extra
+
+
+def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps") -> Path:
+    """Write a recording as a sequence.
+
+    Parameters
+    ----------
+    kind
+        What it is written as; names its folder too.
+    recording
+        What was recorded.
+    folder
+        Where that folder goes; what is there of it is replaced.
+    sweeps
+        Of the LiDARs, and what they were cast at.
+    """
+    place = folder / kind
+    shutil.rmtree(place, ignore_errors=True)
+    if kind is Sequence.NUSCENES:
+        from garage2usd.sensors.nuscenes import write_nuscenes  # noqa: PLC0415 - of an extra, which pictures do without
+
+        place.mkdir(parents=True)
+        write_nuscenes(recording, place, stage=sweeps.stage, labels=sweeps.labels, scene=sweeps.solids)
+    else:
+        from garage2usd.sensors.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
+
+        write_ros_bag(recording, place, stage_to_map=np.linalg.inv(y_up_to_stage(sweeps.stage) @ MAP_TO_Y_UP))
+    return place

@@ -1,0 +1,164 @@
+"""What the LiDARs of a rig record along a way."""
+
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Usd
+
+from garage2usd.progress import Progress
+from garage2usd.reading.files import open_stage
+from garage2usd.reading.labels import Labels
+from garage2usd.recordings.scene import POINTS_FOLDER
+from garage2usd.recordings.way import Way
+from garage2usd.sensors.ego_mask import body_named
+from garage2usd.sensors.lidar import measure
+from garage2usd.sensors.lidar_settings import Lidar
+from garage2usd.sensors.moved_scene import MovedScene, joined
+from garage2usd.sensors.point_cloud import PointCloud
+from garage2usd.sensors.point_cloud_files import CloudFormat, write_cloud
+from garage2usd.sensors.poses import VehiclePose
+from garage2usd.sensors.ray_scene import RayScene, read_ray_scene
+from garage2usd.sensors.recording import Shot
+from garage2usd.sensors.rig import Rig
+from garage2usd.stage.driving_car import CAR_NAME
+from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
+
+__all__ = ["Sweeps"]
+
+
+class Sweeps:
+    """The sweeps of a recording: one of each LiDAR at each place.
+
+    Parameters
+    ----------
+    stage
+        What is recorded.
+    labels
+        What its objects are, and the vehicle that drives, at `garage2usd.stage.ego_car.EGO_PATH`.
+    way
+        Where the vehicle is.
+    rig
+        Its LiDARs and the car that carries it.
+    formats
+        What points are written as.
+    seed
+        Of the noise.
+    """
+
+    def __init__(
+        self, stage: Usd.Stage, labels: Labels, way: Way, rig: Rig, formats: Sequence[CloudFormat], seed: int
+    ) -> None:
+        self.stage, self.labels = stage, labels
+        self._way, self._rig = way, rig
+        self._formats, self._seed = formats, seed
+
+    @cached_property
+    def solids(self) -> RayScene:
+        """What stands in the garage, less the car that is parked where the vehicle parks."""
+        roots = self.stage.GetPseudoRoot().GetChildren()
+        driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
+        return read_ray_scene(self.stage, self.labels, without=[*self.labels.with_plates(self._way.left_out), *driving])
+
+    def write(self, finished: Path, work: Path, progress: Progress) -> list[dict[str, Any]]:
+        """Cast all rays and write the points.
+
+        Parameters
+        ----------
+        finished
+            Folder that `POINTS_FOLDER` goes to; what is there of it is replaced.
+        work
+            Folder for what is needed for a while.
+        progress
+            Told of each sweep.
+
+        Returns
+        -------
+        list of dict
+            What ``frames.json`` says of each.
+        """
+        shutil.rmtree(finished / POINTS_FOLDER, ignore_errors=True)
+        for each in self._rig.lidars:
+            (finished / POINTS_FOLDER / each.name).mkdir(parents=True)
+        watched = self._watched(work) if any(lidar.mount != "vehicle" for lidar in self._rig.lidars) else None
+        sweeps = list(self._sweeps())
+        facts = []
+        for done, (lidar, number, pose) in enumerate(sweeps):
+            progress("points", done, len(sweeps))
+            scene: RayScene | MovedScene = self.solids
+            if watched is not None and lidar.mount != "vehicle":
+                scene = watched.at(self._way.car_moved(pose))
+            place = self._way.mount_to_world(lidar, pose) @ lidar.sensor_to_vehicle
+            cloud = measure(scene, lidar, place, seed=self._seed, sweep=number)
+            for kind, path in self._files(lidar, number).items():
+                write_cloud(cloud, finished / path, CloudFormat(kind))
+            facts.append(self._facts(lidar, number, pose, cloud))
+        progress("points", len(sweeps), len(sweeps))
+        return facts
+
+    def shots(self, folder: Path) -> list[Shot]:
+        """What was recorded when, in the order of the times, with the files below a folder."""
+        return [
+            Shot(
+                _name(lidar, number),
+                lidar,
+                number,
+                pose.time_s,
+                self._way.mount_to_world(lidar, pose),
+                {kind: folder / path for kind, path in self._files(lidar, number).items()},
+            )
+            for lidar, number, pose in self._sweeps()
+        ]
+
+    def _sweeps(self) -> Iterator[tuple[Lidar, int, VehiclePose]]:
+        for number, pose in enumerate(self._way.poses):
+            for lidar in self._rig.lidars:
+                yield lidar, number, pose
+
+    def _watched(self, work: Path) -> MovedScene:
+        """The garage with the vehicle in it, which LiDARs that it does not carry see."""
+        path = work / "stage_of_lidars.usdc"
+        path.unlink(missing_ok=True)
+        write_stage_with_car(path, self.stage, body_named(self._rig.car))
+        return joined(self.solids, read_ray_scene(open_stage(path), self.labels, only=[EGO_PATH]))
+
+    def _files(self, lidar: Lidar, number: int) -> Mapping[str, str]:
+        name = _name(lidar, number)
+        return {kind.value: f"{POINTS_FOLDER}/{lidar.name}/{name}.{kind}" for kind in self._formats}
+
+    def _facts(self, lidar: Lidar, number: int, pose: VehiclePose, cloud: PointCloud) -> dict[str, Any]:
+        to_world = self._way.mount_to_world(lidar, pose) @ lidar.sensor_to_vehicle
+        is_carried = lidar.mount == "vehicle"
+        own = {"sensor_to_vehicle": lidar.sensor_to_vehicle.tolist()} if is_carried else {}
+        path_of = {entry: path for path, entry in self.labels.ids.items()}
+        ids, counts = (each.tolist() for each in np.unique(cloud.instance, return_counts=True))
+        return {
+            "name": _name(lidar, number),
+            "sensor": lidar.name,
+            "mount": lidar.mount,
+            "pose": number,
+            **pose.facts,
+            "files": dict(self._files(lidar, number)),
+            "vehicle_to_world": pose.vehicle_to_world.tolist(),
+            **own,
+            "sensor_to_world": to_world.tolist(),
+            "hidden_objects": self._way.left_out,
+            "points": len(cloud),
+            "instances": [
+                {
+                    "id": entry,
+                    "path": path_of[entry],
+                    "class": self.labels.classes[self.labels.class_ids[entry]].name,
+                    "points": count,
+                }
+                for entry, count in zip(ids, counts, strict=True)
+                if entry
+            ],
+        }
+
+
+def _name(lidar: Lidar, number: int) -> str:
+    return f"{lidar.name}_{number:04d}"

@@ -1,0 +1,136 @@
+"""The way of a recording: where the vehicle is, and what it comes to."""
+
+from collections.abc import Mapping
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.checks.stage_reader import subject_of_stage
+from garage2usd.checks.subject import Subject
+from garage2usd.config.maps import DriveConfig, Leg
+from garage2usd.errors import ConfigError
+from garage2usd.maps.drives import DrivePlanner
+from garage2usd.reading.ground import StallOutline
+from garage2usd.render.cameras import find_views
+from garage2usd.sensors.columns import column_to_y_up
+from garage2usd.sensors.mount import Sensor
+from garage2usd.sensors.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, VehiclePose, poses_along, y_up_to_stage
+from garage2usd.stage.cameras import EYE_M, FRAMES_PER_SECOND
+
+__all__ = ["Way"]
+
+Matrix = NDArray[np.float64]
+
+
+class Way:
+    """Where the vehicle is, in steps along its way.
+
+    Attributes
+    ----------
+    poses
+        The places.
+    stall
+        What it parks in at the end, if it does.
+    about
+        What is said of the way.
+    to_stage
+        From metres with Y up to the stage's axes; shape (4, 4).
+    """
+
+    poses: list[VehiclePose]
+    stall: StallOutline | None
+    about: Mapping[str, object]
+    to_stage: Matrix
+
+    def __init__(self, stage: Usd.Stage, path: Path, along: str, every_m: float, settings: DriveConfig) -> None:
+        self._stage, self._source = stage, str(path)
+        self.to_stage = y_up_to_stage(stage)
+        self.stall = None
+        entrance, colon, stall = along.partition(":")
+        if colon:
+            self._drive_to(stall, entrance, along, every_m, settings)
+        else:
+            self._follow(along, every_m)
+
+    @cached_property
+    def subject(self) -> Subject:
+        """The garage."""
+        return subject_of_stage(self._stage, source=self._source)
+
+    def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
+        if not stall or not (entrance.isdecimal() or not entrance):
+            raise ConfigError("along", along, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
+        planner = DrivePlanner(self.subject, settings)
+        drive = planner.drive(stall, entrance=int(entrance) if entrance else None, leg=Leg.IN)
+        self.stall = next(each for each in self.subject.stalls if each.name == drive.route.stall)
+        self.poses = poses_along(drive.motion, every_m, to_stage=self.to_stage)
+        self.about = {"along": along, "every_m": every_m, **drive.facts}
+
+    def _follow(self, camera: str, every_m: float) -> None:
+        """Follow a camera that moves: the floor below it is where the rear axle is."""
+        first, last = self._stage.GetStartTimeCode(), self._stage.GetEndTimeCode()
+        views = find_views(self._stage, cameras=[camera], frames=f"{first:g}:{max(first, last):g}x1")
+        if views[0].frame is None:
+            raise ConfigError("along", camera, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
+        to_y_up = np.linalg.inv(self.to_stage)
+        eyes = [to_y_up @ view.camera_to_world for view in views]
+        steps = [np.linalg.norm(there[:3, 3] - here[:3, 3]) for here, there in pairwise(eyes)]
+        driven = np.concatenate([[0.0], np.cumsum(steps)])
+        nearest = [int(np.abs(driven - target).argmin()) for target in np.arange(0.0, driven[-1] + every_m, every_m)]
+        self.poses = [
+            VehiclePose(
+                ((views[number].frame or 0.0) - first) / FRAMES_PER_SECOND,
+                float(driven[number]),
+                self.to_stage @ _below(eyes[number]),
+            )
+            for number in dict.fromkeys(nearest)
+        ]
+        self.about = {"along": camera, "every_m": every_m}
+
+    def mount_to_world(self, sensor: Sensor, pose: VehiclePose) -> Matrix:
+        """From the frame that a sensor's pose is in to the stage's axes."""
+        if sensor.mount == "vehicle":
+            return pose.vehicle_to_world
+        if sensor.mount == "column":
+            return self._column
+        fixed: Matrix = self.to_stage @ MAP_TO_Y_UP
+        return fixed
+
+    def car_moved(self, pose: VehiclePose) -> Matrix:
+        """How a car is moved to a place that stands where `garage2usd.stage.ego_car` puts it; in the stage's axes."""
+        matrix: Matrix = pose.vehicle_to_world @ self._from_rest
+        return matrix
+
+    @cached_property
+    def _from_rest(self) -> Matrix:
+        """From the stage's axes to those of a vehicle in its origin, turned as Y up is."""
+        return np.linalg.inv(self.to_stage @ CAR_FROM_VEHICLE)
+
+    @cached_property
+    def _column(self) -> Matrix:
+        if self.stall is None:
+            raise ConfigError("along", self.about["along"], "ENTRANCE:STALL, for sensors on a column, which watch it")
+        matrix: Matrix = self.to_stage @ column_to_y_up(self.subject, self.stall)
+        return matrix
+
+    @cached_property
+    def left_out(self) -> list[str]:
+        """Paths of the cars that are parked where the vehicle parks."""
+        if self.stall is None:
+            return []
+        return [name for name, (_, home) in self.subject.cars.items() if home is not None and home == self.stall]
+
+
+def _below(eye: Matrix) -> Matrix:
+    """From ISO 8855's axes to metres with Y up, level, on the floor below a driver's eye that looks along -Z."""
+    ahead = -eye[[0, 2], 2] / (np.hypot(*eye[[0, 2], 2]) or 1.0)
+    matrix = np.eye(4)
+    matrix[:3, 0] = ahead[0], 0.0, ahead[1]
+    matrix[:3, 1] = ahead[1], 0.0, -ahead[0]
+    matrix[:3, 2] = 0.0, 1.0, 0.0
+    matrix[:3, 3] = eye[:3, 3] - (0.0, EYE_M, 0.0)
+    return matrix

@@ -1,0 +1,58 @@
+"""Bird's-eye views of a stage: the camera over a vehicle, and what it looks through."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.reading.labels import Labels
+from garage2usd.render.cameras import USD_FROM_OPENCV, View
+from garage2usd.sensors.birds_eye import BirdsEye
+from garage2usd.stage.labels import OBJECT_LABELS
+from garage2usd.stage.variants import SWITCHES
+
+__all__ = ["OVERHEAD", "birds_eye_view", "looked_through"]
+
+OVERHEAD = frozenset(OBJECT_LABELS[kind] for kind, switch in SWITCHES.items() if switch.variant_set == "ceiling")
+"""Classes of what hangs overhead, but for lights, which a stage switches by themselves."""
+_LIGHT = frozenset({OBJECT_LABELS["light"]})
+_CAR = frozenset({OBJECT_LABELS["car"], OBJECT_LABELS["number_plate"]})
+_NAME = "birds_eye"
+_ASIDE_M = np.array([1.3e-5, 0.7e-5, 0.0])
+"""By which the camera stands aside, so that no row of rays runs down exactly where two tiles meet, and misses both."""
+
+
+def birds_eye_view(name: str, settings: BirdsEye, vehicle_to_world: NDArray[np.float64]) -> View:
+    """The view from over a vehicle, forwards upwards.
+
+    Parameters
+    ----------
+    name
+        Of its files.
+    settings
+        What it shows.
+    vehicle_to_world
+        From the vehicle's axes (ISO 8855, the middle of the rear axle on the ground) to the stage's, in metres;
+        float64, shape (4, 4).
+    """
+    to_world = vehicle_to_world @ settings.sensor_to_vehicle() @ USD_FROM_OPENCV
+    to_world[:3, 3] += to_world[:3, :3] @ _ASIDE_M
+    facts = {
+        "metres_per_px": settings.metres_per_px,
+        "vehicle_px": settings.places([(0.0, 0.0)])[0].tolist(),
+        "vehicle_to_world": vehicle_to_world.tolist(),
+        "lens": settings.lens.parameters(),
+        "depth": "along_axis",
+        "hidden_classes": sorted(_hidden_classes(settings)),
+    }
+    return View(name, _NAME, None, settings.lens, settings.size_px, to_world, facts)
+
+
+def looked_through(labels: Labels, settings: BirdsEye) -> list[int]:
+    """Ids of what a bird's-eye view does not show: what hangs overhead, and parked cars if they are not wanted.
+
+    Lights still shine.
+    """
+    return [labels.ids[path] for path in labels.paths_of(_hidden_classes(settings))]
+
+
+def _hidden_classes(settings: BirdsEye) -> frozenset[str]:
+    return OVERHEAD | _LIGHT if settings.cars else OVERHEAD | _LIGHT | _CAR

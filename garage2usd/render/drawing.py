@@ -1,0 +1,230 @@
+"""Views drawn by Blender, frame by frame: what is finished is kept, and never drawn again."""
+
+import json
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.limits import lift
+from garage2usd.progress import Progress
+from garage2usd.reading.labels import Labels
+from garage2usd.render.blender_process import run_blender
+from garage2usd.render.cameras import View
+from garage2usd.render.drawn_prims import SHAPE_PROPERTY, DrawnPrims, read_drawn_prims, write_shapes
+from garage2usd.render.pictures import (
+    INDEX_LIMIT,
+    Picture,
+    VisibleInstance,
+    read_surfaces,
+    visible_instances,
+    write_colour,
+    write_picture,
+)
+from garage2usd.sensors.lenses import Pinhole
+
+__all__ = ["Drawing"]
+
+_BLENDER_FROM = {
+    UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
+    UsdGeom.Tokens.z: np.eye(3),
+}
+"""From the axes of a stage, by the one that is up, to Blender's."""
+_SEEN = "seen"
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """What is drawn, and how.
+
+    Attributes
+    ----------
+    stage, labels
+        The stage, and what its objects are.
+    views
+        The pictures' cameras; no two have one name.
+    hidden
+        For each view the ids of the objects that it looks through.
+    kinds
+        The kinds of pictures.
+    samples, seed
+        Of the colour picture.
+    finished
+        Folder that has a folder for each kind of picture, with the frames that are finished.
+    moving
+        Ids of the objects that move from view to view.
+    moved
+        For each view where they are: in the stage's axes, in metres, from where they stand in the stage; shape (4, 4),
+        None for a view that looks through them. Empty where nothing moves.
+    """
+
+    stage: Usd.Stage
+    labels: Labels
+    views: Sequence[View]
+    hidden: Sequence[Sequence[int]]
+    kinds: Collection[Picture]
+    samples: int
+    seed: int
+    finished: Path
+    moving: frozenset[int] = frozenset()
+    moved: Sequence[NDArray[np.float64] | None] = ()
+
+    def draw(self, work: Path, progress: Progress) -> list[list[VisibleInstance] | None]:
+        """Draw the frames that are not finished.
+
+        Parameters
+        ----------
+        work
+            A folder for what Blender reads and writes.
+        progress
+            Called with the number of samples that are done, of finished frames too.
+
+        Returns
+        -------
+        list
+            For each view the objects that it shows; None where only colour is drawn.
+
+        Raises
+        ------
+        RenderError
+            If Blender fails. Frames that were finished before stay.
+        """
+        for folder in (*self.kinds, _SEEN):
+            (self.finished / folder).mkdir(parents=True, exist_ok=True)
+        progress("scene", 0, 1)
+        scene = read_drawn_prims(self.stage, self.labels.ids)
+        digits = 1 + int(scene.instance.max(initial=0) >= INDEX_LIMIT)
+        moved = self.moved or [None] * len(self.views)
+        frames = zip(self.views, self.hidden, moved, strict=True)
+        jobs = [{**self._frame_job(view, hide, work, digits), "moved": _listed(place)} for view, hide, place in frames]
+        order = self._order()
+        total = len(self.views) * (self.samples * self._has_colour + self._has_data)
+        left = sum(self.samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
+        progress("render", total - left, total)
+        if left:
+            waiting = _Waiting(self, [(self.views[number], jobs[number]) for number in order])
+            lift()
+
+            def done(samples: int) -> None:
+                waiting.take()
+                progress("render", total - left + samples, total)
+
+            run_blender(self._job(scene, [jobs[number] for number in order], work), work, done)
+            waiting.take()
+        return [self._read_seen(view) if self._has_data else None for view in self.views]
+
+    def take_colour(self, view: View, drawn: Path) -> None:
+        """Keep a colour picture that Blender drew."""
+        with _whole(self._path(view, Picture.COLOUR)) as part:
+            write_colour(drawn, part)
+
+    def take_data(self, view: View, drawn: Sequence[Path]) -> None:
+        """Keep what Blender saw, as pictures; the list of what is visible comes last, and says that all are there."""
+        surfaces = read_surfaces(drawn, self._axes.T)
+        if isinstance(view.lens, Pinhole):  # whose rays Blender measures along
+            along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
+            surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))
+        for kind in self.kinds:
+            if kind is not Picture.COLOUR:
+                with _whole(self._path(view, kind)) as part:
+                    write_picture(kind, part, surfaces, self.labels)
+        seen = [asdict(each) for each in visible_instances(surfaces.instance)]
+        with _whole(self._seen_path(view)) as part:
+            part.write_text(json.dumps(seen), encoding="utf-8")
+
+    def _order(self) -> list[int]:
+        """The views in the order in which they are drawn: one lens after the other, as changing it takes a while."""
+        groups: dict[str, list[int]] = {}
+        for number, (view, hide) in enumerate(zip(self.views, self.hidden, strict=True)):
+            groups.setdefault(json.dumps([view.lens_job(), view.size_px, list(hide)]), []).append(number)
+        return [number for group in groups.values() for number in group]
+
+    @property
+    def _has_colour(self) -> bool:
+        return Picture.COLOUR in self.kinds
+
+    @property
+    def _has_data(self) -> bool:
+        return bool(set(self.kinds) - {Picture.COLOUR})
+
+    @property
+    def _axes(self) -> NDArray[np.float64]:
+        return _BLENDER_FROM[UsdGeom.GetStageUpAxis(self.stage)]
+
+    def _path(self, view: View, kind: Picture) -> Path:
+        return self.finished / kind / f"{view.name}{kind.extension}"
+
+    def _seen_path(self, view: View) -> Path:
+        return self.finished / _SEEN / f"{view.name}.json"
+
+    def _read_seen(self, view: View) -> list[VisibleInstance]:
+        entries = json.loads(self._seen_path(view).read_text(encoding="utf-8"))
+        return [VisibleInstance(**{**entry, "box_px": tuple(entry["box_px"])}) for entry in entries]
+
+    def _frame_job(self, view: View, hidden: Sequence[int], work: Path, digits: int) -> dict[str, Any]:
+        """What Blender is told of a frame, without what is finished."""
+        draws_colour = self._has_colour and not self._path(view, Picture.COLOUR).exists()
+        draws_data = self._has_data and not self._seen_path(view).exists()
+        return {
+            "colour": str(work / f"{view.name}.png") if draws_colour else None,
+            "data": [str(work / f"{view.name}_{digit}.exr") for digit in range(digits)] if draws_data else [],
+            "lens": view.lens_job(),
+            "size_px": view.size_px,
+            "camera_to_world": view.camera_to_world.tolist(),
+            "hidden": list(hidden),
+        }
+
+    def _job(self, scene: DrawnPrims, jobs: Sequence[Mapping[str, Any]], work: Path) -> dict[str, Any]:
+        write_shapes(self.stage, scene, work / "shapes.usda")
+        np.savez(work / "places.npz", shape=scene.shape, instance=scene.instance, to_world=scene.to_world)
+        to_blender = np.eye(4)
+        to_blender[:3, :3] = self._axes
+        return {
+            "shapes": str(work / "shapes.usda"),
+            "places": str(work / "places.npz"),
+            "mask": [str(prim) for prim in (*scene.shapes, *scene.materials, *scene.domes)],
+            "property": SHAPE_PROPERTY,
+            "to_blender": to_blender.tolist(),
+            "samples": self.samples,
+            "seed": self.seed,
+            "moving": sorted(self.moving),
+            "frames": jobs,
+        }
+
+
+class _Waiting:
+    """What Blender has still to draw of each frame; what it has drawn is taken as soon as it is whole."""
+
+    def __init__(self, drawing: Drawing, pairs: Sequence[tuple[View, Mapping[str, Any]]]) -> None:
+        self._drawing = drawing
+        self._colour = [(view, Path(job["colour"])) for view, job in pairs if job["colour"]]
+        self._data = [(view, [Path(name) for name in job["data"]]) for view, job in pairs if job["data"]]
+
+    def take(self) -> None:
+        """Take what is there; Blender draws the frames in their order, colour first."""
+        while self._colour and self._colour[0][1].exists():
+            view, drawn = self._colour.pop(0)
+            self._drawing.take_colour(view, drawn)
+            drawn.unlink()
+        while self._data and self._data[0][1][-1].exists():
+            view, files = self._data.pop(0)
+            self._drawing.take_data(view, files)
+            for file in files:
+                file.unlink()
+
+
+def _listed(matrix: NDArray[np.float64] | None) -> list[list[float]] | None:
+    return None if matrix is None else matrix.tolist()
+
+
+@contextmanager
+def _whole(path: Path) -> Iterator[Path]:
+    """A name to write a file under that gets its own name when it is whole."""
+    part = path.with_name(f".part-{path.name}")
+    yield part
+    part.replace(path)

@@ -1,0 +1,162 @@
+"""Slots in the frames of a data set: ``slots.json``, and what is derived from it for detectors."""
+
+import json
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.errors import ConfigError
+from garage2usd.output import json_text
+from garage2usd.reading.labels import Labels
+from garage2usd.render.cameras import View
+from garage2usd.render.pictures import Picture, read_ids, write_ids
+from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.coco import CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
+from garage2usd.sensors.dmpr_ps import dmpr_ps
+from garage2usd.sensors.seen_points import seen_points
+from garage2usd.sensors.slots import SlotFrame, SlotRecord, Slots, read_slots
+from garage2usd.sensors.slots_file import slots_document
+
+__all__ = ["SlotFormat", "SlotLabels", "check_slots"]
+
+
+class SlotFormat(StrEnum):
+    """Formats of slots."""
+
+    JSON = "json"
+    """``slots.json``, which is written with any of them."""
+    COCO = "coco"
+    """Keypoints: ``slots_coco.json``."""
+    PANOPTIC = "panoptic"
+    """Panoptic segments of all that is seen: ``panoptic.json`` and the folder ``panoptic``."""
+    DMPR_PS = "dmpr-ps"
+    """Marking points, of bird's-eye views alone: the folder ``dmpr_ps``."""
+
+
+_NEEDS = {SlotFormat.PANOPTIC: Picture.INSTANCE}
+"""Kinds of pictures that formats need, beside depth, which all need."""
+
+
+def check_slots(
+    stage: Usd.Stage, formats: Collection[SlotFormat], views: Sequence[View], kinds: Collection[Picture]
+) -> None:
+    """Find out before anything is drawn whether slots can be told in some formats.
+
+    Raises
+    ------
+    ConfigError
+        If a kind of picture that they need is not drawn, or there is no bird's-eye view for DMPR-PS.
+    StageError
+        If the stage has no slots.
+    """
+    needed = {Picture.DEPTH, *(_NEEDS[each] for each in formats if each in _NEEDS)}
+    missing = sorted(needed.difference(kinds))
+    if missing:
+        raise ConfigError("pictures", ",".join(kinds), f"{missing[0]} among them, from which slots are told")
+    if SlotFormat.DMPR_PS in formats and not any(isinstance(view.lens, Orthographic) for view in views):
+        raise ConfigError("slots", str(SlotFormat.DMPR_PS), "other formats where there is no bird's-eye view")
+    read_slots(stage)
+
+
+@dataclass(frozen=True, eq=False)
+class SlotLabels:
+    """The slots of a data set.
+
+    Attributes
+    ----------
+    stage, labels
+        The stage, and what its objects are.
+    views
+        The frames.
+    finished
+        Folder of their pictures, a folder for each kind; the files are written there.
+    vacated
+        Names of the slots whose cars the pictures leave out.
+    """
+
+    stage: Usd.Stage
+    labels: Labels
+    views: Sequence[View]
+    finished: Path
+    vacated: Collection[str] = ()
+
+    def write(self, formats: Collection[SlotFormat]) -> list[Path]:
+        """Write ``slots.json`` and some formats.
+
+        Returns
+        -------
+        list of Path
+            The files and folders.
+
+        Raises
+        ------
+        StageError
+            If the stage has no slots.
+        """
+        slots = self._slots()
+        records = {view.name: slots.seen_in(self._frame(view)) for view in self.views}
+        name = Path(self.stage.GetRootLayer().realPath).name
+        files = [self._write("slots.json", slots_document(slots, records, stage=name))]
+        if SlotFormat.COCO in formats:
+            frames = [(self._image(view), records[view.name]) for view in self.views]
+            files.append(self._write("slots_coco.json", coco_keypoints(frames, description=f"Slots of {name}")))
+        if SlotFormat.PANOPTIC in formats:
+            folder = self.finished / "panoptic"
+            folder.mkdir(exist_ok=True)
+            document = coco_panoptic(self._panoptic(folder), self.labels, description=f"All that is seen of {name}")
+            files += [folder, self._write("panoptic.json", document)]
+        if SlotFormat.DMPR_PS in formats:
+            files.append(self._write_dmpr_ps(slots, records))
+        return files
+
+    def _slots(self) -> Slots:
+        found = read_slots(self.stage)
+        slots = [replace(slot, occupied=False) if slot.name in self.vacated else slot for slot in found.slots]
+        return replace(found, slots=tuple(slots))
+
+    def _frame(self, view: View) -> SlotFrame:
+        lens, to_sensor = view.sensor_lens(), view.world_to_camera()
+
+        def project(points: NDArray[np.float64]) -> NDArray[np.float64]:
+            return lens.project(points @ to_sensor[:3, :3].T + to_sensor[:3, 3])
+
+        depth_m = _read_depth(self.finished / Picture.DEPTH / f"{view.name}{Picture.DEPTH.extension}")
+        return SlotFrame(view.name, view.size_px, project, seen_points(lens, depth_m, np.linalg.inv(to_sensor)))
+
+    def _image(self, view: View) -> CocoImage:
+        return CocoImage(f"{Picture.COLOUR}/{view.name}{Picture.COLOUR.extension}", view.size_px)
+
+    def _panoptic(self, folder: Path) -> Iterator[tuple[CocoImage, str, list[dict[str, Any]]]]:
+        """Write the picture of each frame's segments; yields what is said of it."""
+        for view in self.views:
+            name = f"{view.name}{Picture.INSTANCE.extension}"
+            segments, infos = panoptic_segments(read_ids(self.finished / Picture.INSTANCE / name), self.labels)
+            write_ids(segments, folder / name)
+            yield self._image(view), name, infos
+
+    def _write_dmpr_ps(self, slots: Slots, records: Mapping[str, Sequence[SlotRecord]]) -> Path:
+        folder = self.finished / "dmpr_ps"
+        folder.mkdir(exist_ok=True)
+        for view in self.views:
+            if isinstance(view.lens, Orthographic):
+                text = json.dumps(dmpr_ps(records[view.name], slots))
+                (folder / f"{view.name}.json").write_text(text + "\n", encoding="utf-8")
+        return folder
+
+    def _write(self, name: str, document: Mapping[str, object]) -> Path:
+        path = self.finished / name
+        path.write_text(json_text(document), encoding="utf-8")
+        return path
+
+
+def _read_depth(path: Path) -> NDArray[np.float32]:
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return np.array(file.channels()["Z"].pixels)

@@ -1,0 +1,127 @@
+"""Boxes around objects, which stand as the objects do, and how much of an object is in sight."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.randomness import Step, generator
+from garage2usd.sensors.ray_scene import RayScene
+
+__all__ = ["ObjectBox", "object_boxes", "share_in_sight"]
+
+_FORWARD = {UsdGeom.Tokens.y: (0.0, 0.0, -1.0), UsdGeom.Tokens.z: (0.0, 1.0, 0.0)}
+"""Where objects look in their own axes, by the axis of their stage that is up."""
+_UP = {UsdGeom.Tokens.y: (0.0, 1.0, 0.0), UsdGeom.Tokens.z: (0.0, 0.0, 1.0)}
+_SIGHT_RAYS = 256
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectBox:
+    """A box around an object.
+
+    Attributes
+    ----------
+    id, class_id
+        Of the object, as in the table of labels.
+    centre_m
+        In the stage's axes; float64, shape (3,).
+    axes
+        Columns: the object's forward, left and up in the stage's axes; float64, shape (3, 3).
+    size_m
+        Along these; float64, shape (3,).
+    surface_m
+        Points that are spread evenly over its surface; float64, shape (n, 3).
+    """
+
+    id: int
+    class_id: int
+    centre_m: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    size_m: NDArray[np.float64]
+    surface_m: NDArray[np.float64]
+
+
+def object_boxes(stage: Usd.Stage, scene: RayScene, class_ids: Collection[int]) -> list[ObjectBox]:
+    """The boxes of all objects of some classes, in the order of their ids.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    scene
+        Its solid surfaces.
+    class_ids
+        Ids of the classes.
+
+    Notes
+    -----
+    Objects look to -Z of their own axes where Y is up, as those of garage2usd do, and to Y where Z is up.
+    """
+    up_axis = UsdGeom.GetStageUpAxis(stage)
+    wanted = np.isin(scene.class_id, list(class_ids))
+    numbers = np.flatnonzero(wanted & (scene.instance > 0))
+    order = numbers[np.argsort(scene.instance[numbers], kind="stable")]
+    ids, first = np.unique(scene.instance[order], return_index=True)
+    boxes = []
+    for instance, own in zip(ids.tolist(), np.split(order, first[1:]), strict=True):
+        matrix = scene.placed[instance].matrix[:3, :3]
+        axes = _axes(np.array(_FORWARD[up_axis]) @ matrix, np.array(_UP[up_axis]) @ matrix)
+        corners = scene.vertices_m[scene.triangles[own]]
+        turned = corners.reshape(-1, 3) @ axes
+        low, high = turned.min(axis=0), turned.max(axis=0)
+        boxes.append(
+            ObjectBox(
+                instance,
+                int(scene.class_id[own[0]]),
+                axes @ (low + high) / 2,
+                axes,
+                high - low,
+                _spread(corners, instance),
+            )
+        )
+    return boxes
+
+
+def share_in_sight(scene: RayScene, box: ObjectBox, eyes_m: NDArray[np.float64]) -> float:
+    """Which share of an object is in line of sight, from the place that sees most of it.
+
+    Parameters
+    ----------
+    scene
+        What stands in the way.
+    box
+        The object.
+    eyes_m
+        Places in the stage's axes; shape (n, 3).
+
+    Returns
+    -------
+    float
+        Of the directions to points of its surface, also of its far side, the share in which the object itself is what a
+        ray meets first.
+    """
+    ways = (box.surface_m[None] - eyes_m[:, None]).reshape(-1, 3)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    hits = scene.cast(np.repeat(eyes_m, len(box.surface_m), axis=0), ways)
+    seen = (hits.triangle >= 0) & (scene.instance[hits.triangle] == box.id)
+    return float(seen.reshape(len(eyes_m), -1).mean(axis=1).max())
+
+
+def _axes(forward: NDArray[np.float64], up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """An orthonormal frame of forward, left and up."""
+    up = up / np.linalg.norm(up)
+    forward = forward - up * (forward @ up)
+    forward /= np.linalg.norm(forward)
+    return np.stack([forward, np.cross(up, forward), up], axis=1)
+
+
+def _spread(corners: NDArray[np.float64], instance: int) -> NDArray[np.float64]:
+    draws = generator(instance, Step.LIDAR)
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    chosen = corners[draws.choice(len(corners), _SIGHT_RAYS, p=areas / areas.sum() if areas.any() else None)]
+    weights = draws.dirichlet((1.0, 1.0, 1.0), _SIGHT_RAYS)
+    points: NDArray[np.float64] = (chosen * weights[:, :, None]).sum(axis=1)
+    return points

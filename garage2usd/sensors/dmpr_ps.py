@@ -1,0 +1,93 @@
+"""Slots as the labels of DMPR-PS, by which marking points in bird's-eye pictures are learnt.
+
+Huang et al., *DMPR-PS: A novel approach for parking-slot detection using directional marking-point regression* (2019),
+in the JSON form of its labels of the data set ps2.0 (Zhang et al., *Vision-based parking-slot detection: a DCNN-based
+approach and a large-scale benchmark dataset*, 2018).
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.sensors.slots import SlotRecord, Slots, SlotType, Visibility
+
+__all__ = ["dmpr_ps"]
+
+_MATLAB = 0.5
+"""Coordinates of ps2.0 are MATLAB's: the middle of the first pixel is (1, 1)."""
+_ARM_PX = 50.0
+_SAME_M = 0.05
+"""Marks of two stalls that lie nearer to each other are one."""
+_T, _L = 0, 1
+_RIGHT_ANGLED, _ACUTE, _OBTUSE = 1, 2, 3
+_QUARTER_DEG = 90.0
+_PLACES = 3
+
+
+def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
+    """The labels of one bird's-eye picture.
+
+    Parameters
+    ----------
+    records
+        What the picture shows.
+    slots
+        All slots of the stage, whose neighbours tell the shapes of marks.
+
+    Returns
+    -------
+    dict
+        ``marks``: for each mark x, y, a point 50 pixels along its direction, and its shape, 0 for T and 1 for L.
+        ``slots``: for each slot the numbers of its marks, counted from 1, its type (1 right-angled, 2 acute, 3 obtuse)
+        and its angle in degrees.
+
+    Notes
+    -----
+    Slots are those that take cars, have both corners of their entry in the picture, and one of them seen. Their first
+    mark is at the entry's left corner, so that the slot is on the left of the way from the first to the second mark. A
+    mark where two stalls meet side by side is a T and points into the slots; where a row ends it is an L, from whose
+    direction the other arm is a quarter turn clockwise in the picture: into the slot at the left corner, along the
+    entry at the right one. The lines of a garage leave the entry open, so that the arm across the entry is not painted.
+    """
+    marks: list[list[float]] = []
+    numbers: dict[tuple[int, int], int] = {}
+    found = []
+    corners_m = np.stack([slot.corners_m[:2][:, list(slots.ground_axes)] for slot in slots.slots])
+
+    def number_of(record: SlotRecord, corner: int) -> int:
+        """Number of the mark at a corner of a slot's entry, which is added if it is not there."""
+        place = record.slot.corners_m[corner, list(slots.ground_axes)]
+        near = np.linalg.norm(corners_m - place, axis=2) < _SAME_M
+        stall, end = (int(first[0]) for first in np.nonzero(near))
+        key = (stall, end)
+        if key not in numbers:
+            left, right, _, rear_left = record.corners_px
+            along, inwards = (right - left), (rear_left - left)
+            is_shared = _meets_neighbour(near)
+            arm = inwards if is_shared or corner == 0 else -along
+            x, y = record.corners_px[corner] + _MATLAB
+            dx, dy = _ARM_PX * arm / np.linalg.norm(arm)
+            marks.append([*(round(float(value), _PLACES) for value in (x, y, x + dx, y + dy)), _T if is_shared else _L])
+            numbers[key] = len(marks)
+        return numbers[key]
+
+    for record in records:
+        entry = record.visibility[:2]
+        if record.slot.use.takes_cars and Visibility.NOT_IN_PICTURE not in entry and Visibility.SEEN in entry:
+            pair = [number_of(record, corner) for corner in (0, 1)]
+            found.append([*pair, _type_of(record), round(record.slot.angle_deg)])
+    return {"marks": marks, "slots": found}
+
+
+def _meets_neighbour(near: NDArray[np.bool_]) -> bool:
+    """Whether at a mark the left corner of one entry and the right corner of another meet; `near` has shape (n, 2)."""
+    left, right = near.any(axis=0).tolist()
+    return bool(left and right)
+
+
+def _type_of(record: SlotRecord) -> int:
+    if record.slot.slot_type is not SlotType.ANGLED:
+        return _RIGHT_ANGLED
+    return _ACUTE if record.slot.angle_deg < _QUARTER_DEG else _OBTUSE

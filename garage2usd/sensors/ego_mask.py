@@ -1,0 +1,58 @@
+"""Which pixels of a camera on a car show that car itself, which recordings leave out."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.errors import MissingExtraError
+from garage2usd.sensors.camera import Camera
+from garage2usd.sensors.poses import CAR_FROM_VEHICLE
+from garage2usd.stage.driving_car import driven_asset
+
+__all__ = ["body_named", "ego_mask", "ego_triangles_m"]
+
+
+def body_named(name: str) -> CarBody:
+    """A body of the catalogue."""
+    return next(body for body in CAR_BODIES if body.name == name)
+
+
+def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
+    """The surface of a car in ISO 8855's axes, from the middle of the rear axle on the ground; shape (n, 3, 3)."""
+    fans = []
+    for part in driven_asset(car).parts:
+        starts = np.cumsum(part.face_counts) - part.face_counts
+        for step in range(1, int(part.face_counts.max(initial=0)) - 1):
+            large = starts[part.face_counts >= step + 2]
+            corners = [part.face_indices[large + corner] for corner in (0, step, step + 1)]
+            fans.append(np.stack([part.points[corner] for corner in corners], axis=1))
+    points = np.concatenate(fans).astype(np.float64) - (0.0, 0.0, car.rear_axle_m)
+    turned: NDArray[np.float64] = points @ CAR_FROM_VEHICLE[:3, :3]  # rows, so that it leads to the vehicle's axes
+    return turned
+
+
+def ego_mask(camera: Camera, car: CarBody) -> NDArray[np.bool_]:
+    """Whether the ray through the middle of each pixel meets the car that the camera is on; shape (rows, columns).
+
+    Raises
+    ------
+    MissingExtraError
+        If what casts rays is not installed.
+    """
+    try:
+        import embreex  # type: ignore[import-not-found,unused-ignore] # noqa: F401, PLC0415 - else trimesh is slow
+        import trimesh  # noqa: PLC0415 - of an extra
+    except ModuleNotFoundError as error:
+        raise MissingExtraError("render --rig", "sensors", "trimesh and embreex, which cast rays") from error
+    triangles = ego_triangles_m(car)
+    numbers = np.arange(3 * len(triangles)).reshape(-1, 3)
+    mesh: Any = trimesh.Trimesh(triangles.reshape(-1, 3), numbers, process=False, validate=False)
+    lens, place = camera.lens, camera.sensor_to_vehicle
+    rays = lens.rays(lens.middles())
+    seen = np.flatnonzero(np.isfinite(rays).all(axis=1))
+    directions = rays[seen] @ place[:3, :3].T
+    mask = np.zeros(len(rays), dtype=np.bool_)
+    mask[seen] = mesh.ray.intersects_any(np.broadcast_to(place[:3, 3], directions.shape), directions)
+    return mask.reshape(lens.size_px[::-1])

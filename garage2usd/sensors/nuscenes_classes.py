@@ -1,0 +1,64 @@
+"""The categories of nuScenes, and which of them the classes of a stage are."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.objects import CLASSES
+from garage2usd.reading.labels import Labels
+
+__all__ = ["BOXED", "CATEGORIES", "FLAT", "STANDING", "categories_of_classes"]
+
+_NOISE, _DRIVEABLE, _MANMADE, _OTHER = "noise", "flat.driveable_surface", "static.manmade", "static.other"
+CATEGORIES = (
+    _NOISE,
+    "animal",
+    "human.pedestrian.adult",
+    "human.pedestrian.child",
+    "human.pedestrian.construction_worker",
+    "human.pedestrian.personal_mobility",
+    "human.pedestrian.police_officer",
+    "human.pedestrian.stroller",
+    "human.pedestrian.wheelchair",
+    "movable_object.barrier",
+    "movable_object.debris",
+    "movable_object.pushable_pullable",
+    "movable_object.trafficcone",
+    "static_object.bicycle_rack",
+    "vehicle.bicycle",
+    "vehicle.bus.bendy",
+    "vehicle.bus.rigid",
+    "vehicle.car",
+    "vehicle.construction",
+    "vehicle.emergency.ambulance",
+    "vehicle.emergency.police",
+    "vehicle.motorcycle",
+    "vehicle.trailer",
+    "vehicle.truck",
+    _DRIVEABLE,
+    "flat.other",
+    "flat.sidewalk",
+    "flat.terrain",
+    _MANMADE,
+    _OTHER,
+    "static.vegetation",
+    "vehicle.ego",
+)
+"""Of nuScenes-lidarseg; the place in the list is what files of classes hold."""
+BOXED = {"car": "vehicle.car", "traffic_cone": "movable_object.trafficcone", "barrier": "movable_object.barrier"}
+"""Classes whose objects have boxes."""
+_PARTS = {"number_plate": "vehicle.car"}
+"""Classes of what belongs to such an object."""
+FLAT = frozenset(entry.label for entry in CLASSES if entry.cityscapes in {"road", "parking"})
+"""Classes of the ground and what is painted on it."""
+STANDING = frozenset({"wall", "column", "obstacle", "vehicle_door"})
+"""Classes of what stands on the ground for good."""
+_KNOWN = frozenset(entry.label for entry in CLASSES)
+
+
+def categories_of_classes(labels: Labels) -> NDArray[np.uint8]:
+    """Number of nuScenes-lidarseg's category by the id of a class."""
+    table = np.full(256, CATEGORIES.index(_NOISE), dtype=np.uint8)
+    for number, entry in labels.classes.items():
+        name = (BOXED | _PARTS).get(entry.name) or (_DRIVEABLE if entry.name in FLAT else _MANMADE)
+        table[number] = CATEGORIES.index(name if entry.name in _KNOWN else _OTHER)
+    return table

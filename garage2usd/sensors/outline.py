@@ -1,0 +1,94 @@
+"""The outline that a lens makes of a polygon on the ground: bent, and cut off where the lens ends."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+__all__ = ["outline_in_picture", "polygons_of"]
+
+_STEP_M = 0.1
+"""Between points of an outline, which a fisheye bends."""
+_HALVINGS = 30
+_FARTHEST_PX = 1e6
+_LEAST_POINTS = 3
+
+Points = NDArray[np.float64]
+
+
+def outline_in_picture(corners_m: Points, project: Callable[[Points], Points]) -> shapely.Geometry:
+    """The outline of a polygon in a picture, as far as the lens sees it: its edges go in steps, which a lens may bend.
+
+    Parameters
+    ----------
+    corners_m
+        Of the polygon, in order; shape (n, 3).
+    project
+        From points in metres, shape (n, 3), to (column, row) in pixels, shape (n, 2); NaN for what it does not see.
+
+    Returns
+    -------
+    shapely.Geometry
+        In pixels, valid; empty where the lens sees nothing of the polygon.
+    """
+    steps: list[Points] = []
+    for start, end in pairwise([*corners_m, corners_m[0]]):
+        count = max(1, math.ceil(np.linalg.norm(end - start) / _STEP_M))
+        steps.append(start + np.arange(count)[:, None] / count * (end - start))
+    points = np.concatenate(steps)
+    places = project(points)
+    is_seen = np.isfinite(places).all(axis=1)
+    if not is_seen.any():
+        return shapely.Polygon()
+    if not is_seen.all():
+        places = np.concatenate(list(_up_to_the_rim(points, places, is_seen, project)))
+    if len(places) < _LEAST_POINTS:
+        return shapely.Polygon()
+    return shapely.make_valid(shapely.Polygon(places))
+
+
+def _up_to_the_rim(
+    points: Points, places: Points, is_seen: NDArray[np.bool_], project: Callable[[Points], Points]
+) -> Iterator[Points]:
+    """The places that a lens sees; for those that it does not see, the rim of what it sees of the polygon.
+
+    On the rim is the last that it sees on the straight lines to them from a point of the outline, that in the middle of
+    those that it sees. What a lens sees of a plane, or what it does not see, is convex, and each line leaves it once.
+    """
+    # the order begins with the first of a run of points that it sees
+    first = int(np.flatnonzero(is_seen & ~np.roll(is_seen, 1))[0])
+    order = np.roll(np.arange(len(points)), -first)
+    runs = np.split(order, np.flatnonzero(np.diff(is_seen[order])) + 1)
+    longest = max(runs[::2], key=len)
+    middle = points[longest[len(longest) // 2]]
+    for seen, unseen in zip(runs[::2], runs[1::2], strict=True):
+        yield places[seen]
+        after = (unseen[-1] + 1) % len(points)
+        inner = np.concatenate([points[seen[-1:]], np.broadcast_to(middle, (len(unseen), 3)), points[[after]]])
+        outer = points[np.concatenate([unseen[:1], unseen, unseen[-1:]])]
+        rim = _last_seen(inner, outer, project)
+        # between its ends, what a pinhole sees beside itself is as good as infinitely far away
+        is_near = np.abs(rim).max(axis=1) < _FARTHEST_PX
+        is_near[[0, -1]] = True
+        yield rim[is_near]
+
+
+def _last_seen(inner_m: Points, outer_m: Points, project: Callable[[Points], Points]) -> Points:
+    """The places of the last points that a lens sees on the lines from some that it sees to some that it does not."""
+    places = project(inner_m)
+    for _ in range(_HALVINGS):
+        middle = (inner_m + outer_m) / 2
+        found = project(middle)
+        is_seen = np.isfinite(found).all(axis=1)[:, None]
+        places = np.where(is_seen, found, places)
+        inner_m, outer_m = np.where(is_seen, middle, inner_m), np.where(is_seen, outer_m, middle)
+    return places
+
+
+def polygons_of(geometry: shapely.Geometry) -> Sequence[shapely.Polygon]:
+    """The polygons that a geometry consists of, which may be none."""
+    parts = shapely.get_parts(shapely.get_parts(geometry))  # twice, for a collection of several multipolygons
+    return [part for part in parts if isinstance(part, shapely.Polygon)]

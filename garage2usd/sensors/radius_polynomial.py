@@ -1,0 +1,81 @@
+"""The polynomial by which a fisheye takes the angle of a ray from its axis to a distance in the picture."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["RadiusPolynomial"]
+
+Floats = NDArray[np.float64]
+_STEPS = 60
+"""Of Newton at most; bisection alone halves pi so often that nothing of a double is left."""
+_TINY = 1e-300
+_SAMPLES = 20_001
+
+
+@dataclass(frozen=True)
+class RadiusPolynomial:
+    """r(theta) = sum of c_i theta^i, which grows from r(0) = 0 on.
+
+    Attributes
+    ----------
+    coefficients
+        c_0, which is 0, c_1 and so on.
+    """
+
+    coefficients: Sequence[float]
+
+    def __call__(self, angle_rad: ArrayLike) -> Floats:
+        """The radius at some angles, shape (n,)."""
+        return _horner(self.coefficients, np.asarray(angle_rad, dtype=np.float64))
+
+    @property
+    def slope(self) -> tuple[float, ...]:
+        """Coefficients of its derivative, that of theta^0 first."""
+        return tuple(power * factor for power, factor in enumerate(self.coefficients))[1:]
+
+    @property
+    def grows_up_to_rad(self) -> float:
+        """The angle up to which it grows from 0 on; at most pi.
+
+        The slope is looked at in steps of less than 0.01 degrees: its roots as those of a polynomial are wrong where
+        the coefficients are of very different sizes.
+        """
+        angles = np.linspace(0.0, math.pi, _SAMPLES)
+        falls = np.flatnonzero(_horner(self.slope, angles) <= 0)
+        return float(angles[max(falls[0] - 1, 0)]) if len(falls) else math.pi
+
+    def angles_rad(self, radius: ArrayLike, *, most_rad: float) -> Floats:
+        """The angles that it takes to some radii, shape (n,); NaN for radii that it takes no angle up to a limit to.
+
+        Parameters
+        ----------
+        radius
+            At least 0.
+        most_rad
+            It grows up to there.
+        """
+        radius = np.asarray(radius, dtype=np.float64)
+        slope = self.slope
+        seen = radius <= self(most_rad)
+        low, high = np.zeros(radius.shape), np.full(radius.shape, most_rad)
+        angle = np.clip(radius / slope[0], low, high)
+        for _ in range(_STEPS):  # Newton's steps where they stay between what is known, halves elsewhere
+            over = self(angle) - radius
+            high, low = np.where(over >= 0, angle, high), np.where(over <= 0, angle, low)
+            step = angle - over / np.maximum(_horner(slope, angle), _TINY)
+            following = np.where((step >= low) & (step <= high), step, (low + high) / 2)
+            if (following == angle)[seen].all():
+                break
+            angle = following
+        return np.where(seen, angle, np.nan)
+
+
+def _horner(coefficients: Sequence[float], values: Floats) -> Floats:
+    total = np.zeros(values.shape)
+    for factor in reversed(coefficients):
+        total = total * values + factor
+    return total

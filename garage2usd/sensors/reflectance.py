@@ -1,0 +1,137 @@
+"""How much of a LiDAR's pulse comes back from a surface: the material's class and the angle of incidence."""
+
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets import MATERIALS, Material, Touch, pascal_case
+from garage2usd.reading.surfaces import SurfaceLook
+
+__all__ = ["REFLECTANCES", "MaterialClass", "Reflectance", "material_class", "returned"]
+
+
+class MaterialClass(StrEnum):
+    """What a surface is to light of 905 nm."""
+
+    CONCRETE = "concrete"
+    COATING = "coating"
+    ROAD_PAINT = "road_paint"
+    LACQUER = "lacquer"
+    METAL = "metal"
+    PLASTIC = "plastic"
+    RUBBER = "rubber"
+    GLASS = "glass"
+    MIRROR = "mirror"
+    RETROREFLECTOR = "retroreflector"
+    OTHER = "other"
+
+
+class Reflectance(NamedTuple):
+    """How a class of materials returns light.
+
+    Attributes
+    ----------
+    dark, bright
+        Reflectance of a black and of a white surface of it, over that of a perfectly white diffuse one.
+    specular
+        Which share of that goes into the lobe around the mirrored ray.
+    exponent
+        How narrow that lobe is.
+    """
+
+    dark: float
+    bright: float
+    specular: float = 0.0
+    exponent: float = 1.0
+
+
+REFLECTANCES = {
+    MaterialClass.CONCRETE: Reflectance(0.35, 0.35),
+    MaterialClass.COATING: Reflectance(0.15, 0.60, 0.10, 20.0),
+    MaterialClass.ROAD_PAINT: Reflectance(0.75, 0.75, 0.05, 10.0),
+    MaterialClass.LACQUER: Reflectance(0.05, 0.80, 0.30, 200.0),
+    MaterialClass.METAL: Reflectance(0.50, 0.50, 0.60, 20.0),
+    MaterialClass.PLASTIC: Reflectance(0.05, 0.70, 0.10, 30.0),
+    MaterialClass.RUBBER: Reflectance(0.04, 0.50),
+    MaterialClass.GLASS: Reflectance(0.10, 0.10, 0.80, 500.0),
+    MaterialClass.MIRROR: Reflectance(0.90, 0.90, 0.98, 2000.0),
+    MaterialClass.RETROREFLECTOR: Reflectance(10.0, 10.0),
+    MaterialClass.OTHER: Reflectance(0.05, 0.80),
+}
+"""How each class returns light, typical values around 905 nm; prismatic sheeting sends back many times what a white
+surface does, so that it saturates a sensor up to grazing angles."""
+
+_OF_TOUCH = {
+    Touch.CONCRETE: MaterialClass.CONCRETE,
+    Touch.COATING: MaterialClass.COATING,
+    Touch.RUBBER: MaterialClass.RUBBER,
+    Touch.STEEL: MaterialClass.LACQUER,
+    Touch.PLASTIC: MaterialClass.PLASTIC,
+}
+_OF_KEY = {
+    "paint_white": MaterialClass.ROAD_PAINT,
+    "paint_yellow": MaterialClass.ROAD_PAINT,
+    "glass": MaterialClass.GLASS,
+    "cabinet_glass": MaterialClass.GLASS,
+    "mirror": MaterialClass.MIRROR,
+    "number_plate": MaterialClass.RETROREFLECTOR,
+    "sign_blue": MaterialClass.RETROREFLECTOR,
+    "sign_ring": MaterialClass.RETROREFLECTOR,
+    "lamp_front": MaterialClass.PLASTIC,
+}
+"""What its touch does not tell."""
+_METALLIC = 0.5
+_TEXTURED = 0.5
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+
+
+def _class_of(key: str, material: Material) -> MaterialClass:
+    if key in _OF_KEY:
+        return _OF_KEY[key]
+    if material.metallic >= _METALLIC or material.packed_texture == "steel_packed.png":
+        return MaterialClass.METAL
+    return _OF_TOUCH[material.touch]
+
+
+_CLASSES = {pascal_case(key): _class_of(key, material) for key, material in MATERIALS.items()}
+
+
+def material_class(look: SurfaceLook) -> MaterialClass:
+    """The class of a surface: by its material's name where that is one of this program's, else by its look."""
+    if look.name in _CLASSES:
+        return _CLASSES[look.name]
+    if look.metallic >= _METALLIC:
+        return MaterialClass.METAL
+    if look.is_blended and not look.has_alpha:
+        return MaterialClass.GLASS
+    return MaterialClass.LACQUER if look.clearcoat >= _METALLIC else MaterialClass.OTHER
+
+
+def returned(look: SurfaceLook, cos_incidence: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+    """What share of a pulse a surface returns, over a perfectly white diffuse one that is met squarely.
+
+    Parameters
+    ----------
+    look
+        The surface.
+    cos_incidence
+        Cosine of the angle between ray and normal, 0 to 1; shape (n,).
+
+    Returns
+    -------
+    numpy.ndarray
+        0 to 1, shape (n,): min(1, rho ((1 - s) cos a + s max(0, cos 2a)^m)), Phong's model with source and receiver in
+        one place, so that the mirrored ray is 2a away from the receiver (B. Jutzi and H. Gross, Normalization of LiDAR
+        intensity data based on range and surface incidence angle, ISPRS 2009). Independent of the range, as sensors
+        report reflectivity. rho lies between `Reflectance.dark` and `Reflectance.bright` by the luminance of the
+        colour, and halfway where a texture has the colours.
+    """
+    reflectance = REFLECTANCES[material_class(look)]
+    luminance = _TEXTURED if look.colour_texture else float(np.clip(np.array(look.colour_rgb) @ _LUMINANCE, 0, 1))
+    strength = reflectance.dark + (reflectance.bright - reflectance.dark) * luminance
+    # cos 2a = 2 cos^2 a - 1
+    lobe = np.maximum(2 * cos_incidence**2 - 1, 0) ** reflectance.exponent
+    shares = (1 - reflectance.specular) * cos_incidence + reflectance.specular * lobe
+    return np.minimum(strength * shares, 1.0).astype(np.float64)

@@ -1,0 +1,124 @@
+"""Rigs: the sensors of a car, or of a column, where they are mounted and what they measure; TOML in, frozen models."""
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import Field, field_validator
+
+from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.documents import read_toml
+from garage2usd.errors import ConfigError
+from garage2usd.sensors.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
+from garage2usd.sensors.lidar_settings import Lidar, SolidStateLidar, SpinningLidar
+from garage2usd.sensors.mount import Sensor
+from garage2usd.settings import Settings, validated
+
+__all__ = [
+    "RIG_NAMES",
+    "Camera",
+    "KannalaBrandtCamera",
+    "Lidar",
+    "PinholeCamera",
+    "Rig",
+    "Sensor",
+    "SolidStateLidar",
+    "SpinningLidar",
+    "WoodScapeCamera",
+    "read_rig",
+    "rig_from_mapping",
+]
+
+RIG_NAMES = ("avp_surround", "column_camera", "lidar_32", "woodscape_like")
+"""The rigs that are shipped."""
+
+_AnySensor = Annotated[
+    PinholeCamera | KannalaBrandtCamera | WoodScapeCamera | SpinningLidar | SolidStateLidar, Field(discriminator="kind")
+]
+
+
+class Rig(Settings):
+    """Sensors that measure together."""
+
+    name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")
+    """Short name of the rig."""
+    title: str = Field("", max_length=500)
+    """What it is made after."""
+    car: str = "hatchback"
+    """Body of the ego car in garage2usd's catalogue, which masks show: `"hatchback"`, `"saloon"`, `"suv"`, `"van"`,
+    `"pickup"` or `"compact_ev"`. What is driven is the way of the design car."""
+    sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
+    """The sensors."""
+
+    @field_validator("car")
+    @classmethod
+    def _known_body(cls, car: str) -> str:
+        names = [body.name for body in CAR_BODIES]
+        if car not in names:
+            raise ValueError(f"one of {', '.join(names)}")
+        return car
+
+    @field_validator("sensors")
+    @classmethod
+    def _own_names(cls, sensors: tuple[Sensor, ...]) -> tuple[Sensor, ...]:
+        names = [sensor.name.casefold() for sensor in sensors]  # files of both may lie where case does not count
+        for sensor in sensors:
+            if names.count(sensor.name.casefold()) > 1:
+                raise ValueError(f"sensors of different names; {names.count(sensor.name.casefold())} are {sensor.name}")
+        return sensors
+
+    @property
+    def cameras(self) -> tuple[Camera, ...]:
+        """Its cameras."""
+        return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera))
+
+    def scaled(self, scale: float) -> Self:
+        """The same rig with larger or smaller pictures; raises `ConfigError` where they would be none."""
+        sensors = [sensor.scaled(scale) if isinstance(sensor, Camera) else sensor for sensor in self.sensors]
+        return self.model_copy(update={"sensors": tuple(sensors)})
+
+    @property
+    def lidars(self) -> tuple[SpinningLidar | SolidStateLidar, ...]:
+        """Its LiDARs."""
+        return tuple(sensor for sensor in self.sensors if isinstance(sensor, SpinningLidar | SolidStateLidar))
+
+
+def read_rig(name_or_path: str | Path) -> Rig:
+    """A shipped rig by its name, or one of a user's own from a TOML file.
+
+    Parameters
+    ----------
+    name_or_path
+        One of `RIG_NAMES`, or a path that ends in ``.toml``.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such rig, the file cannot be read, or it holds what no rig has.
+    """
+    name = str(name_or_path)
+    if name in RIG_NAMES:
+        return _shipped(name)
+    if not name.endswith(".toml"):
+        raise ConfigError("rig", name, f"one of {', '.join(RIG_NAMES)}, or a path that ends in .toml")
+    return rig_from_mapping(read_toml(Path(name), field="rig"))
+
+
+def rig_from_mapping(settings: Mapping[str, Any]) -> Rig:
+    """Validate a rig given as nested mappings, as TOML reads them.
+
+    Raises
+    ------
+    ConfigError
+        With the setting, its value and what is allowed.
+    """
+    return validated(Rig, settings, within="rig")
+
+
+@cache
+def _shipped(name: str) -> Rig:
+    text = (resources.files("garage2usd.sensors") / "rigs" / f"{name}.toml").read_text(encoding="utf-8")
+    return rig_from_mapping(tomllib.loads(text))

@@ -1,0 +1,258 @@
+"""Slots: what one frame shows of each stall, the record that every format of slots is derived from."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum, StrEnum
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
+
+from garage2usd.errors import StageError
+from garage2usd.layout import StallUse
+from garage2usd.reading.ground import LaneNode, StallOutline
+from garage2usd.reading.lanes import read_lanes
+from garage2usd.reading.values import metres_y_up
+from garage2usd.sensors.outline import outline_in_picture, polygons_of
+from garage2usd.stage.lane_curves import GUIDE_LIFT_M
+
+__all__ = ["CORNERS", "Slot", "SlotFrame", "SlotRecord", "SlotType", "Slots", "Visibility", "read_slots"]
+
+CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
+"""The corners of a slot in their order, left and right as a driver sees them who drives in forwards."""
+
+_ON_FLOOR_M = 0.02
+"""How far over or under the floor a surface still counts as the floor: lines are painted a few millimetres over it."""
+_SQUARE_DEG = 1.0
+"""How far from a right angle the sides of a slot still count as square to its entry."""
+_LEAST_AREA_PX = 1e-6
+_GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
+_UP_AXES = {UsdGeom.Tokens.y: 1, UsdGeom.Tokens.z: 2}
+
+Points = NDArray[np.float64]
+
+
+class SlotType(StrEnum):
+    """How a slot lies to the lane that it opens onto."""
+
+    PERPENDICULAR = "perpendicular"
+    """Square to its entry, and at least as long as wide."""
+    PARALLEL = "parallel"
+    """Square to its entry, and wider than long: a car stands along the lane."""
+    ANGLED = "angled"
+    """With sides that are not square to its entry."""
+
+
+class Visibility(IntEnum):
+    """Of a corner, as COCO has it for keypoints."""
+
+    NOT_IN_PICTURE = 0
+    OCCLUDED = 1
+    SEEN = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Slot:
+    """A stall as it lies in the world.
+
+    Attributes
+    ----------
+    name, number
+        Its id, and what is painted in it where that is known.
+    use
+        What it is for.
+    slot_type
+        How it lies to its lane.
+    angle_deg
+        From its entry, left to right, to its left side; 90 where they are square.
+    occupied
+        Whether a car stands in it; None where the stage does not say.
+    corners_m
+        Its `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
+    """
+
+    name: str
+    number: str | int | None
+    use: StallUse
+    slot_type: SlotType
+    angle_deg: float
+    occupied: bool | None
+    corners_m: Points
+
+    @property
+    def facts(self) -> dict[str, object]:
+        """What files say of it beside its places."""
+        return {
+            "name": self.name,
+            "number": self.number,
+            "use": str(self.use),
+            "type": str(self.slot_type),
+            "angle_deg": self.angle_deg,
+            "occupied": self.occupied,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class SlotFrame:
+    """What is known of a picture in which slots are looked for.
+
+    Attributes
+    ----------
+    name
+        Of the frame.
+    size_px
+        Width and height.
+    project
+        From points in the stage's axes and in metres, shape (n, 3), to (column, row) in pixels, float64, shape (n, 2),
+        where the pixel (i, j) covers [i, i + 1) x [j, j + 1); NaN for a point that the lens does not see.
+    seen_m
+        The point in the stage's axes that the ray through the middle of each pixel meets first; not finite where it
+        meets nothing; shape (rows, columns, 3).
+    """
+
+    name: str
+    size_px: tuple[int, int]
+    project: Callable[[Points], Points]
+    seen_m: NDArray[np.floating[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class SlotRecord:
+    """A slot in a frame.
+
+    Attributes
+    ----------
+    slot
+        The slot.
+    corners_px
+        (column, row) of its `CORNERS`, also of those beside the picture; NaN for what the lens does not see; float64,
+        shape (4, 2).
+    visibility
+        Of each corner, a `Visibility`: 0 where it is not in the picture, 1 where something hides it, 2 where it is
+        seen.
+    outline_px
+        Polygons, each of float64 and shape (n, 2), of its whole ground in the picture, whether or not it is hidden.
+    seen_px
+        How many pixels show its ground.
+    """
+
+    slot: Slot
+    corners_px: Points
+    visibility: tuple[int, int, int, int]
+    outline_px: tuple[Points, ...]
+    seen_px: int
+
+    @property
+    def entry_px(self) -> Points:
+        """Its entry line, from left to right; float64, shape (2, 2)."""
+        return self.corners_px[:2]
+
+
+@dataclass(frozen=True, eq=False)
+class Slots:
+    """The slots of a stage.
+
+    Attributes
+    ----------
+    slots
+        In the stage's order.
+    ground_axes, up_axis
+        Which of the stage's axes lie on the ground, and which points upwards.
+    """
+
+    slots: tuple[Slot, ...]
+    ground_axes: tuple[int, int]
+    up_axis: int
+
+    def seen_in(self, frame: SlotFrame) -> list[SlotRecord]:
+        """The slots that a frame shows something of: a corner, or a pixel of their ground.
+
+        Notes
+        -----
+        A corner is seen where the pixel that holds it shows the floor: a surface not more than 2 cm over or under it.
+        Thus it is hidden by what the middle of that pixel shows, which is never a mixture of two things.
+        """
+        if not self.slots:
+            return []
+        width, height = frame.size_px
+        corners_m = np.stack([slot.corners_m for slot in self.slots])
+        corners_px = frame.project(corners_m.reshape(-1, 3)).reshape(-1, 4, 2)
+        visibility = self._visibility(frame, corners_px, corners_m[..., self.up_axis])
+        picture = shapely.box(0, 0, width, height)
+        records = []
+        for slot, places, seen in zip(self.slots, corners_px, visibility.tolist(), strict=True):
+            outline = outline_in_picture(slot.corners_m, frame.project).intersection(picture)
+            parts = [part for part in polygons_of(outline) if part.area > _LEAST_AREA_PX]
+            seen_px = self._seen_pixels(slot, frame, outline) if parts else 0
+            if seen_px or Visibility.SEEN in seen:
+                rings = tuple(np.asarray(part.exterior.coords)[:-1] for part in parts)
+                records.append(SlotRecord(slot, places, tuple(seen), rings, seen_px))
+        return records
+
+    def _visibility(self, frame: SlotFrame, corners_px: Points, floor_m: Points) -> NDArray[np.int64]:
+        """A `Visibility` for each corner; shape (slots, 4)."""
+        inside = _in_picture(corners_px, frame.size_px)
+        columns, rows = np.where(inside[..., None], np.floor(np.nan_to_num(corners_px)), 0).astype(np.int64).T
+        heights = frame.seen_m[rows.T, columns.T, self.up_axis]
+        on_floor = np.abs(heights - floor_m) <= _ON_FLOOR_M
+        seen = np.where(on_floor, Visibility.SEEN, Visibility.OCCLUDED)
+        return np.where(inside, seen, Visibility.NOT_IN_PICTURE)
+
+    def _seen_pixels(self, slot: Slot, frame: SlotFrame, outline: shapely.Geometry) -> int:
+        """How many pixels show the ground of a slot."""
+        left, top, right, bottom = outline.bounds
+        rows, columns = slice(math.floor(top), math.ceil(bottom)), slice(math.floor(left), math.ceil(right))
+        seen = frame.seen_m[rows, columns].reshape(-1, 3)
+        on_floor = np.abs(seen[:, self.up_axis] - slot.corners_m[0, self.up_axis]) <= _ON_FLOOR_M
+        ground = shapely.Polygon(slot.corners_m[:, self.ground_axes])
+        return int(shapely.contains_xy(ground, seen[on_floor][:, self.ground_axes]).sum())
+
+
+def read_slots(stage: Usd.Stage) -> Slots:
+    """Read the slots of a stage from its lane graph, whose outlines it has in every form.
+
+    Raises
+    ------
+    StageError
+        If it has none.
+    """
+    lanes = read_lanes(stage)
+    if not lanes.stalls:
+        said = "; ".join(fault.message for fault in lanes.faults) or "its lane graph has no stalls"
+        raise StageError(stage.GetRootLayer().realPath, f"no slots in it: {said}")
+    to_metres = metres_y_up(stage)
+    turn = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])  # for row vectors, from the stage's axes to Y up
+    up = UsdGeom.GetStageUpAxis(stage)
+    slots = tuple(_slot(stall, lanes.nodes[stall.access], turn) for stall in lanes.stalls)
+    return Slots(slots, _GROUND_AXES[up], _UP_AXES[up])
+
+
+def _slot(stall: StallOutline, access: LaneNode, turn: Points) -> Slot:
+    floor_m = access.height_m - GUIDE_LIFT_M
+    corners = np.array([(x, floor_m, z) for x, z in stall.corners])
+    (right, _, forward), (along, _, back) = corners[1] - corners[0], corners[3] - corners[0]
+    # seen from above, with X to the right and Z downwards, the left side is a turn to the left from the entry
+    angle = math.degrees(math.atan2(forward * along - right * back, right * along + forward * back))
+    if abs(angle - 90) > _SQUARE_DEG:
+        slot_type = SlotType.ANGLED
+    else:
+        slot_type = SlotType.PARALLEL if stall.width_m > stall.length_m else SlotType.PERPENDICULAR
+    occupied = dict(stall.facts).get("occupied")
+    return Slot(
+        stall.name,
+        stall.number,
+        stall.use,
+        slot_type,
+        round(angle, 3),
+        None if occupied is None else bool(occupied),
+        np.round(corners @ turn.T, 6) + 0.0,
+    )
+
+
+def _in_picture(places_px: Points, size_px: tuple[int, int]) -> NDArray[np.bool_]:
+    """Whether each of some places, shape (..., 2), lies in a pixel of a picture; NaN does not."""
+    inside: NDArray[np.bool_] = ((places_px >= 0) & (places_px < np.array(size_px))).all(axis=-1)
+    return inside

@@ -1,0 +1,52 @@
+"""A stage with one more car, which stands in its origin until whoever draws it moves it."""
+
+from pathlib import Path
+
+from pxr import Gf, Sdf, Usd, UsdGeom
+
+from garage2usd.config.vehicles import CarBody
+from garage2usd.reading.values import metres_y_up
+from garage2usd.stage.authoring import define, operation, order_operations, save_file
+from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset
+from garage2usd.stage.prototype_layer import define_mesh
+
+__all__ = ["EGO_PATH", "write_stage_with_car"]
+
+EGO_PATH = "/EgoCar"
+"""Of the car."""
+
+
+def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody) -> None:
+    """Write a layer over a stage that adds a car at `EGO_PATH`.
+
+    The middle of its rear axle on the ground is the origin, and it looks along what would be -Z were the stage's Y up.
+    A car that drives in the stage, as `garage2usd drive --animate` writes it, is left out: it is the same one.
+    """
+    layer = Sdf.Layer.CreateNew(str(path))
+    layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
+    with Sdf.ChangeBlock():
+        layer.timeCodesPerSecond = stage.GetTimeCodesPerSecond()
+        root = layer.pseudoRoot
+        root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.GetStageUpAxis(stage))
+        root.SetInfo(UsdGeom.Tokens.metersPerUnit, UsdGeom.GetStageMetersPerUnit(stage))
+        for prim in stage.GetPseudoRoot().GetChildren():
+            driving = prim.GetPath().AppendChild(CAR_NAME)
+            if stage.GetPrimAtPath(driving):
+                over = Sdf.CreatePrimInLayer(layer, driving)
+                over.specifier = Sdf.SpecifierOver
+                over.active = False
+        _author_car(layer, stage, car)
+    save_file(layer, path)
+
+
+def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody) -> None:
+    root = define(layer, Sdf.Path(EGO_PATH), "Xform")
+    operation(root, "transform", Sdf.ValueTypeNames.Matrix4d, Gf.Matrix4d(metres_y_up(stage)).GetInverse())
+    order_operations(root, ["transform"])
+    asset = driven_asset(car)
+    looks = define_car_looks(layer, root.path, asset)
+    body = define(layer, root.path.AppendChild("Body"), "Xform")
+    operation(body, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(0, 0, -car.rear_axle_m))
+    order_operations(body, ["translate"])
+    for part in asset.parts:
+        define_mesh(layer, body.path.AppendChild(part.name), part, looks)

@@ -1,0 +1,91 @@
+"""Programs of others that judge maps, in an environment of their own: ASAM's checker, CARLA, SUMO, Lanelet2."""
+
+import json
+import os
+import subprocess
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pyproj
+
+JUDGES = Path(os.environ.get("GARAGE2USD_JUDGES", Path(__file__).parents[2] / ".venv/judges"))
+CLIENTS = Path(__file__).parents[1] / "clients"
+HAS_JUDGES = all((JUDGES / "bin" / name).exists() for name in ("python", "qc_opendrive", "netconvert"))
+HAS_LANELET2 = any(JUDGES.glob("lib/python*/site-packages/lanelet2"))
+
+
+def _run(*command, folder, **environment):
+    inherited = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    run = subprocess.run(
+        [str(part) for part in command],
+        capture_output=True,
+        text=True,
+        timeout=1800,
+        cwd=folder,
+        env={**inherited, **environment},
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout[-2000:] + run.stderr[-2000:]
+    return run.stdout
+
+
+def asam_issues(path, folder):
+    """What asam-qc-opendrive finds in a map; it runs every checker, those skipped are for older versions."""
+    config, result = folder / "config.xml", folder / "result.xqar"
+    config.write_text(
+        f'<Config><Param name="InputFile" value="{path}"/><CheckerBundle application="xodrBundle">'
+        f'<Param name="resultFile" value="{result}"/></CheckerBundle></Config>'
+    )
+    _run(JUDGES / "bin/qc_opendrive", "-c", config, folder=folder)
+    checkers = list(ET.parse(result).getroot().iter("Checker"))
+    assert sum(checker.get("status") == "completed" for checker in checkers) >= 22
+    assert all(checker.get("status") == "completed" or "1.8.0" in checker.get("summary") for checker in checkers)
+    return [
+        f"{checker.get('checkerId')}: {issue.get('description')}"
+        for checker in checkers
+        for issue in checker.iter("Issue")
+    ]
+
+
+def carla_map(path, folder):
+    """CARLA's waypoints, every half metre on each lane, and pairs of lanes that follow each other.
+
+    Its frame has y downwards, which is the stage's (x, z).
+    """
+    output = folder / "carla.json"
+    _run(JUDGES / "bin/python", CLIENTS / "carla_topology.py", path, output, folder=folder)
+    found = json.loads(output.read_text())
+    ways = [(tuple(before), tuple(after)) for before, after in found["topology"]]
+    return np.array(found["waypoints"], dtype=float), ways
+
+
+def sumo_spaces(path, folder):
+    """Corners (x, z) of each parking space of SUMO's network, by its number, from its degrees back to metres."""
+    net, polygons = folder / "sumo.net.xml", folder / "sumo.poly.xml"
+    home = _run(JUDGES / "bin/python", "-c", "import sumo; print(sumo.SUMO_HOME)", folder=folder).strip()
+    options = ["--precision", 6, "--precision.geo", 13, "--opendrive.import-all-lanes"]
+    command = ["--opendrive-files", path, "-o", net, "--polygon-output", polygons, *options]
+    _run(JUDGES / "bin/netconvert", *command, folder=folder, SUMO_HOME=home)
+    location = ET.parse(net).getroot().find("location")
+    to_metres = pyproj.Transformer.from_crs("EPSG:4326", location.get("projParameter"), always_xy=True)
+    spaces = {}
+    for polygon in ET.parse(polygons).getroot().iter("poly"):
+        if polygon.get("type") == "parkingSpace":
+            degrees = np.array([pair.split(",") for pair in polygon.get("shape").split()], dtype=float)
+            x, y = to_metres.transform(*degrees.T)
+            spaces[int(polygon.get("id"))] = np.stack([x, -np.asarray(y)], axis=1)[:4]
+    return spaces
+
+
+def run_python(text, folder):
+    """What a program in Python prints that imports the judges."""
+    return _run(JUDGES / "bin/python", "-c", text, folder=folder)
+
+
+def lanelet2_map(path, folder, latitude_deg, longitude_deg):
+    """What Lanelet2 reads in a map, in metres around a place on the earth; see `tests/clients/lanelet2_dump.py`."""
+    output = folder / "lanelet2.json"
+    script = CLIENTS / "lanelet2_dump.py"
+    _run(JUDGES / "bin/python", script, path, latitude_deg, longitude_deg, output, folder=folder)
+    return json.loads(output.read_text())

@@ -1,0 +1,65 @@
+"""Lanes and stalls of a stage, read with pxr alone from the curves that docs/stage.md tells of."""
+
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+import shapely
+from pxr import Usd, UsdGeom
+
+
+@dataclass
+class StageLanes:
+    """Middles (x, z), clear widths and kinds of lane nodes; edges (from, to, width, one way); stalls by id."""
+
+    middles: np.ndarray
+    widths: np.ndarray
+    kinds: list
+    edges: list
+    stalls: dict
+
+    def graph(self):
+        """The nodes as they are driven from one to the other."""
+        graph = nx.DiGraph()
+        graph.add_nodes_from(range(len(self.kinds)))
+        for start, end, _, one_way in self.edges:
+            graph.add_edge(start, end)
+            if not one_way:
+                graph.add_edge(end, start)
+        return graph
+
+
+def _curves(stage, name):
+    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath(f"/Garage/LaneGraph/{name}"))
+    points = np.array(curves.GetPointsAttr().Get())[:, [0, 2]].astype(float)
+    lines = np.split(points, np.cumsum(curves.GetCurveVertexCountsAttr().Get())[:-1])
+    return lines, lambda attribute: list(curves.GetPrim().GetAttribute(f"garage:{attribute}").Get())
+
+
+def read_stage(path):
+    stage = Usd.Stage.Open(str(path))
+    nodes, of_node = _curves(stage, "Nodes")
+    _, of_edge = _curves(stage, "Edges")
+    outlines, of_stall = _curves(stage, "Stalls")
+    directions = [direction == "forward" for direction in of_edge("lane:direction")]
+    edges = list(zip(of_edge("lane:from"), of_edge("lane:to"), of_edge("lane:width"), directions, strict=True))
+    names = ("stall:id", "stall:use", "stall:accessNode", "stall:number")
+    stalls = {
+        name: {"corners": corners, "use": use, "access": access, "number": number}
+        for corners, name, use, access, number in zip(outlines, *map(of_stall, names), strict=True)
+    }
+    middles = np.array([line.mean(axis=0) for line in nodes])
+    return StageLanes(middles, np.array(of_node("lane:widths")), of_node("lane:kind"), edges, stalls)
+
+
+def taken_stalls(stage, labelled, lanes):
+    """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr."""
+    cars = [thing["path"] for thing in labelled if thing["class"] == "car"]
+    places = UsdGeom.XformCache()
+    at = [places.GetLocalToWorldTransform(stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
+    tree = shapely.STRtree([shapely.Point(place[0], place[2]) for place in at])
+    return {
+        name
+        for name, stall in lanes.stalls.items()
+        if len(tree.query(shapely.Polygon(stall["corners"]), predicate="contains"))
+    }

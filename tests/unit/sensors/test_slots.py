@@ -1,0 +1,194 @@
+"""Slots in frames: against the attributes of the stalls' prims and against rays, both without garage2usd."""
+
+import numpy as np
+import pytest
+import shapely
+from pxr import Gf, Usd, UsdGeom
+from support.rays import Rays
+from support.sample_files import REPOSITORY
+from support.slot_frames import equidistant, pinhole, shot_from
+
+from garage2usd.errors import StageError
+from garage2usd.reading.labels import read_labels
+from garage2usd.sensors.outline import outline_in_picture
+from garage2usd.sensors.rig import read_rig
+from garage2usd.sensors.slots import CORNERS, SlotType, read_slots
+
+HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
+SIZE = 240, 180
+HALF_A_PIXEL = 0.5
+LEAST_CORNERS = 1000
+MOST_STRAYS = 0.001
+
+
+@pytest.fixture(scope="module")
+def stage(builds):
+    return Usd.Stage.Open(str(builds(HAND_DRAWN, "usdc", "instanced").stage))
+
+
+@pytest.fixture(scope="module")
+def rays(stage):
+    return Rays(stage, read_labels(stage, REPOSITORY / "none.usdc").ids)
+
+
+@pytest.fixture(scope="module")
+def stalls(stage):
+    """Corners (x, z) of each stall, by its name, as its prim has them."""
+    found = {}
+    for prim in stage.Traverse():
+        name = prim.GetAttribute("garage:stall:id")
+        if name and prim.GetAttribute("garage:stall:corners"):
+            found[name.Get()] = np.array(prim.GetAttribute("garage:stall:corners").Get()), prim
+    assert len(found) > 50
+    return found
+
+
+@pytest.fixture(scope="module")
+def shots(stage, rays):
+    """Frames from lane squares to all sides, by a pinhole and by a fisheye that sees what is beside the camera."""
+    nodes = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Garage/LaneGraph/Nodes"))
+    rings = np.array(nodes.GetPointsAttr().Get()).reshape(len(nodes.GetCurveVertexCountsAttr().Get()), -1, 3)
+    eyes = rings.mean(axis=1)[::3] * (1, 0, 1) + (0.3, 1.1, 0.2)
+    lenses = pinhole(SIZE, 90.0), equidistant(SIZE, 190.0)
+    return [
+        shot_from(rays, lens, eye, yaw_deg=yaw, pitch_deg=-12.0)
+        for number, eye in enumerate(eyes)
+        for lens, yaw in ((lenses[0], 90.0 * number), (lenses[1], 90.0 * number + 45.0))
+    ]
+
+
+def test_what_a_slot_is_agrees_with_its_prim(stage, stalls):
+    slots = read_slots(stage)
+    assert {slot.name for slot in slots.slots} == stalls.keys()
+    for slot in slots.slots:
+        corners, prim = stalls[slot.name]
+        assert np.abs(slot.corners_m[:, [0, 2]] - corners).max() < 1e-4
+        assert np.abs(slot.corners_m[:, 1]).max() < 1e-6  # on the floor
+        assert slot.use == prim.GetAttribute("garage:stall:use").Get()
+        assert str(slot.number) == prim.GetAttribute("garage:stall:number").Get()
+        assert slot.occupied is bool(prim.GetAttribute("garage:stall:occupied").Get())
+        assert slot.slot_type is SlotType.PERPENDICULAR
+        assert slot.angle_deg == pytest.approx(90.0, abs=0.01)
+        # a driver who enters looks from the entry to the rear and has the right corners on the right
+        inwards = corners[3] - corners[0]
+        right = np.array([-inwards[1], inwards[0]])
+        assert (corners[1] - corners[0]) @ right > 0
+        assert (corners[2] - corners[3]) @ right > 0
+    assert CORNERS == ("entry_left", "entry_right", "rear_right", "rear_left")
+
+
+def test_corners_are_where_the_lens_sees_them(stage, stalls, shots):
+    slots, compared = read_slots(stage), 0
+    for shot in shots:
+        for record in slots.seen_in(shot.frame):
+            corners = np.insert(stalls[record.slot.name][0], 1, 0.0, axis=1)
+            expected = shot.place_of(corners)  # one by one, by trigonometry
+            finite = np.isfinite(expected).all(axis=1)
+            assert (np.isfinite(record.corners_px).all(axis=1) == finite).all()
+            inside = finite & (np.abs(np.nan_to_num(expected, nan=1e9)) < 1e4).all(axis=1)
+            assert np.abs(record.corners_px - expected)[inside].max(initial=0.0) < HALF_A_PIXEL / 10
+            assert (record.entry_px == record.corners_px[:2])[finite[:2]].all()
+            compared += inside.sum()
+    assert compared > LEAST_CORNERS
+
+
+def test_visibility_agrees_with_rays_to_the_corners(stage, rays, stalls, shots):
+    slots, compared, hidden, strays = read_slots(stage), 0, 0, 0
+    # what is around a corner and holds its pixel; an edge that passes there decides either way
+    around = np.stack(np.meshgrid(*[np.linspace(-1, 1, 9)] * 2), axis=-1).reshape(-1, 2)
+    for shot in shots:
+        records = slots.seen_in(shot.frame)
+        corners = np.concatenate([np.insert(stalls[record.slot.name][0], 1, 0.0, axis=1) for record in records])
+        visibility = np.concatenate([record.visibility for record in records])
+        places = shot.place_of(corners)
+        inside = ((places >= 0) & (places < SIZE)).all(axis=1)
+        assert ((visibility > 0) == inside).all()
+        directions = shot.lens_rays((places[inside, None] + around).reshape(-1, 2))
+        known = np.isfinite(directions).all(axis=1)
+        met = np.full((len(directions), 3), np.inf)
+        _, met[known], _ = rays.cast(np.repeat(shot.eye[None], known.sum(), axis=0), directions[known])
+        is_floor = (np.abs(met[:, 1]) < 0.02).reshape(-1, len(around))
+        sure = known.reshape(-1, len(around)).all(axis=1) & (is_floor.all(axis=1) | ~is_floor.any(axis=1))
+        strays += ((visibility[inside] == 2) != is_floor[:, 0])[sure].sum()
+        compared += sure.sum()
+        hidden += (visibility[inside][sure] == 1).sum()
+    assert compared > LEAST_CORNERS
+    assert strays <= MOST_STRAYS * compared
+    assert 0.1 < hidden / compared < 0.9
+
+
+def test_the_ground_of_a_slot_is_its_pixels(stage, stalls, shots):
+    slots = read_slots(stage)
+    for shot in shots[:6]:
+        records = {record.slot.name: record for record in slots.seen_in(shot.frame)}
+        seen = shot.frame.seen_m.reshape(-1, 3)
+        floor = seen[np.abs(seen[:, 1]) < 0.02][:, [0, 2]]
+        for name, (corners, _) in stalls.items():
+            edges = np.roll(corners, -1, axis=0) - corners
+            to_points = floor[:, None] - corners
+            sides = edges[:, 0] * to_points[..., 1] - edges[:, 1] * to_points[..., 0]
+            count = (sides < 0).all(axis=1).sum()
+            assert (name in records) or not count
+            assert not count or records[name].seen_px == count
+        # the whole ground, hidden or not, is where rays would meet it if nothing stood on the floor
+        rows, columns = np.mgrid[: SIZE[1], : SIZE[0]]
+        directions = shot.lens_rays(np.stack([columns + 0.5, rows + 0.5], axis=-1).reshape(-1, 2))
+        falls = directions[:, 1] < -1e-9
+        distance = np.where(falls, shot.eye[1] / np.where(falls, -directions[:, 1], 1.0), np.nan)
+        ground = (shot.eye + directions * distance[:, None])[:, [0, 2]]
+        for record in records.values():
+            corners = stalls[record.slot.name][0]
+            low, high = corners.min(axis=0), corners.max(axis=0)
+            pixels = ((ground > low) & (ground < high)).all(axis=1).sum()
+            area = sum(polygon_area(part) for part in record.outline_px)
+            perimeter = sum(
+                np.linalg.norm(np.roll(part, -1, axis=0) - part, axis=1).sum() for part in record.outline_px
+            )
+            assert abs(area - pixels) <= 0.5 * perimeter + 2, record.slot.name
+
+
+def polygon_area(ring):
+    x, y = ring.T
+    return abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
+def test_slots_of_a_stage_with_z_up_in_centimetres(stage, tmp_path):
+    over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
+    UsdGeom.SetStageUpAxis(over, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(over, 0.01)
+    held = UsdGeom.Xform.Define(over, "/Held")
+    held.AddTranslateOp().Set(Gf.Vec3d(300.0, -200.0, 450.0))
+    held.AddScaleOp().Set(Gf.Vec3f(100.0))
+    held.AddRotateXOp().Set(90.0)
+    held.GetPrim().GetReferences().AddReference(stage.GetRootLayer().realPath)
+    over.SetDefaultPrim(held.GetPrim())
+    plain, held_slots = read_slots(stage), read_slots(over)
+    assert (held_slots.ground_axes, held_slots.up_axis) == ((0, 1), 2)
+    for one, other in zip(plain.slots, held_slots.slots, strict=True):
+        x, y, z = one.corners_m.T
+        assert np.abs(other.corners_m - np.stack([x + 3, -z - 2, y + 4.5], axis=1)).max() < 1e-4
+        assert other.angle_deg == pytest.approx(90.0, abs=0.01)
+
+
+def test_a_stage_without_stalls_is_refused(tmp_path):
+    empty = Usd.Stage.CreateNew(str(tmp_path / "empty.usda"))
+    with pytest.raises(StageError, match="no slots in it: no curves Nodes, Edges, Stalls"):
+        read_slots(empty)
+
+
+@pytest.mark.parametrize("camera", ["FV", "RV", "MVL"])
+def test_the_outline_of_the_ground_below_a_fisheye_goes_along_its_rim(camera):
+    """The stall that the car stands in, which goes on below and behind its cameras, is what their rays meet of it."""
+    sensor = next(each for each in read_rig("woodscape_like").scaled(0.25).cameras if each.name == camera)
+    lens, place = sensor.lens, sensor.sensor_to_vehicle
+    stall = np.array([(4.2, 1.2, 0.0), (4.2, -1.2, 0.0), (-1.1, -1.2, 0.0), (-1.1, 1.2, 0.0)])
+    to_camera = np.linalg.inv(place)
+    outline = outline_in_picture(stall, lambda points: lens.project(points @ to_camera[:3, :3].T + to_camera[:3, 3]))
+    middles = lens.middles()
+    rays = lens.rays(middles) @ place[:3, :3].T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ground = place[:3, 3] - rays * (place[2, 3] / rays[:, 2:])
+        meets = (rays[:, 2] < 0) & (ground[:, 0] > -1.1) & (ground[:, 0] < 4.2) & (np.abs(ground[:, 1]) < 1.2)
+    told = shapely.contains_xy(outline, middles)
+    assert meets.sum() > 1000
+    assert (told != meets).sum() < 0.01 * meets.sum()
