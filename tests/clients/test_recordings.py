@@ -15,7 +15,7 @@ import pytest
 import yaml
 from PIL import Image
 from pxr import Sdf, Usd, UsdGeom
-from support.label_tables import labelled_objects
+from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 
@@ -140,8 +140,14 @@ def test_every_pixel_shows_what_its_ray_meets(recorded, drive):
     stage = Usd.Stage.Open(str(drive.stage))
     stains = {entry["id"] for entry in objects if entry["class"] == "floor_stain"}
     ego = max(entry["id"] for entry in objects) + 1
-    left_out = set(recorded.table["frames"][0]["hidden_objects"])
-    solid = {e["path"]: e["id"] for e in objects if e["class"] != "floor_stain" and e["path"] not in left_out}
+    hidden = recorded.table["frames"][0]["hidden_objects"]
+    left_out = {entry["id"] for entry in objects if entry["path"] in hidden}
+    car_of = cars_of_plates(drive.labels)
+    solid = {
+        entry["path"]: car_of.get(entry["id"], entry["id"])
+        for entry in objects
+        if entry["class"] != "floor_stain" and car_of.get(entry["id"], entry["id"]) not in left_out
+    }
     caster, seen_of = Rays(stage, solid), {}
     for frame in recorded.frames:
         rays = rays_of(frame.about)

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pxr import Usd
-from support.label_tables import labelled_objects
+from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 
@@ -55,6 +55,7 @@ def data_set(builds, tmp_path_factory):
                 frames=[read_frame(folder, frame) for frame in table["frames"]],
                 labels=json.loads(built.labels.read_text()),
                 objects=labelled_objects(built.labels),
+                car_of=cars_of_plates(built.labels),
                 stage=stage,
                 folder=folder,
             )
@@ -116,8 +117,11 @@ def test_classes_are_those_of_the_table(data_set, form):
     assert len({tuple(colour) for colour in colours.values()}) == len(colours)
     for frame in made.frames:
         expected = np.vectorize(class_of.get)(frame.instance)
-        assert (frame.semantic == expected).all()
-        assert (frame.preview == np.array([[colours[number] for number in row] for row in expected.tolist()])).all()
+        plates = frame.semantic == class_ids["number_plate"]
+        assert np.isin(frame.instance[plates], list(made.car_of.values())).all()
+        assert (frame.semantic == expected)[~plates].all()
+        expected = [[colours[number] for number in row] for row in frame.semantic.tolist()]
+        assert (frame.preview == np.array(expected)).all()
 
 
 @pytest.mark.parametrize("name", ["hand_drawn", "irregular", "paper_7x9"])
@@ -136,7 +140,11 @@ def test_what_is_painted_has_classes_of_its_own_and_no_pixel_is_lost(builds, nam
         for entry in frame["instances"]:
             listed[entry["class"]] += entry["pixels"]
             assert objects[entry["id"]]["class"] == entry["class"]
-        assert {names[number]: count for number, count in counts.items()} == dict(listed)
+        for entry in frame["number_plates"]:
+            assert objects[entry["id"]]["class"] == "car"
+            listed["car"] -= entry["pixels"]
+            listed["number_plate"] += entry["pixels"]
+        assert {names[number]: count for number, count in counts.items()} == dict(+listed)
         assert nothing + sum(listed.values()) == semantic.size
         seen += listed
     assert seen.keys() >= {"floor", "parking_stall", "stall_line", "lane_line", "lane_arrow", "hatching", "crossing"}
@@ -189,7 +197,9 @@ def test_rays_through_the_meshes_meet_the_same(data_set):
     for frame in made.frames:
         hidden = frozenset({"floor_stain", *frame.about["hidden_classes"]})
         if hidden not in rays:
-            rays[hidden] = Rays(stage, {e["path"]: e["id"] for e in made.objects if e["class"] not in hidden})
+            solid = [entry for entry in made.objects if entry["class"] not in hidden]
+            ids = {entry["path"]: made.car_of.get(entry["id"], entry["id"]) for entry in solid}
+            rays[hidden] = Rays(stage, ids)
         whole = frame.semantic != stains  # whose texture says where they are
         directions = frame.direction[whole]
         owner, place, normal = rays[hidden].cast(np.broadcast_to(frame.eye, directions.shape), directions)
@@ -231,17 +241,18 @@ def test_ids_of_more_than_fifteen_bits_stay_exact_and_all_else_the_same_bytes(da
     shutil.copytree(made.stage.parent, tmp_path / "stage")
     stage = tmp_path / "stage" / made.stage.name
     objects = {
-        parent: [[name, number * 8191, *rest] for name, number, *rest in rows]
+        parent: [[name, number * 4093, *rest] for name, number, *rest in rows]
         for parent, rows in made.labels["objects"].items()
     }
-    parked = [[number * 8191 for number in pair] for pair in made.labels["parked"]]
-    table = {**made.labels, "objects": objects, "parked": parked}
+    parked = [[number * 4093 for number in pair] for pair in made.labels["parked"]]
+    plates = [[plates * 4093, car * 4093, text] for plates, car, text in made.labels["number_plates"]]
+    table = {**made.labels, "objects": objects, "parked": parked, "number_plates": plates}
     stage.with_name(f"{stage.stem}_labels.json").write_text(json.dumps(table))
     assert 2**15 < max(row[1] for rows in objects.values() for row in rows) < 2**24
     kinds = [Picture.COLOUR, Picture.DEPTH, Picture.INSTANCE]
     render_stage(stage, tmp_path / "out", size_px=SIZE, cameras=("Inside",), samples=4, pictures=kinds)
     digits = np.asarray(Image.open(tmp_path / "out" / "instance" / "Inside.png")).astype(int)
-    assert (digits @ [1, 256, 65536] == made.frames[0].instance * 8191).all()
+    assert (digits @ [1, 256, 65536] == made.frames[0].instance * 4093).all()
     for name in ("colour/Inside.png", "depth/Inside.exr"):
         assert (tmp_path / "out" / name).read_bytes() == (made.folder / name).read_bytes()
 

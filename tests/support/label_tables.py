@@ -13,3 +13,8 @@ def labelled_objects(path):
         for row in rows
     ]
     return sorted(({**entry, "class": classes[entry["class_id"]]} for entry in entries), key=lambda entry: entry["id"])
+
+
+def cars_of_plates(path):
+    """The id of its car for the id of each pair of number plates, whose pixels and points have the car's."""
+    return {plates: car for plates, car, _ in json.loads(path.read_text())["number_plates"]}

@@ -10,6 +10,16 @@ import pytest
 from support.documentation import README
 from support.sample_files import REPOSITORY
 
+DATA_FILES = (
+    "datasets/*.jinja",
+    "datasets/*.json",
+    "profiles/*.toml",
+    "render/*.osl",
+    "sensors/rigs/*.toml",
+    "stage/*.npz",
+    "view/page/*",
+)
+
 
 def pip(*arguments):
     run = subprocess.run(
@@ -54,13 +64,15 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     package, textures = REPOSITORY / "garage2usd", REPOSITORY / "textures"
     code = {path.relative_to(package) for path in package.rglob("*.py") if "web" not in path.parts}
     pictures = {Path("textures") / path.relative_to(textures) for path in textures.rglob("*") if path.is_file()}
-    data = {
-        path.relative_to(package)
-        for part in ("profiles/*.toml", "render/*.osl", "sensors/rigs/*.toml", "stage/*.npz", "view/page/*")
-        for path in package.glob(part)
-    }
+    data = {path.relative_to(package) for part in DATA_FILES for path in package.glob(part)}
     assert len(pictures) > 10
-    expected = ("profiles/cn-jgj100.toml", "stage/meshes.npz", "view/page/index.html", "view/page/viewer.js")
+    expected = (
+        "datasets/card.md.jinja",
+        "profiles/cn-jgj100.toml",
+        "stage/meshes.npz",
+        "view/page/index.html",
+        "view/page/viewer.js",
+    )
     assert set(map(Path, expected)) <= data
     assert held == {path.as_posix() for path in code | pictures | data | {Path("py.typed")}}
 
