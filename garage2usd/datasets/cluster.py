@@ -28,6 +28,9 @@ _LEAST_CORES = 4
 _START_S = 180
 """A worker takes a few seconds to start, on a machine that is very busy a minute."""
 _CONNECT_S = 10.0
+_ONE_THREAD = {"PXR_WORK_THREAD_LIMIT": "1", "TF_ENV_SETTING_ALERTS_ENABLED": "0"}
+"""For USD, whose threads only wait for each other where every core has a worker, and which prints such settings. Its
+`Work.SetConcurrencyLimit` leaves a thread that spins."""
 
 
 class Workers:
@@ -135,6 +138,7 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
         "distributed.worker.profile.enabled": False,
         "distributed.admin.system-monitor.interval": "10s",
         "distributed.admin.tick.interval": "1s",
+        "distributed.nanny.pre-spawn-environ": dask.config.get("distributed.nanny.pre-spawn-environ") | _ONE_THREAD,
     }
     with (
         dask.config.set(settings),

@@ -12,7 +12,7 @@ from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.structure.grid import Cell, CellArray, Structure
 from garage2usd.structure.stalls import capacity_table
 
-__all__ = ["PADDING", "Ground", "Lanes", "cells_of", "ground_of", "lanes_of"]
+__all__ = ["PADDING", "Ground", "Lanes", "capacity_by_edges", "cells_of", "ground_of", "lanes_of"]
 
 PADDING = 4
 """Squares outside on each side of a site, as many as the widest window sees beyond one of its squares."""
@@ -76,7 +76,7 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
     return Ground(
         stride=cells.shape[1],
         cells=flat,
-        capacity=_capacity_by_edges(site, bay),
+        capacity=_padded_capacity(site, bay),
         sides_mm=np.stack([np.pad(side, PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
         squares=squares,
         entrances=entrances,
@@ -102,11 +102,17 @@ def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
     return padded.reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING].copy()
 
 
-def _capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+def _padded_capacity(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+    held = np.pad(capacity_by_edges(site, bay), [(PADDING, PADDING), (PADDING, PADDING), (0, 0)])
+    return held.reshape(-1, held.shape[-1])
+
+
+def capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+    """Stalls on each square, int32, shape (rows, cols, 16), by its edges open to lanes as in `Ground.capacity`."""
     table = capacity_table(site, bay)
     layers = []
     for edges in range(16):
         along_x = (0, table.along_x, table.along_x, table.along_x_double)[edges & 3]
         along_z = (0, table.along_z, table.along_z, table.along_z_double)[edges >> 2]
-        layers.append(np.pad(np.maximum(along_x, along_z) + np.zeros(site.shape, dtype=np.int64), PADDING).ravel())
-    return np.ascontiguousarray(np.stack(layers, axis=1).astype(np.int32))
+        layers.append(np.maximum(along_x, along_z) + np.zeros(site.shape, dtype=np.int64))
+    return np.ascontiguousarray(np.stack(layers, axis=-1).astype(np.int32))

@@ -1,6 +1,6 @@
 """R and C while lanes are annealed: each line of squares is as wide as what it holds asks for. Compiled."""
 # Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
-# ruff: noqa: C901, PLR0912, PLR2004 - bits of edges, and loops over two axes
+# ruff: noqa: C901, PLR0912 - bits of edges, and loops over two axes
 
 from typing import NamedTuple
 
@@ -11,8 +11,8 @@ from garage2usd.compiled import Whole, compiled_inlined, compiled_inner, copy_ro
 from garage2usd.config import BayConfig
 from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
-from garage2usd.planning.ground import Ground
-from garage2usd.structure.grid import Cell
+from garage2usd.planning.ground import Ground, capacity_by_edges
+from garage2usd.structure.grid import Cell, Structure
 
 __all__ = [
     "ALONG_X",
@@ -46,12 +46,19 @@ class Sizes(NamedTuple):
         int64: what a line may be where no car drives along it.
     aisle_mm
         What it is where one does.
-    stall_mm
-        int64, shape (3,): stall width, stall length, and what the ends of a row leave free.
+    sides_mm
+        int64: all sides that a line may have, ascending.
+    held
+        int32, shape (sides, sides, 16): stalls on a square by the places of its depth and its width in `sides_mm` and
+        by its edges open to lanes, as in `Ground.capacity`.
+    line_of
+        int64, shape (2, padded): row and column of each square.
     kept_mm
         int64, shape (2, lines): side of each line while no car drives along it.
     actual_mm
         int64, shape (2, lines): its side now.
+    place
+        int64, shape (2, lines): the place of that in `sides_mm`.
     driven
         int64, shape (2, lines): on how many of its squares cars drive along it.
     least_mm
@@ -71,9 +78,12 @@ class Sizes(NamedTuple):
     is_chosen: NDArray[np.bool_]
     free_mm: NDArray[np.int64]
     aisle_mm: int
-    stall_mm: NDArray[np.int64]
+    sides_mm: NDArray[np.int64]
+    held: NDArray[np.int32]
+    line_of: NDArray[np.int64]
     kept_mm: NDArray[np.int64]
     actual_mm: NDArray[np.int64]
+    place: NDArray[np.int64]
     driven: NDArray[np.int64]
     least_mm: NDArray[np.int64]
     is_floor: NDArray[np.bool_]
@@ -91,18 +101,26 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
     actual = np.zeros((2, lines), np.int64)
     actual[0, :rows], actual[1, : ground.stride] = sides[:, :, 0].max(axis=1), sides[:, :, 1].max(axis=0)
     is_chosen = np.array(bay.chosen_sides)
+    free, aisle = np.array(free_sides_mm(bay), np.int64), aisle_side_mm(bay)
     kept = actual.copy()
-    kept[is_chosen] = free_sides_mm(bay)[-1]
-    stall = np.array([round(side * 1000) for side in (bay.stall_width_m, bay.stall_length_m, bay.row_ends_m)])
+    kept[is_chosen] = free[-1]
+    least = _door_sides(ground, bay, lines)
+    asked = np.append(free, aisle)
+    given = actual[actual > 0]  # not of the squares outside
+    sides = np.unique(np.concatenate([asked, np.maximum.outer(asked, np.unique(least)).ravel(), given]))
+    square = Structure(np.zeros((len(sides), len(sides)), np.int8), sides, sides)
     return Sizes(
         is_chosen,
-        np.array(free_sides_mm(bay), np.int64),
-        aisle_side_mm(bay),
-        stall.astype(np.int64),
+        free,
+        aisle,
+        sides,
+        capacity_by_edges(square, bay),
+        np.array(np.divmod(np.arange(len(ground.cells)), ground.stride)),
         kept,
         actual,
+        np.searchsorted(sides, actual),
         np.zeros((2, lines), np.int64),
-        _door_sides(ground, bay, lines),
+        least,
         ground.cells != Cell.OBSTACLE,
         np.zeros(1),
         np.zeros((2, lines)),
@@ -138,27 +156,20 @@ def driven_ways(cells: NDArray[np.int8], stride: int, q: int) -> int:
     return ways
 
 
-@compiled_inlined
-def _fits(sizes: Sizes, depth: int, width: int, edges: Whole) -> int:
-    """Stalls on a square by its sides and its edges open to lanes, as `garage2usd.structure.stalls` counts them."""
-    stall_width, stall_length, ends = sizes.stall_mm[0], sizes.stall_mm[1], sizes.stall_mm[2]
-    x, z = edges & 3, edges >> 2
-    along_x, along_z = 0, 0
-    if x != 0 and depth >= stall_length:
-        rows = 2 if x == 3 and depth >= 2 * stall_length else 1
-        along_x = rows * (max(width - ends, 0) // stall_width)
-    if z != 0 and width >= stall_length:
-        rows = 2 if z == 3 and width >= 2 * stall_length else 1
-        along_z = rows * (max(depth - ends, 0) // stall_width)
-    return max(along_x, along_z)
-
-
 @compiled_inner
 def _set_capacity(ground: Ground, sizes: Sizes, q: int) -> None:
     """Write what a square holds by its open edges into `ground.capacity`."""
-    depth, width = sizes.actual_mm[0, q // ground.stride], sizes.actual_mm[1, q % ground.stride]
-    for edges in range(16):
-        ground.capacity[q, edges] = _fits(sizes, depth, width, edges)
+    depth, width = sizes.place[0, sizes.line_of[0, q]], sizes.place[1, sizes.line_of[1, q]]
+    copy_row(ground.capacity[q], sizes.held[depth, width])
+
+
+@compiled_inlined
+def _place_of(sizes: Sizes, side_mm: int) -> int:
+    """The place of a side in `sides_mm`."""
+    place = 0
+    while sizes.sides_mm[place] != side_mm:
+        place += 1
+    return place
 
 
 @compiled_inlined
@@ -176,14 +187,13 @@ def weigh(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side
     for figure in range(3):
         change[figure] = 0
     first, step, last = _line(ground, axis, line)
-    across = 0
+    across, place = 0, _place_of(sizes, side_mm)
     for index in range((last - first + step - 1) // step):
         q = first + index * step
         if not sizes.is_floor[q]:
             continue
-        # the place on a line is the number of the line across
-        other = sizes.actual_mm[1 - axis, index]
-        across += other
+        # the index on a line is the number of the line across
+        across += sizes.actual_mm[1 - axis, index]
         if cells[q] != 0:
             continue
         edges, near = np.int64(0), FAR
@@ -195,7 +205,8 @@ def weigh(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side
         if edges == 0:
             continue
         before = ground.capacity[q, edges]
-        after = _fits(sizes, side_mm if axis == 0 else other, other if axis == 0 else side_mm, edges)
+        other = sizes.place[1 - axis, index]
+        after = sizes.held[place, other, edges] if axis == 0 else sizes.held[other, place, edges]
         change[_STALLS] += after - before
         change[_TIME] += (after - before) * (1 + near)
         change[_UNUSED] += (after == 0) - (before == 0)
@@ -208,6 +219,7 @@ def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> 
     first, step, last = _line(ground, axis, line)
     longer = side_mm - sizes.actual_mm[axis, line]
     sizes.actual_mm[axis, line] = side_mm
+    sizes.place[axis, line] = _place_of(sizes, side_mm)
     across = 0
     for index in range((last - first + step - 1) // step):
         q = first + index * step
@@ -226,11 +238,12 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
     for axis in range(2):
         for line in range(sizes.driven.shape[1]):
             sizes.driven[axis, line] = 0
-    for q in range(stride, len(board.cells) - stride):
-        if board.cells[q] >= 1:
-            ways = driven_ways(board.cells, stride, q)
-            sizes.driven[0, q // stride] += ways & ALONG_X
-            sizes.driven[1, q % stride] += ways >> 1
+    for squares in (ground.squares, ground.portals):
+        for q in squares:
+            if board.cells[q] >= 1:
+                ways = driven_ways(board.cells, stride, q)
+                sizes.driven[0, sizes.line_of[0, q]] += ways & ALONG_X
+                sizes.driven[1, sizes.line_of[1, q]] += ways >> 1
     is_new = sizes.area_m2[0] == 0
     for axis in range(2):
         if not sizes.is_chosen[axis]:
@@ -241,13 +254,15 @@ def sync(ground: Ground, board: Board, sizes: Sizes) -> None:
                 continue
             if is_new:
                 sizes.actual_mm[axis, line] = side
+                sizes.place[axis, line] = _place_of(sizes, side)
             else:
                 resize(ground, sizes, axis, line, side)
     if is_new:
         for q in range(stride, len(board.cells) - stride):
             if sizes.is_floor[q]:
                 _set_capacity(ground, sizes, q)
-                sizes.area_m2[0] += sizes.actual_mm[0, q // stride] * sizes.actual_mm[1, q % stride] / _MM2_PER_M2
+                row, col = sizes.line_of[0, q], sizes.line_of[1, q]
+                sizes.area_m2[0] += sizes.actual_mm[0, row] * sizes.actual_mm[1, col] / _MM2_PER_M2
 
 
 @compiled_inner

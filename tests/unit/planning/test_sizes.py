@@ -79,7 +79,7 @@ def test_a_line_is_weighed_as_it_is_resized(seed):
     measure(ground, board, -np.inf)
     axis = int(rng.integers(2))
     line = 4 + int(rng.integers(site.shape[axis]))
-    side = int(rng.choice([5300, 6700, 7800]))
+    side = int(rng.choice(sizes.free_mm))
     before, area = board.tally[:3].copy(), float(sizes.area_m2[0])
     added = weigh(ground, board, sizes, axis, line, side)
     change = sizes.change.copy()
