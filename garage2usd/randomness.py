@@ -26,6 +26,7 @@ class Step(IntEnum):
     GARAGES = 40
     SETTINGS = 41
     SPLITS = 42
+    DRIVES = 43
 
 
 def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:

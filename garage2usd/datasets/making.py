@@ -13,6 +13,7 @@ from garage2usd.datasets.card import data_card
 from garage2usd.datasets.cluster import Workers, workers
 from garage2usd.datasets.contour import contour_shape
 from garage2usd.datasets.difficulty import Level
+from garage2usd.datasets.drives import check_drives
 from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
 from garage2usd.datasets.page import write_page
 from garage2usd.datasets.plans import DrawnPlan, PlanDraw, chunks, plan_table, planned, plans_of
@@ -90,11 +91,15 @@ def make_dataset(
     ------
     ConfigError
         If the folder holds something else, no garage is possible by the recipe, or the scheduler cannot be used.
+    MissingExtraError
+        If what records drives is not installed.
     OutputError
         If files cannot be written, as where the disk is full; what was made until then stays for `resume`.
     """
     folder = Path(folder).absolute()
     recipe.check()
+    if recipe.make.drives:
+        check_drives(recipe.make.drives)
     check_writable(folder)
     _begin(recipe, folder, resume=resume)
     with only_run(folder):

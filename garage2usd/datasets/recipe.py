@@ -14,10 +14,12 @@ from pydantic import Field, field_validator, model_validator
 from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
+from garage2usd.datasets.drives import DrivesConfig
 from garage2usd.datasets.settings_table import first_value, over, resolved
 from garage2usd.documents import MAX_SETTINGS_BYTES, read_json, read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.randomness import Step, derived_seed
+from garage2usd.sensors.rig import read_rig
 from garage2usd.settings import Settings, validated
 from garage2usd.version import VERSION
 
@@ -82,6 +84,8 @@ class MakeConfig(Settings):
     """Whether the ways into each stall are proven and rated (``.difficulty.json``), and so the garage."""
     exports: tuple[Literal["glb", "osm", "xodr", "xosc", "yaml"], ...] = ()
     """Formats that each stage is exported to, as by `build --with`."""
+    drives: DrivesConfig | None = None
+    """Drives that are recorded with a rig, as by `render --rig` (``.drive_0.zip``); left out, none."""
     gzip: bool = False
     """Whether files of text (maps, reports, labels) are compressed and end in ``.gz``: a tenth of their size."""
     self_contained: bool = False
@@ -89,8 +93,8 @@ class MakeConfig(Settings):
 
     @model_validator(mode="after")
     def _has_stage(self) -> Self:
-        if (self.exports or self.self_contained) and not self.stage:
-            raise ValueError("stage = true where stages are exported or self-contained")
+        if (self.exports or self.drives or self.self_contained) and not self.stage:
+            raise ValueError("stage = true where stages are exported, driven through or self-contained")
         return self
 
 
@@ -228,7 +232,7 @@ def load_recipe(path: str | Path) -> Recipe:
     Parameters
     ----------
     path
-        The file; a profile of one's own that it names is looked for in its folder.
+        The file; a profile and a rig of one's own that it names are looked for in its folder.
 
     Raises
     ------
@@ -242,6 +246,12 @@ def load_recipe(path: str | Path) -> Recipe:
     if isinstance(garage, dict) and isinstance(garage.get("profile"), str):
         profile = profile_setting(garage["profile"], folder=path.parent)
         garage["profile"] = profile if isinstance(profile, str) else profile.model_dump(mode="json")
+    match settings:
+        case {"make": {"drives": {"rig": str(rig)} as drives}} if rig.endswith(".toml"):
+            try:
+                drives["rig"] = read_rig(path.parent / rig).model_dump(mode="json")
+            except ConfigError as error:
+                raise ConfigError(f"make.drives.{error.field}", error.value, error.allowed) from None
     recipe = validated(Recipe, settings)
     recipe.check()
     return recipe

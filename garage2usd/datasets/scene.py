@@ -3,14 +3,17 @@
 import gzip
 import hashlib
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 from garage2usd.checks import Severity, check_layout
 from garage2usd.datasets.difficulty import garage_difficulty, stall_difficulties
+from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.manifest import FileEntry, ManifestRow
 from garage2usd.datasets.plans import DrawnPlan, replanned
 from garage2usd.datasets.recipe import MakeConfig, Recipe
+from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
 from garage2usd.layout import StallUse
 from garage2usd.output import json_text
@@ -68,9 +71,15 @@ def make_scene(
         config=config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds={}, learning=drawn.learning
     )
     write_report(folder / f"{stem}.report.json", report)
-    _write_files(garage, folder, stem, recipe.make, assets)
-    difficulty = _difficulty(garage, folder / f"{stem}.difficulty.json", recipe.make)
-    if recipe.make.gzip:
+    make, difficulty = recipe.make, dict[str, str | int | float]()
+    stage = _write_files(garage, folder, stem, make, assets)
+    if make.difficulty or make.drives:
+        proofs = prove_stalls(garage.layout, garage.graph, most_explained=0)
+        if make.difficulty:
+            difficulty = _difficulty(garage, proofs, folder / f"{stem}.difficulty.json")
+        if make.drives and stage:
+            record_drives(stage, make.drives, proofs, seed=drawn.seed, settings=config.maps.drive)
+    if make.gzip:
         _compress(folder, stem)
     findings = Counter(finding.severity for finding in check_layout(garage.layout, garage.graph, config))
     return ManifestRow(
@@ -90,14 +99,17 @@ def make_scene(
     )
 
 
-def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> None:
+def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, assets: Path | None) -> Path | None:
+    """Write what says how a garage is; the stage, if there is one."""
+    stage = None
     arrangement = arrangement_of(garage.layout, garage.config.stage)
     if make.stage:
         suffix = StageFormat.USDZ if make.self_contained else StageFormat.USDC
-        stage = write_stage(
+        stage = folder / f"{stem}{suffix}"
+        write_stage(
             garage.layout,
             garage.graph,
-            folder / f"{stem}{suffix}",
+            stage,
             arrangement=arrangement,
             metadata=stage_metadata(garage),
             config=garage.config.stage,
@@ -105,18 +117,17 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
             own=f"{stem}.",
         )
         if make.exports:
-            export(stage.stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps)
+            export(stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps)
     if make.labels:
         write_labels(garage.layout, folder / f"{stem}.labels.json", arrangement=arrangement)
     if make.plan:
         write_png(to_image(draw_plan(garage.layout, garage.graph)), folder / f"{stem}.plan.png")
+    return stage
 
 
-def _difficulty(garage: Garage, path: Path, make: MakeConfig) -> dict[str, str | int | float]:
+def _difficulty(garage: Garage, proofs: Sequence[StallProof], path: Path) -> dict[str, str | int | float]:
     """What the manifest says of the difficulty of a garage, whose stalls have theirs in a file."""
-    if not make.difficulty:
-        return {}
-    stalls = stall_difficulties(garage)
+    stalls = stall_difficulties(garage, proofs=proofs)
     table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
     path.write_text(json_text({"stalls": table}), encoding="utf-8")
     found = garage_difficulty(stalls)

@@ -26,12 +26,13 @@ from garage2usd.sensors.ego_mask import body_named, ego_mask
 from garage2usd.sensors.point_cloud_files import CloudFormat
 from garage2usd.sensors.recording import Recording
 from garage2usd.sensors.rig import Rig, read_rig
+from garage2usd.sensors.slots import read_slots
 
 if TYPE_CHECKING:
     from garage2usd.recordings.sweeps import Sweeps
     from garage2usd.render.pictures import VisibleInstance
 
-__all__ = ["CloudFormat", "Recorded", "Sequence", "record"]
+__all__ = ["CloudFormat", "Recorded", "Sequence", "check_recording", "record"]
 
 _LEAST_STEP_M = 0.01
 _CALIBRATION = "calibration"
@@ -121,13 +122,10 @@ def record(
     chosen = (rig if isinstance(rig, Rig) else read_rig(rig)).scaled(scale)
     if every_m < _LEAST_STEP_M:
         raise ConfigError("every_m", every_m, f"{_LEAST_STEP_M} m or more")
-    kinds, formats = _written(chosen, pictures, points)
-    if birds_eye is not None:
-        check_birds_eye(chosen, kinds)
     asked = frozenset(sequences)
-    check_sequences(asked, chosen, kinds, formats)
-    if chosen.cameras:
-        check_blender()
+    kinds, formats = check_recording(
+        chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked
+    )
     check_writable(folder)
     opened = open_stage(path)
     progress("drive", 0, 1)
@@ -135,7 +133,7 @@ def record(
     scene = Scene(opened, read_labels(opened, path), way, chosen, birds_eye)
     progress("drive", 1, 1)
     if slots is not None:
-        check_slots(opened, slots, scene.views, kinds)
+        read_slots(opened)  # raises here, and not when all is drawn, where there are none
     sweeps = None
     if formats or asked:
         from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - of an extra, which pictures do without
@@ -175,16 +173,44 @@ def record(
     return Recorded(folder, places[-1], _recording(scene, sweeps, path, folder, kinds))
 
 
-def _written(
-    rig: Rig, pictures: Collection[Picture], points: Collection[CloudFormat]
+def check_recording(
+    rig: Rig,
+    *,
+    pictures: Collection[Picture],
+    slots: Collection[SlotFormat] | None,
+    birds_eye: BirdsEye | None,
+    points: Collection[CloudFormat],
+    sequences: Collection[Sequence],
 ) -> tuple[tuple[Picture, ...], tuple[CloudFormat, ...]]:
-    """The kinds of pictures of a rig's cameras, and the formats of its LiDARs' points."""
+    """Find out before the work whether a rig can record what is asked for, which are arguments of `record`.
+
+    Returns
+    -------
+    tuple
+        The kinds of pictures of its cameras, and the formats of its LiDARs' points.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot.
+    MissingExtraError
+        If what records or writes it is not installed.
+    """
     kinds = tuple(kind for kind in Picture if kind in pictures) if rig.cameras else ()
     if rig.cameras and not kinds:
         raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
     formats = tuple(kind for kind in CloudFormat if kind in points) if rig.lidars else ()
     if rig.lidars and not formats:
         raise ConfigError("points", list(points), f"at least one of {', '.join(CloudFormat)}")
+    if birds_eye is not None:
+        check_birds_eye(rig, kinds)
+    if slots is not None:
+        check_slots(slots, kinds, has_birds_eye=birds_eye is not None)
+    check_sequences(sequences, rig, kinds, formats)
+    if rig.cameras:
+        check_blender()
+    if rig.lidars or sequences:
+        import garage2usd.recordings.sweeps  # noqa: F401, PLC0415 - of an extra
     return kinds, formats
 
 

@@ -19,6 +19,8 @@ from garage2usd.render.drawing import Drawing
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import Picture
 from garage2usd.render.slot_labels import SlotFormat, SlotLabels, check_slots
+from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.labels import OBJECT_LABELS
 
 __all__ = ["Picture", "Rendering", "SlotFormat", "render_stage"]
@@ -112,7 +114,8 @@ def render_stage(
     labels = read_labels(opened, path)
     hidden = _hidden(opened, labels, views)
     if slots is not None:
-        check_slots(opened, slots, views, kinds)
+        check_slots(slots, kinds, has_birds_eye=any(isinstance(view.lens, Orthographic) for view in views))
+        read_slots(opened)  # raises here, and not when all is drawn, where there are none
     with staging_folder() as staging:
         finished = staging / "finished"
         drawing = Drawing(opened, labels, views, hidden, kinds, samples, seed, finished)

@@ -43,25 +43,20 @@ _NEEDS = {SlotFormat.PANOPTIC: Picture.INSTANCE}
 """Kinds of pictures that formats need, beside depth, which all need."""
 
 
-def check_slots(
-    stage: Usd.Stage, formats: Collection[SlotFormat], views: Sequence[View], kinds: Collection[Picture]
-) -> None:
+def check_slots(formats: Collection[SlotFormat], kinds: Collection[Picture], *, has_birds_eye: bool) -> None:
     """Find out before anything is drawn whether slots can be told in some formats.
 
     Raises
     ------
     ConfigError
         If a kind of picture that they need is not drawn, or there is no bird's-eye view for DMPR-PS.
-    StageError
-        If the stage has no slots.
     """
     needed = {Picture.DEPTH, *(_NEEDS[each] for each in formats if each in _NEEDS)}
     missing = sorted(needed.difference(kinds))
     if missing:
         raise ConfigError("pictures", ",".join(kinds), f"{missing[0]} among them, from which slots are told")
-    if SlotFormat.DMPR_PS in formats and not any(isinstance(view.lens, Orthographic) for view in views):
+    if SlotFormat.DMPR_PS in formats and not has_birds_eye:
         raise ConfigError("slots", str(SlotFormat.DMPR_PS), "other formats where there is no bird's-eye view")
-    read_slots(stage)
 
 
 @dataclass(frozen=True, eq=False)

@@ -275,12 +275,11 @@ def hull_of(prim):
     return shapely.MultiPoint(np.concatenate(found)).convex_hull
 
 
-def test_slots_are_refused_where_they_cannot_be_told(drawn):
-    above, fisheyes = drawn.views[:1], drawn.views[2:]
+def test_slots_are_refused_where_they_cannot_be_told():
     with pytest.raises(ConfigError, match="slots"):
-        check_slots(drawn.stage, [SlotFormat.DMPR_PS], fisheyes, KINDS)
+        check_slots([SlotFormat.DMPR_PS], KINDS, has_birds_eye=False)
     with pytest.raises(ConfigError, match="depth among them"):
-        check_slots(drawn.stage, [SlotFormat.JSON], above, [Picture.COLOUR])
+        check_slots([SlotFormat.JSON], [Picture.COLOUR], has_birds_eye=True)
     with pytest.raises(ConfigError, match="instance among them"):
-        check_slots(drawn.stage, [SlotFormat.PANOPTIC], above, [Picture.DEPTH])
-    check_slots(drawn.stage, list(SlotFormat), above, KINDS)
+        check_slots([SlotFormat.PANOPTIC], [Picture.DEPTH], has_birds_eye=True)
+    check_slots(list(SlotFormat), KINDS, has_birds_eye=True)

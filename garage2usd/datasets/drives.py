@@ -1,0 +1,148 @@
+"""Drives through the garages of a data set, recorded with a rig and packed, each into one file."""
+
+import zipfile
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import Field, field_validator
+
+from garage2usd.config.maps import DriveConfig
+from garage2usd.errors import ConfigError
+from garage2usd.randomness import Step, generator
+from garage2usd.recordings import CloudFormat, check_recording, record
+from garage2usd.recordings import Sequence as SequenceFormat
+from garage2usd.render import Picture, SlotFormat
+from garage2usd.sensors.birds_eye import BirdsEye
+from garage2usd.sensors.rig import RIG_NAMES, Rig, read_rig
+from garage2usd.settings import Settings
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from garage2usd.driving import StallProof
+
+__all__ = ["DrivesConfig", "check_drives", "record_drives"]
+
+_TEXTS = {".json", ".yaml"}
+_FIRST_DATE = (1980, 1, 1, 0, 0, 0)
+_SEEDS = 2**31
+"""Blender takes seeds below that."""
+
+
+class DrivesConfig(Settings):
+    """Drives that are recorded in each garage, by the names of `garage2usd render --rig`."""
+
+    rig: Rig
+    """Name of a shipped rig, or in a recipe's file the path of a TOML file of your own, or its table."""
+    count: int = Field(1, ge=1, le=1000)
+    """How many drives, each from the nearest entrance to a stall that is drawn by the garage's seed among those with a
+    proven way; fewer where there are fewer such stalls."""
+    every_m: float = Field(5.0, ge=0.01, le=1000)
+    """Metres between two places on the way."""
+    scale: float = Field(1.0, gt=0, le=16)
+    """Of the sides of the pictures."""
+    samples: int = Field(64, ge=1, le=65_536)
+    """Samples of each pixel of the colour."""
+    pictures: Annotated[tuple[Picture, ...], Field(min_length=1)] = tuple(Picture)
+    """What the cameras' pictures show."""
+    points: Annotated[tuple[CloudFormat, ...], Field(min_length=1)] = tuple(CloudFormat)
+    """What the points of LiDARs are written as."""
+    slots: tuple[SlotFormat, ...] = ()
+    """In which formats the slots of each frame are told."""
+    also: tuple[SequenceFormat, ...] = ()
+    """What the whole drive is written as too."""
+    birds_eye: BirdsEye | None = None
+    """Bird's-eye views at each place too."""
+
+    @field_validator("rig", mode="before")
+    @classmethod
+    def _shipped(cls, rig: object) -> object:
+        if not isinstance(rig, str):
+            return rig
+        if rig not in RIG_NAMES:
+            raise ValueError(f"one of {', '.join(RIG_NAMES)}, a path that ends in .toml, or the table of a rig")
+        return read_rig(rig)
+
+
+def check_drives(config: DrivesConfig) -> None:
+    """Find out whether drives can be recorded.
+
+    Raises
+    ------
+    ConfigError
+        If the rig cannot record what is asked for.
+    MissingExtraError
+        If what records it is not installed.
+    """
+    try:
+        check_recording(
+            config.rig.scaled(config.scale),
+            pictures=config.pictures,
+            slots=config.slots or None,
+            birds_eye=config.birds_eye,
+            points=config.points,
+            sequences=config.also,
+        )
+    except ConfigError as error:
+        raise ConfigError(f"make.drives.{error.field}", error.value, error.allowed) from None
+
+
+def record_drives(
+    stage: Path, config: DrivesConfig, proofs: "Sequence[StallProof]", *, seed: int, settings: DriveConfig
+) -> tuple[Path, ...]:
+    """Record drives through a garage.
+
+    Parameters
+    ----------
+    stage
+        Its stage.
+    config
+        With what, and how many.
+    proofs
+        What is proven of each of its stalls.
+    seed
+        By which stalls are drawn, and the seed of samples and of LiDARs' noise.
+    settings
+        How the car drives.
+
+    Returns
+    -------
+    tuple of Path
+        A file for each drive beside the stage, ``<stem>.drive_0.zip``: what `garage2usd.recordings.record` writes.
+    """
+    names = [proof.stall for proof in proofs if proof.way_in is not None]
+    drawn = generator(seed, Step.DRIVES).permutation(len(names))[: config.count].tolist()
+    packed = []
+    for number, place in enumerate(drawn):
+        with TemporaryDirectory() as room:
+            folder = Path(room) / "drive"
+            record(
+                stage,
+                folder,
+                rig=config.rig,
+                along=f":{names[place]}",
+                every_m=config.every_m,
+                scale=config.scale,
+                samples=config.samples,
+                seed=seed % _SEEDS,
+                pictures=config.pictures,
+                slots=config.slots or None,
+                birds_eye=config.birds_eye,
+                points=config.points,
+                sequences=config.also,
+                settings=settings,
+            )
+            packed.append(stage.with_name(f"{stage.stem}.drive_{number}.zip"))
+            _pack(folder, packed[-1])
+    return tuple(packed)
+
+
+def _pack(folder: Path, path: Path) -> None:
+    """Pack a folder, the same bytes each time; pictures and points are compressed already."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for file in sorted(folder.rglob("*")):
+            if file.is_file():
+                entry = zipfile.ZipInfo(file.relative_to(folder).as_posix(), _FIRST_DATE)
+                entry.compress_type = zipfile.ZIP_DEFLATED if file.suffix in _TEXTS else zipfile.ZIP_STORED
+                archive.writestr(entry, file.read_bytes())

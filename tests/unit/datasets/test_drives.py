@@ -1,0 +1,89 @@
+"""Drives that are recorded in the garages of a data set."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+from support.data_sets import small_recipe, tree_of
+
+from garage2usd.datasets import load_recipe, make_dataset
+from garage2usd.datasets.plans import planned
+from garage2usd.datasets.shards import make_shard, shards_of
+from garage2usd.errors import ConfigError
+
+SCANNER = {
+    "kind": "solid_state_lidar",
+    "name": "front",
+    "position_m": [3.0, 0.0, 0.6],
+    "horizontal_deg": 100.0,
+    "vertical_deg": 20.0,
+    "columns": 100,
+    "rows": 20,
+    "range_m": [0.3, 50.0],
+}
+DRIVES = {"rig": {"name": "scanner", "sensors": [SCANNER]}, "count": 2, "every_m": 6.0, "points": ["npz"]}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A shard of two garages with two drives each, and its rows."""
+    recipe = small_recipe(splits={"train": 1}, shards={"garages": 2, "form": "folder"}, make={"drives": DRIVES})
+    (shard,) = shards_of(recipe, planned(recipe, [(0, 0), (1, 0)]))
+    folder = tmp_path_factory.mktemp("drives")
+    return recipe, shard, folder, make_shard(recipe, folder, shard)
+
+
+def test_each_drive_is_one_file_of_what_its_sensors_recorded(made):
+    _, _, folder, rows = made
+    for row in rows:
+        assert not row.error
+        assert {"drive_0.zip", "drive_1.zip"} < {file.suffix.removeprefix(".") for file in row.files}
+        garage = folder / "shards" / row.key
+        stalls = {
+            entry["stall"]: entry
+            for entry in json.loads(garage.with_name(f"{garage.name}.difficulty.json").read_text())["stalls"]
+        }
+        driven = []
+        for number in range(2):
+            with zipfile.ZipFile(garage.with_name(f"{garage.name}.drive_{number}.zip")) as archive:
+                table = json.loads(archive.read("frames.json"))
+                assert table["stage"] == f"{garage.name}.usdc"
+                assert table["rig"]["name"] == "scanner"
+                places = np.array([sweep["distance_m"] for sweep in table["sweeps"]])
+                assert len(places) > 2
+                assert np.diff(places)[:-1] == pytest.approx(DRIVES["every_m"], abs=1e-3)
+                for sweep in table["sweeps"]:
+                    with np.load(io.BytesIO(archive.read(sweep["files"]["npz"]))) as cloud:
+                        assert 0 < len(cloud["points_m"]) <= SCANNER["columns"] * SCANNER["rows"]
+            driven.append(table["drive"]["stall"])
+            assert stalls[driven[-1]]["gear_changes_in"] is not None
+        assert len(set(driven)) == len(driven)
+
+
+def test_drives_have_the_same_bytes_when_made_again(made, tmp_path):
+    recipe, shard, folder, rows = made
+    assert make_shard(recipe, tmp_path, shard) == rows
+    assert tree_of(tmp_path) == tree_of(folder)
+
+
+def test_a_rig_of_ones_own_stands_in_the_recipe(tmp_path):
+    (tmp_path / "mine.toml").write_text(
+        'name = "mine"\n[[sensors]]\n' + "".join(f"{key} = {json.dumps(value)}\n" for key, value in SCANNER.items())
+    )
+    path = tmp_path / "recipe.toml"
+    path.write_text('name = "a"\n[make.drives]\nrig = "mine.toml"\n')
+    recipe = load_recipe(path)
+    assert recipe.make.drives.rig.sensors[0].columns == SCANNER["columns"]
+    (tmp_path / "mine.toml").unlink()
+    path = tmp_path / "recipe.json"
+    path.write_text(recipe.record())
+    assert load_recipe(path) == recipe
+
+
+def test_what_a_rig_cannot_record_is_said_before_the_work(tmp_path):
+    drives = {**DRIVES, "slots": ["json"]}
+    with pytest.raises(ConfigError, match=r"make\.drives\.pictures"):
+        make_dataset(small_recipe(make={"drives": drives}), tmp_path / "set")
+    assert not (tmp_path / "set").exists()
