@@ -26,7 +26,7 @@ FEW, MANY = 4, 64
 """Garages of a short run and of a long one, whose difference has no starts of processes and no loading of code."""
 ROUNDS = 3
 LARGE = {"site": {"height_cells": 20, "width_cells": 30, "entrances": 2, "exits": 2, "min_portal_distance_cells": 10}}
-LARGE_COUNT = 30
+LARGE_COUNT = 100
 THOUSANDS = 10_000
 
 _SET = """
@@ -122,7 +122,7 @@ def workers() -> str:
             "",
             "| after garage | peak resident |",
             "|---|---|",
-            *(f"| {number} | {peaks[number - 1]:.0f} MB |" for number in (1, 5, 10, 20, LARGE_COUNT)),
+            *(f"| {number} | {peaks[number - 1]:.0f} MB |" for number in (1, 5, 10, 20, 40, 70, LARGE_COUNT)),
         ]
     )
 
