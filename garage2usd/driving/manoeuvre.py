@@ -5,8 +5,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from garage2usd.driving.car import Pose
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from garage2usd.driving.sweep import Floats
 
 __all__ = ["Gear", "Manoeuvre", "Move", "Waypoint"]
 
@@ -112,7 +120,7 @@ class Manoeuvre:
         """Poses at most `step_m` apart along the way, with those at the ends of each move; the last is the end."""
         pose, driven = self.start, 0.0
         for move in self.moves:
-            count = max(math.ceil(move.length_m / step_m - 1e-9), 1)
+            count = _steps(move, step_m)
             for number in range(count):
                 part = move.length_m * number / count
                 at = pose.moved(move.gear.sign * part, move.curvature_per_m)
@@ -121,3 +129,35 @@ class Manoeuvre:
             driven += move.length_m
         if self.moves:
             yield Waypoint(pose, driven, self.moves[-1].gear, self.moves[-1].curvature_per_m)
+
+    def poses(self, step_m: float) -> "tuple[Floats, NDArray[np.int64]]":
+        """The poses of `waypoints` as an array, for a way that has moves.
+
+        Returns
+        -------
+        tuple
+            x, z and yaw of each, shape (n + 1, 3), and the number of the move that each but the last lies on.
+        """
+        starts = [self.start]
+        for move in self.moves:
+            starts.append(starts[-1].moved(move.gear.sign * move.length_m, move.curvature_per_m))
+        counts = np.array([_steps(move, step_m) for move in self.moves])
+        owner = np.repeat(np.arange(len(counts)), counts)
+        number = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
+        lengths, signs, curvatures = np.array(
+            [(move.length_m, move.gear.sign, move.curvature_per_m) for move in self.moves]
+        )[owner].T
+        x, z, yaws = np.array([(pose.x_m, pose.z_m, pose.yaw_rad) for pose in starts[:-1]])[owner].T
+        driven = signs * lengths * number / counts[owner]
+        yaw = yaws + driven * curvatures
+        bends = driven * curvatures != 0
+        curvature = np.where(bends, curvatures, 1.0)
+        along_x = np.where(bends, (np.cos(yaw) - np.cos(yaws)) / curvature, -np.sin(yaw) * driven)
+        along_z = np.where(bends, -(np.sin(yaw) - np.sin(yaws)) / curvature, -np.cos(yaw) * driven)
+        end = [[starts[-1].x_m, starts[-1].z_m, starts[-1].yaw_rad]]
+        return np.concatenate([np.stack([x + along_x, z + along_z, yaw], axis=1), end]), owner
+
+
+def _steps(move: Move, step_m: float) -> int:
+    """In how many steps of at most a length a move is driven."""
+    return max(math.ceil(move.length_m / step_m - 1e-9), 1)

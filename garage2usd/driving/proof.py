@@ -180,15 +180,14 @@ def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, m
     """What is left at least between a car and all obstacles on a way: a lower bound, at most `most_m`."""
     body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
     step_m = min(_FINE_M, _FINE_RAD * car.rear_axle_radius_m)
-    waypoints = list(way.waypoints(step_m))
-    poses = np.array([(at.pose.x_m, at.pose.z_m, at.pose.yaw_rad) for at in waypoints])
-    if not len(poses):
+    if not way.moves:
         poses = np.array([[way.start.x_m, way.start.z_m, way.start.yaw_rad]] * 2)
         return float(least_clearance(poses, np.zeros(1), obstacles.pieces, obstacles.boxes, body, most_m))
-    turns = np.abs(np.diff(poses[:, 2]))
-    radii = np.array([1 / abs(at.curvature_per_m) if at.curvature_per_m else 0.0 for at in waypoints[:-1]])
-    bulges = np.array([bulge(radius, turn, body) for radius, turn in zip(radii, turns, strict=True)])
-    return float(least_clearance(poses, bulges, obstacles.pieces, obstacles.boxes, body, most_m))
+    poses, move = way.poses(step_m)
+    bends = [abs(each.curvature_per_m) for each in way.moves]
+    turns = np.array([each.length_m * bend for each, bend in zip(way.moves, bends, strict=True)]) / np.bincount(move)
+    lies_off = [bulge(1 / bend if bend else 0.0, turn, body) for bend, turn in zip(bends, turns, strict=True)]
+    return float(least_clearance(poses, np.array(lies_off)[move], obstacles.pieces, obstacles.boxes, body, most_m))
 
 
 def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:

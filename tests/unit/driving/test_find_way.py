@@ -171,3 +171,7 @@ def test_waypoints_are_close_and_end_at_the_end():
     assert all(0 <= b.arc_m - a.arc_m <= 0.1 + 1e-9 for a, b in pairwise(points))
     assert {at.gear for at in points} == {Gear.FORWARD, Gear.REVERSE}
     assert not list(Manoeuvre(way.start, (), 1.0).waypoints())
+    poses, move = way.poses(0.1)
+    expected = np.array([(at.pose.x_m, at.pose.z_m, at.pose.yaw_rad) for at in points])
+    assert np.abs(poses - expected).max() < 1e-12
+    assert [way.moves[number].gear for number in move] == [at.gear for at in points[:-1]]
