@@ -92,7 +92,9 @@ def mounted_objects(
             free = _free_faces(mounted, faces, shapely.STRtree(driven), shapely.STRtree(used))
             clause = getattr(config.standard, mounted.clause)
             reach_m = (clause.amount if clause else mounted.reach_m) - _SLACK_M
-            hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, free, places)]
+            spacing = getattr(config.standard, mounted.spacing) if mounted.spacing else None
+            spacing_m = spacing.amount - _SLACK_M if spacing else None
+            hung = [_hung(mounted, face) for face in _covering(mounted, reach_m, spacing_m, free, places)]
             used = np.concatenate([used, grounds_of(_outlines(hung))])
             objects += hung
     return objects
@@ -145,8 +147,13 @@ def _free_faces(
     ]
 
 
-def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: NDArray[np.float64]) -> list[_Face]:
-    """As few faces as a greedy choice needs to serve all places that can be; places are (x, z), shape (n, 2)."""
+def _covering(
+    mounted: Mounted, reach_m: float, spacing_m: float | None, faces: Sequence[_Face], places: NDArray[np.float64]
+) -> list[_Face]:
+    """As few faces as a greedy choice needs to serve all places that can be; places are (x, z), shape (n, 2).
+
+    Where one has no other within its spacing then, one more is taken there.
+    """
     if not faces or not len(places):
         return []
     beside = Points([face.place for face in faces])
@@ -162,16 +169,24 @@ def _covering(mounted: Mounted, reach_m: float, faces: Sequence[_Face], places: 
     def worth(face: int) -> tuple[bool, bool, int]:
         return not faces[face].is_on_lane, face not in near, int((needed[served[face]] > 0).sum())
 
+    def take(face: int) -> None:
+        chosen[face] = faces[face]
+        covered.update(feet.query(faces[face].foot, predicate="intersects").tolist())
+        near.update(beside.within(_APART * reach_m, beside.at_m[[face]])[1].tolist())
+        needed[served[face]] -= 1
+
     for place in range(len(places)):
         while needed[place] > 0:
             open_faces = [face for face in within[place].tolist() if face not in covered]
             if not open_faces:
                 break
-            best = max(open_faces, key=worth)
-            chosen[best] = faces[best]
-            covered.update(feet.query(faces[best].foot, predicate="intersects").tolist())
-            near.update(beside.within(_APART * reach_m, beside.at_m[[best]])[1].tolist())
-            needed[served[best]] -= 1
+            take(max(open_faces, key=worth))
+    if spacing_m is not None and len(chosen) > 1:
+        for face in tuple(chosen):
+            others = beside.within(spacing_m, beside.at_m[[face]])[1].tolist()
+            open_faces = [other for other in others if other not in covered]
+            if open_faces and chosen.keys().isdisjoint({*others} - {face}):
+                take(max(open_faces, key=worth))
     return list(chosen.values())
 
 

@@ -56,7 +56,13 @@ class HydrantCabinetSpec(Spec, kind=KIND):
 
 
 MOUNTED = Mounted(
-    HydrantCabinetSpec(), setting="hydrant_cabinets", clause="hydrant_reach", reach_m=27.1, count=2, is_walked=False
+    HydrantCabinetSpec(),
+    setting="hydrant_cabinets",
+    clause="hydrant_reach",
+    reach_m=27.1,
+    count=2,
+    spacing="hydrant_spacing",
+    is_walked=False,
 )
 
 

@@ -23,8 +23,11 @@ class Mounted:
         The same where the profile has none.
     count
         How many serve each place.
+    spacing
+        Name of the profile's clause on how far the next one of its kind is at most; None where that does not matter.
     is_walked
-        Whether that distance is measured as people walk between rows of cars, along X and then along Z; else straight.
+        Whether how far it serves is measured as people walk between rows of cars, along X and then along Z; else
+        straight.
     """
 
     spec: Spec
@@ -32,6 +35,7 @@ class Mounted:
     clause: str
     reach_m: float
     count: int = 1
+    spacing: str | None = None
     is_walked: bool = True
 
     @property

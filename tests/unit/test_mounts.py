@@ -105,6 +105,17 @@ def test_the_clause_of_the_profile_decides_how_far():
     assert len(far.of_kind("fire_extinguisher")) < len(near.of_kind("fire_extinguisher"))
 
 
+@pytest.mark.parametrize(("spacing", "is_kept"), [(None, False), ("extinguisher_distance", True)])
+def test_the_next_one_is_no_farther_than_the_clause_on_spacing(spacing, is_kept, monkeypatch):
+    plate = Mounted(PlateSpec(0.3, 0.1), "hydrant_cabinets", "hydrant_reach", 27.1, spacing=spacing, is_walked=False)
+    monkeypatch.setattr(mounts, "MOUNTED", (plate,))
+    layout, config = laid_out()
+    at = np.array([place.position_m for place in layout.placements if isinstance(place.spec, PlateSpec)])[:, [0, 2]]
+    assert len(at) > 1
+    to_next = np.sort(cdist(at, at), axis=1)[:, 1]
+    assert (to_next.max() <= config.standard.extinguisher_distance.amount) == is_kept
+
+
 def test_each_kind_has_a_switch_and_moves_nothing_else():
     everything, _ = laid_out()
     names = {mounted.kind.name for mounted in MOUNTED}
