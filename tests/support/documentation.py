@@ -21,6 +21,7 @@ import garage2usd
 from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.datasets import Recipe
+from garage2usd.datasets.drives import check_drives
 from garage2usd.profiles import read_profile
 from garage2usd.sensors.rig import rig_from_mapping
 
@@ -115,8 +116,11 @@ class Reader:
         if "sensors" in settings:
             assert rig_from_mapping(settings).sensors, block
             return
-        if "garage" in settings:
-            Recipe(**settings).check()
+        if not settings.keys().isdisjoint({"garage", "make"}):
+            recipe = Recipe(**{"name": "page", **settings})
+            recipe.check()
+            if recipe.make.drives:
+                check_drives(recipe.make.drives)
             return
         if "name" in settings:
             assert list(read_profile(settings).clauses()), block
