@@ -81,7 +81,8 @@ def test_a_layout_its_report_and_its_stage_are_the_same_garage(structure, tmp_pa
     layout, graph = built.garage.layout, built.garage.graph
     made = layout_garage(layout, graph)
     owned = {(place.stall, place.kind) for place in layout.placements if place.stall}
-    assert {"stall", "car", "wheel_stop", "cone", "stall_number", "charger"} >= {kind for _, kind in owned}
+    stall_fittings = {"stall", "car", "number_plate", "wheel_stop", "cone", "stall_number", "charger"}
+    assert stall_fittings >= {kind for _, kind in owned}
     assert {"car", "wheel_stop", "cone"} <= {kind for _, kind in owned}
     for path in (built.stage, built.report):
         read = driven_garage(read_subject(path)[0])
