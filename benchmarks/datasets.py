@@ -35,9 +35,8 @@ from pathlib import Path
 from garage2usd.datasets import Recipe, make_dataset
 
 if __name__ == "__main__":
-    recipe = Recipe(
-        name="small", count=int(sys.argv[2]), distinct="seed", garage=json.loads(sys.argv[1]), make={"difficulty": False}
-    )
+    garage = json.loads(sys.argv[1])
+    recipe = Recipe(name="small", count=int(sys.argv[2]), distinct="seed", garage=garage, make={"difficulty": False})
     made = make_dataset(recipe, sys.argv[3], worker_count=int(sys.argv[4]))
     print(len(made.rows) - len(made.failed))
 """
