@@ -1,6 +1,8 @@
 """Sizes of the squares of a plan: widths of columns and depths of rows that park most cars on least floor."""
 
+import math
 from functools import lru_cache
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,49 +104,59 @@ def free_sides_mm(bay: BayConfig) -> list[int]:
 
 
 class _Sized:
-    """Squares with their sizes, of which floor and stalls are counted line by line."""
+    """Squares with their sizes, of which floor and stalls are counted line by line.
+
+    In plain numbers, as lines are so short that calls of NumPy would cost more than what they do.
+    """
 
     def __init__(
         self, cells: CellArray, sides_mm: list[NDArray[np.int64]], tried_mm: list[int], bay: BayConfig
     ) -> None:
         """Take the sides by axis, rows' first, and all that lines may take beside these."""
-        self._sizes_mm = np.unique(np.concatenate([*sides_mm, np.array(tried_mm, dtype=np.int64)]))
-        self._at = [np.searchsorted(self._sizes_mm, side) for side in sides_mm]
-        self._inside = cells != Cell.OBSTACLE
-        self._service = _service(cells)
-        self._held = _stalls_held(tuple(self._sizes_mm.tolist()), bay)
-        self._number_of = {size: number for number, size in enumerate(self._sizes_mm.tolist())}
-        self._area = float(self.side_mm(0) @ self._inside @ self.side_mm(1))
-        self._stalls = int(self._held[self._service, self._at[0][:, None], self._at[1]].sum())
+        self._sides_mm: list[list[int]] = [side.tolist() for side in sides_mm]
+        self._held = _stalls_held(tuple(sorted({*self._sides_mm[0], *self._sides_mm[1], *tried_mm})), bay)
+        inside, service = cells != Cell.OBSTACLE, _service(cells)
+        self._inside: list[list[list[bool]]] = [inside.tolist(), inside.T.tolist()]
+        self._service: list[list[list[int]]] = [service.tolist(), service.T.tolist()]
+        self._area_mm2 = sum(self._sides_mm[0][row] * self._floor_mm(0, row) for row in range(len(cells)))
+        self._stalls = sum(self._stalls_on(0, row, self._sides_mm[0][row]) for row in range(len(cells)))
 
     def side_mm(self, axis: int) -> NDArray[np.int64]:
         """Depths of the rows (0) or widths of the columns (1)."""
-        sides: NDArray[np.int64] = self._sizes_mm[self._at[axis]]
-        return sides
+        return np.array(self._sides_mm[axis], dtype=np.int64)
 
     @property
     def area_per_stall_m2(self) -> float:
         """Floor over stalls; infinite without stalls."""
-        return self._area / _MM2_PER_M2 / self._stalls if self._stalls else float("inf")
+        return _ratio_m2(self._area_mm2, self._stalls)
 
     def improve(self, axis: int, line: int, sizes_mm: list[int]) -> bool:
         """Give a line the size with the least area per stall, if that is less than now."""
-        across, here = self._at[1 - axis], self._at[axis]
-        tried = np.array([*map(self._number_of.__getitem__, sizes_mm), here[line]])[:, None]
-        service = self._service[line] if axis == 0 else self._service[:, line]
-        pair = (tried, across) if axis == 0 else (across, tried)
-        counts = self._held[(service, *pair)].sum(axis=1)
-        inside = self._inside[line] if axis == 0 else self._inside[:, line]
-        length = float(self._sizes_mm[across][inside].sum())
-        areas = self._area + length * (self._sizes_mm[tried[:, 0]] - self._sizes_mm[here[line]])
-        stalls = self._stalls + counts - counts[-1]
-        ratios = np.divide(areas, stalls * _MM2_PER_M2, out=np.full(len(areas), np.inf), where=stalls > 0)
-        best = int(np.argmin(ratios[:-1]))
-        if not ratios[best] < ratios[-1] - _ROUNDING_M2:
+        now = self._sides_mm[axis][line]
+        floor, kept = self._floor_mm(axis, line), self._stalls - self._stalls_on(axis, line, now)
+        found = [(self._area_mm2 + floor * (size - now), kept + self._stalls_on(axis, line, size)) for size in sizes_mm]
+        ratios = [_ratio_m2(*area_and_stalls) for area_and_stalls in found]
+        least = min(ratios)
+        if not least < self.area_per_stall_m2 - _ROUNDING_M2:
             return False
-        here[line] = tried[best, 0]
-        self._area, self._stalls = float(areas[best]), int(stalls[best])
+        best = ratios.index(least)
+        self._sides_mm[axis][line] = sizes_mm[best]
+        self._area_mm2, self._stalls = found[best]
         return True
+
+    def _floor_mm(self, axis: int, line: int) -> int:
+        """How long the floor on a line is."""
+        return sum(compress(self._sides_mm[1 - axis], self._inside[axis][line]))
+
+    def _stalls_on(self, axis: int, line: int, side_mm: int) -> int:
+        """Stalls on a line, if that had another side."""
+        held, across = self._held[axis][side_mm], self._sides_mm[1 - axis]
+        return sum([held[side][service] for side, service in zip(across, self._service[axis][line], strict=True)])
+
+
+def _ratio_m2(area_mm2: int, stalls: int) -> float:
+    """Floor over stalls; infinite without stalls."""
+    return area_mm2 / (stalls * _MM2_PER_M2) if stalls > 0 else math.inf
 
 
 def _service(cells: CellArray) -> NDArray[np.intp]:
@@ -154,14 +166,19 @@ def _service(cells: CellArray) -> NDArray[np.intp]:
 
 
 @lru_cache(maxsize=64)
-def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> NDArray[np.int64]:
-    """Stalls that a square holds; shape (services, depths, widths), each depth and width one of some sizes."""
+def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> tuple[dict[int, dict[int, list[int]]], ...]:
+    """Stalls that a square holds, for both axes: by its side along the axis, the one across, and how it is served."""
     count, sides = len(sizes_mm), np.array(sizes_mm, dtype=np.int64)
     table = capacity_table(Structure(np.zeros((count, count), dtype=np.int8), sides, sides), bay)
     none = np.zeros_like(table.along_x)
     along_x = (none, table.along_x, table.along_x_double)
     along_z = (none, table.along_z, table.along_z_double)
-    return np.stack([np.maximum(one, other) for one in along_x for other in along_z])
+    held = np.stack([np.maximum(one, other) for one in along_x for other in along_z], axis=-1)
+    by_axis = (held.tolist(), held.transpose(1, 0, 2).tolist())
+    return tuple(
+        {side: dict(zip(sizes_mm, across, strict=True)) for side, across in zip(sizes_mm, lines, strict=True)}
+        for lines in by_axis
+    )
 
 
 def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
