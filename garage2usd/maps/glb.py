@@ -14,7 +14,7 @@ from garage2usd.checks.shapes import are_upright
 from garage2usd.errors import StageError
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece
-from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles
+from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles, rigid_inverses
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.objects import PIECE_LABELS
@@ -77,7 +77,7 @@ def write_glb(
     matrices = np.array([placed.matrix for placed, _ in drawn])
     rigid = are_rigid(matrices)
     inverses = np.zeros_like(matrices)
-    inverses[rigid] = np.linalg.inv(matrices[rigid])
+    inverses[rigid] = rigid_inverses(matrices[rigid])
     node_of: dict[str, tuple[int, Matrix]] = {}
     for (placed, look), is_rigid, inverse in zip(drawn, rigid.tolist(), inverses, strict=True):
         number = labels.ids.get(placed.path)

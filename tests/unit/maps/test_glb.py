@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSemantics, UsdShade
 from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
 from support.glb_reader import Glb, assert_like_the_stage, assert_stalls
 from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
@@ -18,6 +19,7 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.errors import StageError
 from garage2usd.maps.glb import write_glb
+from garage2usd.maps.glb_meshes import are_rigid, rigid_inverses
 from garage2usd.objects import PIECE_LABELS
 
 
@@ -188,6 +190,17 @@ def test_units_axes_and_places_that_no_node_can_say(tmp_path):
         assert (((triangles.mean(axis=1) - found.mean(axis=0)) * outwards).sum(axis=1) > 0).all()
     classes = {node["name"]: node["extras"]["class"] for node in glb.nodes}
     assert classes == {"/Lot/Sheared": "static", "/Plain": "column"}
+
+
+def test_inverses_of_scales_turns_and_moves_are_those_of_numpy():
+    draw = np.random.default_rng(1)
+    matrices = np.tile(np.eye(4), (100, 1, 1))
+    turns = Rotation.random(100, random_state=1).as_matrix()
+    matrices[:, :3, :3] = draw.uniform(0.2, 3.0, (100, 3, 1)) * turns
+    matrices[::7, 0, :3] *= -1.0
+    matrices[:, 3, :3] = draw.uniform(-50.0, 50.0, (100, 3))
+    assert are_rigid(matrices).all()
+    np.testing.assert_allclose(rigid_inverses(matrices), np.linalg.inv(matrices), atol=1e-9)
 
 
 def test_points_of_instancers_and_subsets(tmp_path):
