@@ -133,6 +133,9 @@ class _Looks:
     def __init__(self) -> None:
         self._looks = MeshLooks()
         self._facets_of = cache(lambda mesh: tuple(by_facets(self._looks.meshes.values[mesh])))
+        self._moved: dict[tuple[Triangles, bytes], Triangles] = {}
+        self._joined = cache(joined)
+        self._outline_of = cache(_outline)
 
     def of(self, placed: PlacedObject) -> _Look:
         """One piece for all that has the same surface, apart from what is faceted, which needs no normals."""
@@ -140,20 +143,40 @@ class _Looks:
         surfaces = self._looks.surfaces.values
         for part in placed.parts:
             if part.prim.GetTypeName() in DRAWN_TYPES:
-                is_moved = not np.array_equal(part.matrix, _IDENTITY)
                 for mesh, surface in self._looks.of_prim(part.prim):
                     is_bumpy = bool(surfaces[surface].normal_texture)
                     for is_faceted, triangles in self._facets_of(mesh):
-                        own = moved_triangles(triangles, part.matrix) if is_moved else triangles
+                        own = self._placed(triangles, part.matrix)
                         alike.setdefault((surface, own.double_sided, is_faceted and not is_bumpy), []).append(own)
+        # cars of other paints are the same meshes, which are thus joined and written once
         pieces = [
-            Piece(joined(group), surfaces[surface], is_faceted) for (surface, _, is_faceted), group in alike.items()
+            Piece(self._joined(tuple(group)), surfaces[surface], is_faceted)
+            for (surface, _, is_faceted), group in alike.items()
         ]
         if placed.label != _CAR or not pieces:
             return _Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)))
         points_m = np.concatenate([piece.triangles.positions_m for piece in pieces])
-        outline = shapely.get_coordinates(hulls_of([points_m[:, [0, 2]]]))
+        outline = _hull(np.concatenate([self._outline_of(piece.triangles) for piece in pieces]))
         return _Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1))
+
+    def _placed(self, triangles: Triangles, matrix: Matrix) -> Triangles:
+        """Triangles in the space of the object that they are a part of."""
+        if np.array_equal(matrix, _IDENTITY):
+            return triangles
+        key = triangles, matrix.tobytes()
+        if key not in self._moved:
+            self._moved[key] = moved_triangles(triangles, matrix)
+        return self._moved[key]
+
+
+def _outline(triangles: Triangles) -> NDArray[np.float64]:
+    return _hull(triangles.positions_m[:, [0, 2]])
+
+
+def _hull(points_m: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+    """Corners of the convex outline of points, shape (n, 2)."""
+    corners: NDArray[np.float64] = shapely.get_coordinates(hulls_of([points_m]))
+    return corners
 
 
 def _name(placed: PlacedObject) -> str:

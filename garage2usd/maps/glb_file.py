@@ -3,7 +3,8 @@
 import hashlib
 import json
 import struct
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -156,7 +157,7 @@ class _Numbers:
 
     def __init__(self) -> None:
         self.accessors: list[dict[str, Any]] = []
-        self._known: dict[tuple[bytes, int, str], int] = {}
+        self._known: dict[tuple[bytes, int, str, bool], int] = {}
         self._parts: list[list[bytes]] = []
         self._headers: list[dict[str, int]] = []
         self._view_of: dict[tuple[int, str], int] = {}
@@ -165,10 +166,7 @@ class _Numbers:
         """Number of the accessor of vectors, one a vertex; float32, shape (vertices, 2 to 4)."""
         width = values.shape[1]
         header = {"target": _VERTICES, "byteStride": 4 * width}
-        bounds = {}
-        if with_bounds:
-            columns = np.ascontiguousarray(values.T)  # by rows it takes several times as long
-            bounds = {"min": _shortest(columns.min(axis=1)), "max": _shortest(columns.max(axis=1))}
+        bounds = partial(_bounds, values) if with_bounds else None
         return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
 
     def indices(self, triangles: NDArray[np.uint32]) -> int:
@@ -176,7 +174,7 @@ class _Numbers:
         is_short = triangles.max() < _MOST_SHORT
         data = triangles.astype("<u2" if is_short else "<u4").tobytes()
         return self._accessor(
-            data, _UINT16 if is_short else _UINT32, triangles.size, "SCALAR", {"target": _INDICES}, {}
+            data, _UINT16 if is_short else _UINT32, triangles.size, "SCALAR", {"target": _INDICES}, None
         )
 
     def image(self, data: bytes) -> int:
@@ -186,9 +184,15 @@ class _Numbers:
         return len(self._parts) - 1
 
     def _accessor(
-        self, data: bytes, component: int, count: int, kind: str, header: dict[str, int], bounds: dict[str, list[float]]
+        self,
+        data: bytes,
+        component: int,
+        count: int,
+        kind: str,
+        header: dict[str, int],
+        bounds: Callable[[], dict[str, list[float]]] | None,
     ) -> int:
-        key = hashlib.blake2b(data, digest_size=16).digest(), component, f"{kind} {sorted(bounds)}"
+        key = hashlib.blake2b(data, digest_size=16).digest(), component, kind, bounds is None
         if key in self._known:
             return self._known[key]
         view = self._view_of.setdefault((component, kind), len(self._parts))
@@ -205,7 +209,7 @@ class _Numbers:
                 "componentType": component,
                 "count": count,
                 "type": kind,
-                **bounds,
+                **(bounds() if bounds else {}),
             }
         )
         return self._known[key]
@@ -223,6 +227,11 @@ class _Numbers:
         """All views, padded to multiples of four bytes."""
         joined = (b"".join(parts) for parts in self._parts)
         return b"".join(data + bytes(-len(data) % _ALIGNMENT) for data in joined)
+
+
+def _bounds(values: NDArray[np.float32]) -> dict[str, list[float]]:
+    columns = np.ascontiguousarray(values.T)  # by rows it takes several times as long
+    return {"min": _shortest(columns.min(axis=1)), "max": _shortest(columns.max(axis=1))}
 
 
 def _shortest(values: NDArray[np.float32]) -> list[float]:

@@ -178,11 +178,19 @@ def add_lots(osm: OsmFile, lanes: Sequence[LaneBounds], feet: Feet) -> None:
     Autoware parks where both the car and its goal lie within one lot, so that lots reach over the lanes.
     """
     level = grounds_of([lane.ground for lane in lanes if not any(place[2] for place in lane.left.places)])
-    ground = shapely.union_all(shapely.make_valid([*level, *feet.grounds]), grid_size=_GRID_M)
+    # lanes cross each other; stalls and what is before them share whole sides, by which they are joined far sooner
+    are_apart = shapely.coverage_is_valid(feet.grounds)
+    stalls = shapely.coverage_union_all(feet.grounds) if are_apart else shapely.union_all(_valid(feet.grounds))
+    ground = shapely.union(*_valid([shapely.union_all(_valid(level)), stalls]), grid_size=_GRID_M)
     for part in shapely.get_parts(ground):
         if shapely.intersects(part, feet.grounds).any():
             corners = shapely.get_coordinates(shapely.normalize(part).exterior)[:-1].tolist()
             osm.polygon(osm.points((x, y, 0.0) for x, y in corners), {"type": "parking_lot"})
+
+
+def _valid(grounds: Sequence[shapely.Geometry] | Grounds) -> Grounds:
+    valid: Grounds = shapely.make_valid(grounds)
+    return valid
 
 
 def _stall_tags(stall: StallOutline, *, is_taken: bool) -> dict[str, str]:

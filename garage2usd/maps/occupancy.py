@@ -29,6 +29,8 @@ _MOST_CELLS = 400_000_000
 _AROUND_M = 1.0
 """Of the map around the floors: walls stand there."""
 _NEAR_CELLS = 0.25
+_ARC_SIDES = 4
+"""Of a quarter of a turn around a corner: they cut off a fiftieth of the distance to it."""
 _BAND_ROWS = 256
 """Rows that are filled at a time, so that large maps need no more memory for it than small ones."""
 _KEPT_FREE = frozenset({StallUse.ACCESS_AISLE, StallUse.UNREACHABLE})
@@ -78,7 +80,7 @@ def write_grid(subject: Subject, path: Path, grid: GridConfig) -> tuple[Path, ..
     floor = floor_of(subject)
     raster = _Raster.around(floor, grid.resolution_m)
     cells = np.full(raster.shape, _UNKNOWN, dtype=np.uint8)
-    raster.fill(cells, shapely.get_parts(floor), _FREE)
+    raster.fill(cells, floor, _FREE)
     thin = _thickened(occupied_ground(subject, grid.low_m, grid.high_m), grid.resolution_m)
     raster.fill(cells, thin, _OCCUPIED)
     files = _write(path, cells, raster, "trinary")
@@ -115,9 +117,9 @@ class _Raster:
     shape: tuple[int, int]
 
     @classmethod
-    def around(cls, floor: shapely.Geometry, side_m: float) -> "_Raster":
-        """The cells on and around a ground (x, z)."""
-        (left, high), (right, low) = map_points(np.reshape(floor.bounds, (2, 2)))
+    def around(cls, floor: Grounds, side_m: float) -> "_Raster":
+        """The cells on and around grounds (x, z)."""
+        (left, high), (right, low) = map_points(shapely.total_bounds(floor).reshape(2, 2))
         first_column, first_row = (math.floor((value - _AROUND_M) / side_m) for value in (left, low))
         columns, rows = (
             math.ceil((value + _AROUND_M) / side_m) - first
@@ -177,7 +179,7 @@ def _thickened(grounds: Iterable[shapely.Geometry], side_m: float) -> Grounds:
     """Convex grounds and what is nearer to them than a quarter of a cell, all of it at least a cell thick."""
     outlines = np.array([*grounds], dtype=object)
     thickened: Grounds = shapely.buffer(
-        outlines, np.maximum(_NEAR_CELLS * side_m, (side_m - _thicknesses_m(outlines)) / 2)
+        outlines, np.maximum(_NEAR_CELLS * side_m, (side_m - _thicknesses_m(outlines)) / 2), quad_segs=_ARC_SIDES
     )
     return thickened
 

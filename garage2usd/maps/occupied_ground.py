@@ -21,8 +21,8 @@ _LEAST_UP = 0.1
 """Of the normals of a floor's faces, which may be ramps with grooves."""
 
 
-def floor_of(subject: Subject) -> shapely.Geometry:
-    """The ground that the garage's floors and ramps take, (x, z) in metres.
+def floor_of(subject: Subject) -> Grounds:
+    """The grounds that the garage's floors and ramps take, (x, z) in metres.
 
     Raises
     ------
@@ -33,7 +33,7 @@ def floor_of(subject: Subject) -> shapely.Geometry:
     if not bodies:
         raise StageError(subject.source, "nothing in it has the class floor, so that nothing says where it ends")
     tiles = placed_pieces(bodies, np.ones(len(bodies), dtype=bool)).hulls
-    return shapely.union_all([*tiles, *ramp_floors(subject)])
+    return np.array([*tiles, *ramp_floors(subject)], dtype=object)
 
 
 def ramp_floors(subject: Subject) -> Grounds:

@@ -66,6 +66,7 @@ class MeshLooks:
         self._mesh_of: dict[Hashable, int | None] = {}
         self._surface_of_material: dict[Sdf.Path, int] = {}
         self._surface_of_opinions: dict[Hashable, int] = {}
+        self._is_composed_within: dict[Hashable, bool] = {}
 
     def of_prim(self, prim: Usd.Prim) -> list[DrawnMesh]:
         """What a prim of one of `garage2usd.reading.meshes.DRAWN_TYPES` draws."""
@@ -105,7 +106,12 @@ class MeshLooks:
     def _surface_of(self, material: UsdShade.Material) -> int:
         """Number of a material's surface; many prototypes have materials that are made of the same opinions."""
         prim = material.GetPrim()
-        key = prim.GetName(), tuple(opinions_of(part) for part in Usd.PrimRange(prim))
+        key: Hashable = prim.GetName(), opinions_of(prim)
+        # what is below it follows from its own opinions, unless that is composed of something else as well
+        if key not in self._is_composed_within:
+            self._is_composed_within[key] = any(_has_arcs(part) for part in Usd.PrimRange(prim) if part != prim)
+        if self._is_composed_within[key]:
+            key = prim.GetName(), tuple(opinions_of(part) for part in Usd.PrimRange(prim))
         if key not in self._surface_of_opinions:
             surface = self._number(surface_of(material))
             if not stands_alone(material):
@@ -115,3 +121,14 @@ class MeshLooks:
 
     def _number(self, surface: SurfaceLook) -> int:
         return self.surfaces.number(surface, (surface, surface.name) if self._is_apart_by_name else surface)
+
+
+def _has_arcs(prim: Usd.Prim) -> bool:
+    """Whether a prim is made of other prims or of variants."""
+    return bool(
+        prim.HasAuthoredReferences()
+        or prim.HasAuthoredPayloads()
+        or prim.HasAuthoredInherits()
+        or prim.HasAuthoredSpecializes()
+        or prim.HasVariantSets()
+    )
