@@ -1,13 +1,22 @@
-"""Limits of processor time and memory for a process that reads what anybody may have written.
+"""Limits of processor time and memory for a process that reads what anybody may have written, and of threads.
 
-They hold only in a process that `enforce`s them, as the commands do that read stages: USD composes without an end in
-sight where a few lines refer to each other in doubling numbers, and nothing in it can be told to stop.
+Those of time and memory hold only in a process that `enforce`s them, as the commands do that read stages: USD composes
+without an end in sight where a few lines refer to each other in doubling numbers, and nothing in it can be told to
+stop.
 """
 
 import math
 import resource
 
-__all__ = ["allow_seconds", "enforce", "lift"]
+__all__ = ["ONE_THREAD", "allow_seconds", "enforce", "lift"]
+
+ONE_THREAD = {"PXR_WORK_THREAD_LIMIT": "1", "TF_ENV_SETTING_ALERTS_ENABLED": "0", "OPENBLAS_NUM_THREADS": "1"}
+"""Environment of a process in which libraries keep to the thread that calls them, set before they are loaded.
+
+Threads of USD and OpenBLAS look for work in a loop between the short pieces that a garage has for them: a quarter of
+the processor time of a check. USD's own `Work.SetConcurrencyLimit` leaves one that does so for ever; and it prints such
+settings if it is not told otherwise.
+"""
 
 _MAX_MEMORY_BYTES = 8 * 1024**3
 _enforced = False

@@ -141,11 +141,17 @@ def _simple(owner: NDArray[np.int64], pieces: Grounds) -> tuple[NDArray[np.int64
     table = np.full((len(counts), counts.max(initial=1)), None, dtype=object)
     table[owner, number] = pieces
     several = np.flatnonzero(counts > 1)
-    wholes = shapely.union_all(table[several], axis=1)
-    hulls = shapely.convex_hull(wholes)
+    hulls = shapely.convex_hull(shapely.geometrycollections(table[several]))
+    areas_m2 = np.zeros(table.shape)
+    areas_m2[owner, number] = shapely.area(pieces)
+    least_m2 = shapely.area(hulls) - _SLACK_M2
     # what is as thin as a line has no area to be filled
-    are_filled = shapely.get_type_id(hulls) == shapely.GeometryType.POLYGON
-    are_filled &= shapely.area(hulls) - shapely.area(wholes) <= _SLACK_M2
+    are_filled = (shapely.get_type_id(hulls) == shapely.GeometryType.POLYGON) & (
+        areas_m2[several].sum(axis=1) >= least_m2
+    )
+    # most are filled by one of their pieces; only of the others it takes the union to know
+    unsure = np.flatnonzero(are_filled & (areas_m2[several].max(axis=1, initial=0.0) < least_m2))
+    are_filled[unsure] = shapely.area(shapely.union_all(table[several[unsure]], axis=1)) >= least_m2[unsure]
     kept = np.isin(owner, several[are_filled], invert=True)
     owner = np.concatenate([owner[kept], several[are_filled]])
     order = np.argsort(owner, kind="stable")

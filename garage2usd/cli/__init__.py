@@ -1,6 +1,7 @@
 """The command line: arguments, progress, exit codes. A module is a command."""
 
 import gc
+import os
 import sys
 
 import click
@@ -18,6 +19,7 @@ from garage2usd.cli.schema import schema
 from garage2usd.cli.supervision import SUPERVISED, supervise
 from garage2usd.cli.textures import textures
 from garage2usd.cli.view import view
+from garage2usd.limits import ONE_THREAD
 from garage2usd.version import VERSION
 
 __all__ = ["main", "run"]
@@ -25,6 +27,8 @@ __all__ = ["main", "run"]
 
 _KEPT_OBJECTS = 50_000
 """How many objects are made before Python looks for dead cycles: by default 700, though nearly all live to the end."""
+_MANY_THREADS = {"render", "dataset"}
+"""Commands whose work is done by threads of Blender, or by processes that are told of theirs when they are started."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
 refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
 
@@ -47,6 +51,9 @@ def run() -> None:
     """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
     gc.set_threshold(_KEPT_OBJECTS)
     name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    if name not in _MANY_THREADS:
+        for variable, value in ONE_THREAD.items():
+            os.environ.setdefault(variable, value)
     if name in SUPERVISED:
         supervise(main, name=name)
     main()

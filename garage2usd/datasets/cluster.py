@@ -12,6 +12,7 @@ import dask.system
 from distributed import Client, KilledWorker, LocalCluster, as_completed
 
 from garage2usd.errors import ConfigError, DataSetError, Garage2UsdError
+from garage2usd.limits import ONE_THREAD
 from garage2usd.version import VERSION
 
 __all__ = ["Workers", "workers"]
@@ -28,9 +29,6 @@ _LEAST_CORES = 4
 _START_S = 180
 """A worker takes a few seconds to start, on a machine that is very busy a minute."""
 _CONNECT_S = 10.0
-_ONE_THREAD = {"PXR_WORK_THREAD_LIMIT": "1", "TF_ENV_SETTING_ALERTS_ENABLED": "0"}
-"""For USD, whose threads only wait for each other where every core has a worker, and which prints such settings. Its
-`Work.SetConcurrencyLimit` leaves a thread that spins."""
 
 
 class Workers:
@@ -138,7 +136,7 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
         "distributed.worker.profile.enabled": False,
         "distributed.admin.system-monitor.interval": "10s",
         "distributed.admin.tick.interval": "1s",
-        "distributed.nanny.pre-spawn-environ": dask.config.get("distributed.nanny.pre-spawn-environ") | _ONE_THREAD,
+        "distributed.nanny.pre-spawn-environ": dask.config.get("distributed.nanny.pre-spawn-environ") | ONE_THREAD,
     }
     with (
         dask.config.set(settings),

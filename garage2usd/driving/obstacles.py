@@ -79,7 +79,9 @@ class Obstacles:
 
     def kept(self, is_kept: NDArray[np.bool_]) -> "Obstacles":
         """Some of the pieces, with all names."""
-        return Obstacles(self.names, self.owner[is_kept], self.pieces[is_kept])
+        kept = Obstacles(self.names, self.owner[is_kept], self.pieces[is_kept])
+        vars(kept)["boxes"] = self.boxes[is_kept]  # rather than to find them anew for each look at a few
+        return kept
 
     def joined(self, others: "Obstacles") -> "Obstacles":
         """These and others."""

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import struct
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -59,13 +59,13 @@ class GlbFile:
         self._matrices: list[Matrix] = []
         self._roots: list[int] = []
         self._meshes: list[dict[str, Any]] = []
-        self._mesh_of: dict[str, int] = {}
+        self._mesh_of: dict[Hashable, int] = {}
         self._primitive_of: dict[tuple[Triangles, int], dict[str, Any]] = {}
 
     def add_mesh(self, pieces: Iterable[Piece], name: str) -> int:
         """Number of the mesh that consists of some pieces; a new one is called `name`."""
         primitives = [self._primitive(*piece) for piece in pieces]
-        key = json.dumps(primitives)
+        key = tuple((own["material"], own["indices"], *own["attributes"].items()) for own in primitives)
         if key not in self._mesh_of:
             self._mesh_of[key] = len(self._meshes)
             self._meshes.append({"name": name, "primitives": primitives})
@@ -159,6 +159,7 @@ class _Numbers:
         self.accessors: list[dict[str, Any]] = []
         self._known: dict[tuple[bytes, int, str, bool], int] = {}
         self._parts: list[list[bytes]] = []
+        self._lengths: list[int] = []
         self._headers: list[dict[str, int]] = []
         self._view_of: dict[tuple[int, str], int] = {}
 
@@ -181,6 +182,7 @@ class _Numbers:
         """Number of the view of an image."""
         self._headers.append({})
         self._parts.append([data])
+        self._lengths.append(len(data))
         return len(self._parts) - 1
 
     def _accessor(
@@ -199,8 +201,10 @@ class _Numbers:
         if view == len(self._parts):
             self._headers.append(header)
             self._parts.append([])
-        offset = sum(map(len, self._parts[view]))
+            self._lengths.append(0)
+        offset = self._lengths[view]
         self._parts[view].append(data)
+        self._lengths[view] += len(data)
         self._known[key] = len(self.accessors)
         self.accessors.append(
             {
@@ -217,8 +221,7 @@ class _Numbers:
     def views(self) -> list[dict[str, int]]:
         """The views of the buffer, each from a multiple of four bytes on."""
         views, offset = [], 0
-        for parts, header in zip(self._parts, self._headers, strict=True):
-            length = sum(map(len, parts))
+        for length, header in zip(self._lengths, self._headers, strict=True):
             views.append({"buffer": 0, "byteOffset": offset, "byteLength": length, **header})
             offset += length + -length % _ALIGNMENT
         return views
