@@ -11,6 +11,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import garage2usd
+from garage2usd.processes import cores
 
 __all__ = ["exports"]
 
@@ -18,6 +19,7 @@ HERE = Path(__file__).parent
 SAMPLE = "large_20x30"
 FORMATS = ("glb", "osm", "xodr", "xosc", "yaml")
 ROUNDS = 3
+CORES = cores()
 
 
 def exports() -> str:
@@ -42,7 +44,7 @@ def exports() -> str:
                 for name, value in taken.items():
                     seconds[name].append(value)
             loads.append(os.getloadavg()[0])
-        commands = [_commands(place) for _ in range(ROUNDS)]
+        commands = {workers: [_commands(place, workers) for _ in range(ROUNDS)] for workers in (1, CORES)}
     building = statistics.median(seconds["building the stage"])
     rows = [
         "## Exports",
@@ -57,34 +59,45 @@ def exports() -> str:
         size = f"{sizes[name]:,}" if name in sizes else ""
         rows.append(f"| {name} | {median:.2f} | {median / building:.2f} | {size} |")
     exporting = statistics.median(seconds["all at once"])
-    build_s, export_s = (statistics.median(column) for column in zip(*commands, strict=True))
     rows += [
         "",
         (
             f"Exporting to all formats against building: in a process the medians above, and of {ROUNDS} pairs of "
-            "commands, with what each imports. The machine's load average was "
+            "commands, with what each imports: the time until they end and the processor seconds. `export` writes as "
+            "many files at a time as the machine has cores. The load average was "
             f"{min(loads):.1f} to {max(loads):.1f} meanwhile, which adds to the seconds of both alike."
         ),
         "",
         "| how | building | exporting to all | exporting / building |",
         "|---|---|---|---|",
-        f"| in a process, warm | {building:.2f} s | {exporting:.2f} s | {exporting / building:.2f} |",
-        f"| as commands | {build_s:.2f} s | {export_s:.2f} s | {export_s / build_s:.2f} |",
+        _row("in a process, warm, processor seconds", building, exporting),
     ]
+    for workers, pairs in commands.items():
+        name = "as commands" if workers == CORES else f"as commands, `--workers {workers}`"
+        for number, what in enumerate(("time", "processor seconds")):
+            building, exporting = (
+                statistics.median(taken[number] for taken in column) for column in zip(*pairs, strict=True)
+            )
+            rows.append(_row(f"{name}, {what}", building, exporting))
     return "\n".join(rows)
 
 
-def _commands(place: Path) -> tuple[float, float]:
-    """Processor seconds of a command that builds and of one that exports, each with what it imports."""
+def _row(how: str, build_s: float, export_s: float) -> str:
+    return f"| {how} | {build_s:.2f} s | {export_s:.2f} s | {export_s / build_s:.2f} |"
+
+
+def _commands(place: Path, workers: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """What a command that builds takes, and one that exports, each with what it imports."""
     stage = place / "commands" / "garage.usdc"
     outputs = [part for suffix in FORMATS for part in ("-o", stage.with_suffix(f".{suffix}"))]
     build = "build", HERE.parent / "samples" / f"{SAMPLE}.toml", "-o", stage
-    return _seconds_of(*build), _seconds_of("export", stage, *outputs)
+    return _seconds_of(*build), _seconds_of("export", stage, "--workers", str(workers), *outputs)
 
 
-def _seconds_of(*arguments: str | Path) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def _seconds_of(*arguments: str | Path) -> tuple[float, float]:
+    """Seconds until a command ends, and those of processors."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     command = [sys.executable, "-c", "from garage2usd.cli import run; run()", *map(str, arguments)]
     subprocess.run(command, check=True, capture_output=True)  # noqa: S603
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    after, end = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    return end - start, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
 
@@ -21,6 +21,7 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.pipeline import build
+from garage2usd.processes import each_in_a_copy
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
 from garage2usd.reading.objects import PlacedObject
@@ -30,7 +31,7 @@ from garage2usd.reading.walk import placed_objects
 
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "export"]
 
-_REPORT, _LANELET2, _MAP, _SCENARIO = ".json", ".osm", ".xodr", ".xosc"
+_REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO = ".json", ".glb", ".osm", ".xodr", ".xosc"
 _OF_EXTRA = {_LANELET2: "lanelet2", _SCENARIO: "openscenario"}
 """Modules of `garage2usd.maps` that cannot be imported without the extra `maps`, by what they write."""
 _Write = Callable[["_Source", Path, MapsConfig], Sequence[Path]]
@@ -41,6 +42,16 @@ class _Source:
 
     def __init__(self, path: Path) -> None:
         self.path, self.stage = path, open_stage(path)
+
+    def read_for(self, places: Sequence[Path]) -> None:
+        """Read all that several files need, so that copies of this process share it."""
+        of_lanes = [place.suffix for place in places if place.suffix != _SCENE]
+        if len(places) > 1:
+            _ = self.objects
+        if len(of_lanes) > 1:
+            _ = self.subject.taken_stalls
+        if {_LANELET2, _MAP} <= {*of_lanes}:
+            _ = self.network
 
     @cached_property
     def objects(self) -> list[PlacedObject]:
@@ -100,12 +111,21 @@ def _scenario(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Pat
 
 
 _WRITERS: dict[str, _Write] = {
-    ".glb": _glb,
+    _SCENE: _glb,
     _LANELET2: _lanelet2,
     _MAP: _opendrive,
     _SCENARIO: _scenario,
     ".yaml": _grid,
 }
+
+_LONGEST_FIRST = (_SCENE, _SCENARIO, _LANELET2, ".yaml", _MAP)
+"""In which order files are begun, so that those that are written at a time end together."""
+
+
+def _write(source: _Source, path: Path, settings: MapsConfig) -> list[Path]:
+    path.parent.mkdir()
+    return list(_WRITERS[path.suffix](source, path, settings))
+
 
 EXPORT_SUFFIXES = tuple(_WRITERS)
 """What the files that `export` makes end in: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
@@ -119,6 +139,7 @@ def export(
     settings: MapsConfig | None = None,
     scenario: ScenarioConfig | None = None,
     progress: Progress = silent,
+    workers: int = 1,
 ) -> tuple[Path, ...]:
     """Write a garage in other formats.
 
@@ -138,6 +159,9 @@ def export(
         What the car of a scenario drives, in place of what the settings say.
     progress
         Told of each file, and how far the garage of a report is.
+    workers
+        How many files are written at a time, each by a copy of this process; one after the other where it has more than
+        one thread, as USD and NumPy start them, and where the system is not Linux. The files are the same.
 
     Returns
     -------
@@ -171,16 +195,18 @@ def export(
         settings = settings or MapsConfig()
         if scenario is not None:
             settings = settings.model_copy(update={"scenario": scenario})
-        made: list[tuple[Path, list[Path]]] = []
+        in_order = [staging / str(number) / place.name for number, place in enumerate(places)]
+        drafts = sorted(in_order, key=lambda draft: _LONGEST_FIRST.index(draft.suffix))
+        files_of: dict[Path, list[Path]] = {}
         with _without_collector():
             opened = _Source(stage)
-            for number, place in enumerate(places):
-                progress("export", number, len(places))
-                folder = staging / str(number)
-                folder.mkdir()
-                files = _WRITERS[place.suffix](opened, folder / place.name, settings)
-                made.append((place.parent, list(files)))
-        progress("export", len(places), len(places))
+            opened.read_for(places)
+            written = each_in_a_copy([partial(_write, opened, draft, settings) for draft in drafts], workers)
+            progress("export", 0, len(places))
+            for number, (draft, files) in enumerate(zip(drafts, written, strict=True)):
+                files_of[draft] = files
+                progress("export", number + 1, len(places))
+        made = [(place.parent, files_of[draft]) for place, draft in zip(places, in_order, strict=True)]
         _refuse_twice([folder / file.name for folder, files in made for file in files])
         return tuple(place for folder, files in made for place in publish(files, folder))
 

@@ -182,7 +182,8 @@ def _eight_cornered(pieces: Grounds) -> Grounds:
     (x, z), (x_before, z_before) = np.moveaxis(normals, 2, 0), np.moveaxis(normals[:, before], 2, 0)
     reach_before = reach[:, before]
     turn = x * z_before - z * x_before
-    meets = np.stack([reach * z_before - z * reach_before, x * reach_before - reach * x_before], axis=2) / turn[..., None]
+    meets = np.stack([reach * z_before - z * reach_before, x * reach_before - reach * x_before], axis=2)
+    meets /= turn[..., None]
     simple[many] = shapely.convex_hull(shapely.polygons(meets))
     return simple
 

@@ -31,12 +31,19 @@ __all__ = ["export"]
     type=INPUT_FILE,
     help="A configuration (TOML) whose section [maps] holds, in place of the report's or the defaults.",
 )
+@click.option(
+    "--workers",
+    metavar="N",
+    type=click.IntRange(1, 4096),
+    help="How many files are written at a time; one a core.",
+)
 @drive_options("Of a scenario", "Where the car of a scenario parks, in place of the first free stall")
 def export(
     *,
     path: Path,
     outputs: tuple[Path, ...],
     config: Path | None,
+    workers: int | None,
     stall: str | None,
     entrance: int | None,
     exit_: int | None,
@@ -59,11 +66,14 @@ def export(
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
+    from garage2usd.processes import cores  # noqa: PLC0415
 
     settings = load_config(config).maps if config else None
     asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}
     given = {name: value for name, value in asked.items() if value is not None}
     scenario = ScenarioConfig.model_validate(given) if given else None
     with Bars(sys.stderr) as progress:
-        files = export_garage(path, outputs, settings=settings, scenario=scenario, progress=progress)
+        files = export_garage(
+            path, outputs, settings=settings, scenario=scenario, progress=progress, workers=workers or cores()
+        )
     echo_table(("file", str(file)) for file in files)

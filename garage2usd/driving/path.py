@@ -194,6 +194,6 @@ def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws:
         into, signs, curvatures, rates, yaws = (values[bends] for values in (into, signs, curvatures, rates, yaws))
         at = into[:, None] / 2 * (1 + GAUSS)
         heading = np.pi / 2 + yaws[:, None] + signs[:, None] * at * (curvatures[:, None] + rates[:, None] * at / 2)
-        # not by a product of matrices: a BLAS library wakes threads for it, which then wait for more for a tenth of a second
+        # not by a product of matrices, for which a BLAS library wakes threads that then wait for more
         moved[bends] = signs * into / 2 * np.einsum("ij,j->i", np.exp(1j * heading), WEIGHTS)
     return moved

@@ -8,11 +8,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from garage2usd.driving.car import Pose
 from garage2usd.driving.manoeuvre import Gear
@@ -141,12 +139,15 @@ def joining_pieces(start: Pose, end: Pose, steering: Steering) -> Iterator[tuple
         ahead = (across - steering.chord(first_rad)) * cmath.rect(1.0, -first_rad)
         return ahead - steering.chord(turned - first_rad)
 
+    from scipy.optimize import brentq  # noqa: PLC0415 - takes a quarter of a second, for which maps need not wait
+
     scan, first, onto, last = _scanned(steering, turned)
     misses = ((across - first) * onto - last).imag
-    roots = scan[np.abs(misses) < _SAME_M].tolist()
-    for (one, other), (miss_one, miss_other) in zip(pairwise(scan.tolist()), pairwise(misses.tolist()), strict=True):
-        if miss_one * miss_other < 0 and min(abs(miss_one), abs(miss_other)) >= _SAME_M:
-            roots.append(brentq(lambda first_rad: straight_at(first_rad).imag, one, other, xtol=1e-13, rtol=1e-13))
+    are_met = np.abs(misses) < _SAME_M
+    roots = scan[are_met].tolist()
+    changes = (misses[:-1] * misses[1:] < 0) & ~are_met[:-1] & ~are_met[1:]
+    for one, other in zip(scan[:-1][changes].tolist(), scan[1:][changes].tolist(), strict=True):
+        roots.append(brentq(lambda first_rad: straight_at(first_rad).imag, one, other, xtol=1e-13, rtol=1e-13))
     found = []
     for root in roots:
         straight_m = straight_at(root).real

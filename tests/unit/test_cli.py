@@ -1,5 +1,6 @@
 import io
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ import garage2usd.compiled  # noqa: F401 - it listens to the compiler
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema
+from garage2usd.limits import ONE_THREAD
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.stage.baked_meshes import MESH_FILE
 
@@ -278,3 +280,21 @@ def test_a_file_that_is_missing_is_refused_alike_by_all_commands(tmp_path, monke
     if code == 1:
         assert len(result.output.strip().splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "given", "threads"),
+    [("check", None, "1"), ("build", None, "1"), ("export", "3", "3"), ("render", None, None), ("dataset", None, None)],
+)
+def test_libraries_keep_to_one_thread_unless_they_are_told_otherwise(command, given, threads):
+    code = """
+import os, garage2usd.cli as cli
+cli.main = cli.supervise = lambda *_, **__: print(os.environ.get("PXR_WORK_THREAD_LIMIT"))
+cli.run()
+"""
+    environment = {name: value for name, value in os.environ.items() if name not in ONE_THREAD}
+    environment |= {"PXR_WORK_THREAD_LIMIT": given} if given else {}
+    done = subprocess.run(
+        [sys.executable, "-c", code, command], env=environment, stdout=subprocess.PIPE, check=True, text=True
+    )
+    assert set(done.stdout.split()) == {str(threads)}

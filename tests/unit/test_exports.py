@@ -1,6 +1,7 @@
 """`garage2usd export`, `build --with` and `garage2usd.export`."""
 
 import json
+import subprocess
 import sys
 
 import numpy as np
@@ -53,6 +54,25 @@ def test_the_command_takes_the_maps_of_a_configuration(made, tmp_path):
         assert run.exit_code == 0, run.output
         assert f"resolution: {resolution}\n" in output.read_text()
         assert {file.name for file in tmp_path.iterdir()} == files
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are copied on Linux only")
+def test_the_command_writes_files_at_a_time_and_the_same(made, tmp_path):
+    files = ["g.yaml", "g.xodr", "g.xosc", "g.osm", "g.glb"]
+    said = "import sys, garage2usd.processes as p; p.ProcessPoolExecutor = lambda *_, **__: sys.exit('copied')\n"
+    for workers, code, status in (("3", "", 0), ("1", said, 0), ("2", said, 1)):
+        outputs = [part for file in files for part in ("-o", tmp_path / workers / file)]
+        command = [sys.executable, "-c", f"{code}from garage2usd.cli import run; run()", "export", made / "g.usdc"]
+        options = ["--workers", workers, "--config", made / "g.toml"]
+        done = subprocess.run([*command, *options, *outputs], check=False, capture_output=True, text=True)
+        assert done.returncode == status, done.stderr
+        assert (done.stderr == "copied\n") == bool(status)
+    written = {file.name for file in (tmp_path / "3").iterdir()}
+    assert written == {*files, *GRID_FILES}
+    assert not (tmp_path / "2").exists()
+    for name in written:
+        by_three, by_one = ((tmp_path / workers / name).read_bytes() for workers in "31")
+        assert by_three == by_one == (made / name).read_bytes()
 
 
 def test_masks_keep_robots_off_hatched_ground_and_slow_on_ramps(made):

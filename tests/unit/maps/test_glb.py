@@ -109,7 +109,12 @@ FAULTS = (
         "[0]), drawn[7][0].matrix",
     ),
     Fault("label off by one", "glb", 'else {"id": number}', 'else {"id": number + 1}'),
-    Fault("first mesh for all", "glb_file", "key = json.dumps(primitives)", "key = str(len(primitives))"),
+    Fault(
+        "first mesh for all",
+        "glb_file",
+        'tuple((own["material"], own["indices"], *own["attributes"].items()) for own in primitives)',
+        "len(primitives)",
+    ),
     Fault("texture upside down", "glb_meshes", "(1, -1) + (0, 1)", "(1, 1) + (0, 0)"),
     Fault("bump as dent", "glb_meshes", "np.where(side < 0, -1.0, 1.0)", "np.where(side < 0, 1.0, -1.0)"),
     Fault("inside out", "glb_meshes", "inverse[mesh.indices]", "inverse[mesh.indices[:, ::-1]]"),

@@ -1,0 +1,70 @@
+"""Copies of this process that do parts of its work at the same time."""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from typing import TypeVar, cast
+
+__all__ = ["cores", "each_in_a_copy"]
+
+_Outcome = TypeVar("_Outcome")
+_THREADS = Path("/proc/self/task")
+"""A folder for each thread of this process, where the system is Linux."""
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Iterator[_Outcome]:
+    """Do tasks in copies of this process, which have all that it has in memory.
+
+    Parameters
+    ----------
+    tasks
+        What is done; what they return, or raise, is pickled.
+    workers
+        How many copies there are at most.
+
+    Yields
+    ------
+    object
+        What the tasks return, in their order.
+
+    Raises
+    ------
+    Exception
+        What the first of them raises that fails; those that have not begun are given up.
+
+    Notes
+    -----
+    A copy has only the thread that made it. So where this process has several, as libraries start them, where it cannot
+    be copied, or where there is one worker or one task, they are done here in turn.
+    """
+    workers = min(workers, len(tasks))
+    if workers < 2 or not _is_alone():  # noqa: PLR2004
+        yield from (task() for task in tasks)
+        return
+    with ProcessPoolExecutor(workers, get_context("fork"), initializer=_hold, initargs=(tasks,)) as pool:
+        yield from cast("Iterator[_Outcome]", pool.map(_do, range(len(tasks))))
+
+
+def _is_alone() -> bool:
+    """Whether this process has one thread, so that it can be copied."""
+    return hasattr(os, "fork") and _THREADS.is_dir() and len(list(_THREADS.iterdir())) == 1
+
+
+_held: Sequence[Callable[[], object]] = ()
+
+
+def _hold(tasks: Sequence[Callable[[], object]]) -> None:
+    """Keep the tasks, of which a copy is sent only the numbers."""
+    global _held  # noqa: PLW0603 - of a process that does nothing else
+    _held = tasks
+
+
+def _do(number: int) -> object:
+    return _held[number]()
