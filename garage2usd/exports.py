@@ -123,7 +123,7 @@ _LONGEST_FIRST = (_SCENE, _SCENARIO, _LANELET2, ".yaml", _MAP)
 
 
 def _write(source: _Source, path: Path, settings: MapsConfig) -> list[Path]:
-    path.parent.mkdir()
+    path.parent.mkdir(exist_ok=True)
     return list(_WRITERS[path.suffix](source, path, settings))
 
 

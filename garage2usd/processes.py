@@ -3,6 +3,8 @@
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TypeVar, cast
@@ -42,14 +44,19 @@ def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Ite
     Notes
     -----
     A copy has only the thread that made it. So where this process has several, as libraries start them, where it cannot
-    be copied, or where there is one worker or one task, they are done here in turn.
+    be copied, or where there is one worker or one task, they are done here in turn. So is what is left when a copy
+    crashes, by which this process ends as it would without copies.
     """
-    workers = min(workers, len(tasks))
-    if workers < 2 or not _is_alone():  # noqa: PLR2004
-        yield from (task() for task in tasks)
-        return
-    with ProcessPoolExecutor(workers, get_context("fork"), initializer=_hold, initargs=(tasks,)) as pool:
-        yield from cast("Iterator[_Outcome]", pool.map(_do, range(len(tasks))))
+    workers, done = min(workers, len(tasks)), 0
+    if workers > 1 and _is_alone():
+        with (
+            suppress(BrokenProcessPool),
+            ProcessPoolExecutor(workers, get_context("fork"), initializer=_hold, initargs=(tasks,)) as pool,
+        ):
+            for outcome in cast("Iterator[_Outcome]", pool.map(_do, range(len(tasks)))):
+                done += 1
+                yield outcome
+    yield from (task() for task in tasks[done:])
 
 
 def _is_alone() -> bool:

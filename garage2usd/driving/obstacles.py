@@ -79,9 +79,7 @@ class Obstacles:
 
     def kept(self, is_kept: NDArray[np.bool_]) -> "Obstacles":
         """Some of the pieces, with all names."""
-        kept = Obstacles(self.names, self.owner[is_kept], self.pieces[is_kept])
-        vars(kept)["boxes"] = self.boxes[is_kept]  # rather than to find them anew for each look at a few
-        return kept
+        return Obstacles(self.names, self.owner[is_kept], self.pieces[is_kept])
 
     def joined(self, others: "Obstacles") -> "Obstacles":
         """These and others."""

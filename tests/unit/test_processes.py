@@ -50,6 +50,11 @@ def test_no_tasks_give_nothing():
     assert not said(tasks=0)
 
 
+def test_what_is_left_when_a_copy_crashes_is_done_here():
+    crash = "def task(number): return number if number != 2 or os.getpid() == own else os.abort()"
+    assert said(before=crash) == "0 1 2 3"
+
+
 @pytest.mark.parametrize("workers", [1, 3])
 def test_the_error_of_the_first_task_that_fails_is_raised(workers):
     assert said(failing=(1, 3), workers=workers) == "task 1"
