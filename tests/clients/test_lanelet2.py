@@ -89,7 +89,7 @@ FAULTS = [
     Fault("width of the side", "lanelet2_parking", "[:, 1] - corners_of[:, 0]", "[:, 2] - corners_of[:, 1]"),
     Fault("occupied stalls free", "lanelet2_parking", '"yes" if is_taken else "no"', '"no" if is_taken else "yes"'),
     Fault("a gap before the lane", "lanelet2_parking", "_Foot((x, y, 0.0)", "_Foot((x + 0.05, y + 0.05, 0.0)"),
-    Fault("lots without lanes", "lanelet2_parking", "[*level, *feet.grounds]", "feet.grounds"),
+    Fault("lots without lanes", "lanelet2_parking", "[shapely.union_all(_valid(level)), stalls]", "[stalls, stalls]"),
     Fault("lines behind what they are before", "lanelet2_stops", "_BEFORE_M = 1.0", "_BEFORE_M = -1.0"),
     Fault(
         "lines across the lane that comes towards",
