@@ -92,8 +92,9 @@ def build(
         )
         if exports:
             from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
+            from garage2usd.processes import cores  # noqa: PLC0415
 
-            exports = export(made.stage, exports, settings=settings.maps, progress=progress)
+            exports = export(made.stage, exports, settings=settings.maps, progress=progress, workers=cores())
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
 
