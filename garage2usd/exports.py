@@ -112,14 +112,12 @@ def _scenario(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Pat
 
 _WRITERS: dict[str, _Write] = {
     _SCENE: _glb,
-    _LANELET2: _lanelet2,
-    _MAP: _opendrive,
     _SCENARIO: _scenario,
+    _LANELET2: _lanelet2,
     ".yaml": _grid,
+    _MAP: _opendrive,
 }
-
-_LONGEST_FIRST = (_SCENE, _SCENARIO, _LANELET2, ".yaml", _MAP)
-"""In which order files are begun, so that those that are written at a time end together."""
+"""The longest first: so files are begun, so that those that are written at a time end together."""
 
 
 def _write(source: _Source, path: Path, settings: MapsConfig) -> list[Path]:
@@ -127,7 +125,7 @@ def _write(source: _Source, path: Path, settings: MapsConfig) -> list[Path]:
     return list(_WRITERS[path.suffix](source, path, settings))
 
 
-EXPORT_SUFFIXES = tuple(_WRITERS)
+EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
 """What the files that `export` makes end in: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
 YAML files of occupancy grids."""
 
@@ -196,7 +194,7 @@ def export(
         if scenario is not None:
             settings = settings.model_copy(update={"scenario": scenario})
         in_order = [staging / str(number) / place.name for number, place in enumerate(places)]
-        drafts = sorted(in_order, key=lambda draft: _LONGEST_FIRST.index(draft.suffix))
+        drafts = sorted(in_order, key=lambda draft: [*_WRITERS].index(draft.suffix))
         files_of: dict[Path, list[Path]] = {}
         with _without_collector():
             opened = _Source(stage)

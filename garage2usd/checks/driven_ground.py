@@ -178,12 +178,8 @@ def _eight_cornered(pieces: Grounds) -> Grounds:
     reaches = (corners[:, None] * normals[piece]).sum(axis=2)
     reach = np.maximum.reduceat(reaches, np.searchsorted(piece, np.arange(len(many))))
     before = np.arange(_DIRECTIONS) - 1
-    # two lines meet by Cramer's rule; LAPACK takes longer for each of thousands than for one
-    (x, z), (x_before, z_before) = np.moveaxis(normals, 2, 0), np.moveaxis(normals[:, before], 2, 0)
-    reach_before = reach[:, before]
-    turn = x * z_before - z * x_before
-    meets = np.stack([reach * z_before - z * reach_before, x * reach_before - reach * x_before], axis=2)
-    meets /= turn[..., None]
+    lines = np.stack([normals, normals[:, before]], axis=2)
+    meets = np.linalg.solve(lines, np.stack([reach, reach[:, before]], axis=2)[..., None])[..., 0]
     simple[many] = shapely.convex_hull(shapely.polygons(meets))
     return simple
 

@@ -158,8 +158,7 @@ class _Numbers:
     def __init__(self) -> None:
         self.accessors: list[dict[str, Any]] = []
         self._known: dict[tuple[bytes, int, str, bool], int] = {}
-        self._parts: list[list[bytes]] = []
-        self._lengths: list[int] = []
+        self._parts: list[bytearray] = []
         self._headers: list[dict[str, int]] = []
         self._view_of: dict[tuple[int, str], int] = {}
 
@@ -181,8 +180,7 @@ class _Numbers:
     def image(self, data: bytes) -> int:
         """Number of the view of an image."""
         self._headers.append({})
-        self._parts.append([data])
-        self._lengths.append(len(data))
+        self._parts.append(bytearray(data))
         return len(self._parts) - 1
 
     def _accessor(
@@ -200,11 +198,9 @@ class _Numbers:
         view = self._view_of.setdefault((component, kind), len(self._parts))
         if view == len(self._parts):
             self._headers.append(header)
-            self._parts.append([])
-            self._lengths.append(0)
-        offset = self._lengths[view]
-        self._parts[view].append(data)
-        self._lengths[view] += len(data)
+            self._parts.append(bytearray())
+        offset = len(self._parts[view])
+        self._parts[view] += data
         self._known[key] = len(self.accessors)
         self.accessors.append(
             {
@@ -221,15 +217,15 @@ class _Numbers:
     def views(self) -> list[dict[str, int]]:
         """The views of the buffer, each from a multiple of four bytes on."""
         views, offset = [], 0
-        for length, header in zip(self._lengths, self._headers, strict=True):
+        for part, header in zip(self._parts, self._headers, strict=True):
+            length = len(part)
             views.append({"buffer": 0, "byteOffset": offset, "byteLength": length, **header})
             offset += length + -length % _ALIGNMENT
         return views
 
     def buffer(self) -> bytes:
         """All views, padded to multiples of four bytes."""
-        joined = (b"".join(parts) for parts in self._parts)
-        return b"".join(data + bytes(-len(data) % _ALIGNMENT) for data in joined)
+        return b"".join(part + bytes(-len(part) % _ALIGNMENT) for part in self._parts)
 
 
 def _bounds(values: NDArray[np.float32]) -> dict[str, list[float]]:

@@ -3,7 +3,6 @@
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -94,7 +93,7 @@ def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | 
     corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64)
     if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(corners) or not len(points):
         return None
-    fans, face_of = _fans(counts.tobytes())
+    fans, face_of = _fans(counts)
     points_of = corners[fans]
     if not (corners.min() >= 0 and corners.max() < len(points) and np.isfinite(points).all()):
         sound = ((points_of >= 0) & (points_of < len(points))).all(axis=1)
@@ -151,21 +150,13 @@ def _of_solid(prim: Usd.Prim) -> Triangles | None:
     return _welded(positions, normals, np.zeros((len(positions), 2), np.float32), face_of, double_sided=False)
 
 
-@lru_cache(maxsize=256)
-def _fans(counts_of_corners: bytes) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Corners of each triangle, shape (triangles, 3), as numbers into the face vertices, and the face of each.
-
-    Many meshes of a stage have faces of the same numbers of corners, int64.
-    """
-    counts = np.frombuffer(counts_of_corners, dtype=np.int64)
+def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """Corners of each triangle, shape (triangles, 3), as numbers into the face vertices, and the face of each."""
     triangles = np.maximum(counts - 2, 0)
     face_of = np.repeat(np.arange(len(counts)), triangles)
     first = (np.cumsum(counts) - counts)[face_of]
     step = np.arange(len(face_of)) - (np.cumsum(triangles) - triangles)[face_of]
-    fans, faces = np.stack([first, first + step + 1, first + step + 2], axis=1), face_of.astype(np.int32)
-    for shared in (fans, faces):
-        shared.setflags(write=False)
-    return fans, faces
+    return np.stack([first, first + step + 1, first + step + 2], axis=1), face_of.astype(np.int32)
 
 
 def _normals(
