@@ -189,7 +189,7 @@ def _author(path: Path) -> dict[str, float]:
         graph,
         arrangement=arrange(layout, nested=config.stage.form is StageForm.NESTED),
         prototypes=prototypes,
-        own_folder=ASSETS,
+        own=f"{ASSETS}/",
         asset_folder=ASSETS,
         metadata={},
         last_frame=0,

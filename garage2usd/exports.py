@@ -1,8 +1,6 @@
 """A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
 
-import gc
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
@@ -21,7 +19,7 @@ from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.pipeline import build
-from garage2usd.processes import each_in_a_copy
+from garage2usd.processes import each_in_a_copy, without_collector
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
 from garage2usd.reading.objects import PlacedObject
@@ -196,7 +194,7 @@ def export(
         in_order = [staging / str(number) / place.name for number, place in enumerate(places)]
         drafts = sorted(in_order, key=lambda draft: [*_WRITERS].index(draft.suffix))
         files_of: dict[Path, list[Path]] = {}
-        with _without_collector():
+        with without_collector():
             opened = _Source(stage)
             opened.read_for(places)
             written = each_in_a_copy([partial(_write, opened, draft, settings) for draft in drafts], workers)
@@ -207,18 +205,6 @@ def export(
         made = [(place.parent, files_of[draft]) for place, draft in zip(places, in_order, strict=True)]
         _refuse_twice([folder / file.name for folder, files in made for file in files])
         return tuple(place for folder, files in made for place in publish(files, folder))
-
-
-@contextmanager
-def _without_collector() -> Iterator[None]:
-    """Python's collector of cycles waits: files are made of millions of small values, of which none is in a cycle."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 def _refuse_twice(files: Sequence[Path]) -> None:

@@ -42,6 +42,8 @@ _LOCK = "lock.bin"
 """Locked while a run is at work in the folder; the system opens it when the run ends, however that happens."""
 _LONGEST_NAME_BYTES = 220
 """File systems take 255, of which other files' endings take some."""
+_STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?![\de])')
+"""In JSON: a string, or what makes a whole number look like others."""
 _UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 
 
@@ -81,8 +83,14 @@ def check_writable(folder: Path) -> None:
 
 
 def json_text(document: Mapping[str, object]) -> str:
-    """A JSON object with a line for each key, for each object of a list, and for each list of an object."""
-    encode = json.JSONEncoder(separators=(",", ":")).encode
+    """A JSON object with a line for each key, for each object of a list, and for each list of an object.
+
+    Whole numbers are written as such, which JSON does not tell from others: 2.0 as 2.
+    """
+    encoder = json.JSONEncoder(separators=(",", ":"))
+
+    def encode(value: object) -> str:
+        return _STRING_OR_ZERO.sub(lambda found: found["string"] or "", encoder.encode(value))
 
     def text(value: object) -> str:
         match value:

@@ -16,6 +16,7 @@ from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.tight import tight_stalls
 from garage2usd.output import check_name, check_writable, publish, staging_folder
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
+from garage2usd.processes import without_collector
 from garage2usd.progress import Progress, silent
 from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
@@ -134,6 +135,7 @@ def generate_plan(config: GarageConfig, *, progress: Progress = silent) -> Plan:
     return plan
 
 
+@without_collector()
 def build(
     config: GarageConfig | None = None,
     output: str | Path = "garage.usdz",

@@ -1,15 +1,16 @@
-"""Copies of this process that do parts of its work at the same time."""
+"""This process: its cores and its collector, and copies of it that do parts of its work at the same time."""
 
+import gc
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TypeVar, cast
 
-__all__ = ["cores", "each_in_a_copy"]
+__all__ = ["cores", "each_in_a_copy", "without_collector"]
 
 _Outcome = TypeVar("_Outcome")
 _THREADS = Path("/proc/self/task")
@@ -19,6 +20,18 @@ _THREADS = Path("/proc/self/task")
 def cores() -> int:
     """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def without_collector() -> Iterator[None]:
+    """Python's collector of cycles waits: what is made is millions of small values, of which hardly one is in a cycle."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Iterator[_Outcome]:

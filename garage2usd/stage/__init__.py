@@ -139,13 +139,13 @@ def write_stage(
         folder.mkdir()
         own = f"{folder.name}/"
     assets = _asset_files(layout, config, progress)
-    for name, data in _contents(assets.values()).items():
-        if shared is None:
-            place = folder / name
-            place.parent.mkdir(exist_ok=True)
-            place.write_bytes(data)
-        else:
+    contents = _contents(assets.values())
+    is_flat = config.form is StageForm.FLAT
+    if shared is not None:
+        for name, data in contents.items():
             store(shared / name, data)
+    elif is_flat or not packed:
+        _write(contents, folder)
 
     # a browser reads a package only if its root layer is text
     layer_path = path.with_suffix(".usda") if packed else path
@@ -160,14 +160,17 @@ def write_stage(
         metadata=metadata,
         last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
+        is_compact=packed and not is_flat,
     )
-    if config.form is StageForm.FLAT:
+    if is_flat:
         _make_flat(layer_path, folder)
     if not packed:
         return StageFiles(path, folder if folder.exists() else None)
-    _halve_indents(layer_path)
-    inner = sorted(file for file in folder.rglob("*") if file.is_file())
-    write_usdz(path, [(file.relative_to(path.parent).as_posix(), file) for file in (layer_path, *inner)])
+    inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+    if not is_flat:
+        inner |= {Path(name): data for name, data in contents.items()}
+    named = [(f"{folder.name}/{name.as_posix()}", inner[name]) for name in sorted(inner)]
+    write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
     shutil.rmtree(folder)
     layer_path.unlink()
     return StageFiles(path, None)
@@ -192,15 +195,11 @@ def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
     return contents
 
 
-def _halve_indents(layer_path: Path) -> None:
-    """Halve the blanks that begin the lines of a text layer, a third of it: a package is not compressed."""
-    text, quoted = layer_path.read_text(encoding="utf-8"), False
-    lines = []
-    for line in text.split("\n"):
-        blanks = len(line) - len(line.lstrip(" "))
-        lines.append(line if quoted else line[blanks // 2 :])
-        quoted ^= line.count('"""') % 2 == 1
-    layer_path.write_text("\n".join(lines), encoding="utf-8")
+def _write(contents: Mapping[str, bytes], folder: Path) -> None:
+    for name, data in contents.items():
+        place = folder / name
+        place.parent.mkdir(exist_ok=True)
+        place.write_bytes(data)
 
 
 def _make_flat(layer_path: Path, folder: Path) -> None:

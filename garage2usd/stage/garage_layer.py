@@ -1,12 +1,12 @@
 """The garage's own layer: tiles, building, lane graph and cameras over instances of the prototypes.
 
-The many instances are written as text, which USD parses faster than Python can author them; the rest as Sdf specs
-inside one change block. No stage is open, so that nothing is composed while writing.
+The many instances are written as text, which USD parses faster than Python can author them; the frame around them as
+Sdf specs inside one change block. No stage is open, so that nothing is composed while writing.
 """
 
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import chain, islice
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +42,8 @@ _CLASSES = "Classes"
 """Scope of the classes that all objects of a variant set inherit from."""
 _TILE_CLASSES = "TilePrototypes"
 """Scope of the classes that equal tiles inherit from."""
+_PHYSICS = "PhysicsScene"
+"""Type and name of the prim that comes next after what stands in the garage."""
 
 
 def write_garage_layer(
@@ -55,6 +57,7 @@ def write_garage_layer(
     metadata: Mapping[str, str | int],
     last_frame: int,
     path: Path,
+    is_compact: bool = False,
 ) -> None:
     """Author the layer that places every prototype, and beside the assets what belongs to this garage alone.
 
@@ -77,22 +80,28 @@ def write_garage_layer(
         Last frame of the driving camera, whose layer stands beside the lane graph.
     path
         The file; ``.usda`` or ``.usdc``.
+    is_compact
+        Whether to write a ``.usda`` as it is put together, for programs rather than for people: lines are not indented,
+        which is two thirds of the bytes, and USD does not read it once and write it again, which is half of the time.
     """
-    text = _garage_text(layout, graph, arrangement, prototypes, own, anchored(asset_folder))
-    layer = Sdf.Layer.CreateAnonymous(path.suffix)
-    layer.ImportFromString(text)
-    root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
-    with Sdf.ChangeBlock():
-        layer.defaultPrim = ROOT_NAME
-        set_units(layer)
-        set_frames(layer, last_frame)
-        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
-        define(layer, root_path.AppendChild("PhysicsScene"), "PhysicsScene")
-        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own=own)
-    del text
-    save(layer, path)
-    # of a large garage each layer is a hundred megabytes while it is written
-    del layer
+    writer = InstanceWriter(
+        layout,
+        arrangement,
+        prototypes,
+        anchored(asset_folder),
+        classes=f"/{ROOT_NAME}/{_CLASSES}",
+        describe_stalls=not arrangement.nested,
+    )
+    frame = _frame(layout, graph, arrangement, own, metadata, last_frame)
+    if is_compact:
+        with path.open("w", encoding="utf-8", newline="\n") as file:
+            file.writelines(_pieces(frame, layout, graph, arrangement, writer, own))
+    else:
+        layer = Sdf.Layer.CreateAnonymous(path.suffix)
+        layer.ImportFromString("".join(_pieces(frame, layout, graph, arrangement, writer, own)))
+        save(layer, path)
+        # of a large garage each layer is a hundred megabytes while it is written
+        del layer
     write_lane_graph(path.parent / f"{own}{LANE_GRAPH_FILE}", layout, graph)
     beside = anchored(posixpath.relpath(asset_folder, posixpath.dirname(own) or "."))
     for name, rows in arrangement.scattered.items():
@@ -100,23 +109,48 @@ def write_garage_layer(
         write_instancer(layer_path, layout.placements, rows, prototypes, name=name, asset_folder=beside)
 
 
-def _garage_text(
+def _frame(
     layout: Layout,
     graph: LaneGraph,
     arrangement: Arrangement,
-    prototypes: Mapping[Spec, Prototype],
     own: str,
-    asset_folder: str,
+    metadata: Mapping[str, str | int],
+    last_frame: int,
 ) -> str:
-    """The garage but for cameras and metadata, with the folders as its layer refers to them."""
-    writer = InstanceWriter(
-        layout,
-        arrangement,
-        prototypes,
-        asset_folder,
-        classes=f"/{ROOT_NAME}/{_CLASSES}",
-        describe_stalls=not arrangement.nested,
+    """The layer but for what stands in the garage, as USD writes it."""
+    variants = variant_texts(
+        _CLASSES, outlines=STALL_OUTLINES, stalls=len(layout.stalls), selected=not arrangement.nested
     )
+    names = dict.fromkeys(switch.class_name for switch in SWITCHES.values())
+    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    layer.ImportFromString(
+        f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
+        f'class "{_CLASSES}"\n{{\n{classes}}}\n}}\n'
+    )
+    root_path = Sdf.Path.absoluteRootPath.AppendChild(ROOT_NAME)
+    with Sdf.ChangeBlock():
+        layer.defaultPrim = ROOT_NAME
+        set_units(layer)
+        set_frames(layer, last_frame)
+        layer.GetPrimAtPath(root_path).SetInfo("customData", {**metadata, **_matrices(layout)})
+        define(layer, root_path.AppendChild(_PHYSICS), _PHYSICS)
+        author_cameras(layer, root_path.AppendChild("Cameras"), layout, graph, own=own)
+    text: str = layer.ExportToString()
+    return text
+
+
+def _pieces(
+    frame: str,
+    layout: Layout,
+    graph: LaneGraph,
+    arrangement: Arrangement,
+    writer: InstanceWriter,
+    own: str,
+) -> Iterator[str]:
+    """The text of the layer: what stands in the garage within its frame, and the prototypes of tiles."""
+    before, physics, after = frame.partition(f'    def {_PHYSICS} "{_PHYSICS}"')
+    yield before
     labels = _tile_labels(graph, arrangement.squares)
     tile_classes: Iterable[str] = ()
     if arrangement.nested:
@@ -124,19 +158,13 @@ def _garage_text(
         tiles, tile_classes = _shared_tiles(arrangement, shared), _tile_classes(shared)
     else:
         tiles = _tiles(arrangement, labels, writer)
-    variants = variant_texts(
-        _CLASSES, outlines=STALL_OUTLINES, stalls=len(layout.stalls), selected=not arrangement.nested
-    )
-    names = dict.fromkeys(switch.class_name for switch in SWITCHES.values())
-    classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))
-    groups = (group_pieces(name, writer.texts(rows)) for name, rows in arrangement.groups.items())
-    head = (
-        f'#usda 1.0\ndef Xform "{ROOT_NAME}" (\nkind = "assembly"\n{variants.metadata})\n{{\n{variants.body}'
-        f'class "{_CLASSES}"\n{{\n{classes}}}\n'
-    )
-    files = [LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)]
-    parts = (_part_text(own, file) for file in files)
-    return "".join(chain([head], group_pieces("Tiles", tiles), *groups, parts, ["}\n"], tile_classes))
+    yield from group_pieces("Tiles", tiles)
+    for name, rows in arrangement.groups.items():
+        yield from group_pieces(name, writer.texts(rows))
+    for file in (LANE_GRAPH_FILE, *(f"{name}.usdc" for name in arrangement.scattered)):
+        yield _part_text(own, file)
+    yield physics + after
+    yield from tile_classes
 
 
 def _tile_labels(graph: LaneGraph, squares: NDArray[np.intp]) -> list[str]:

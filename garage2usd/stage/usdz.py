@@ -13,7 +13,7 @@ _EXTRA_ID = 0x1986
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
-def write_usdz(path: Path, files: Iterable[tuple[str, Path]]) -> None:
+def write_usdz(path: Path, files: Iterable[tuple[str, bytes]]) -> None:
     """Write a package whose first file is the root layer.
 
     Parameters
@@ -21,7 +21,7 @@ def write_usdz(path: Path, files: Iterable[tuple[str, Path]]) -> None:
     path
         The package.
     files
-        (name in the package, file) pairs in order.
+        (name in the package, what it holds) pairs in order.
 
     Notes
     -----
@@ -30,10 +30,10 @@ def write_usdz(path: Path, files: Iterable[tuple[str, Path]]) -> None:
     the format asks for goes into the extra field, as there.
     """
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
-        for name, file in files:
+        for name, data in files:
             entry = zipfile.ZipInfo(name, _EPOCH)
             entry.create_system = 0
             start = package.start_dir + _LOCAL_HEADER_BYTES + len(name.encode()) + _EXTRA_HEADER_BYTES
             padding = -start % _ALIGNMENT_BYTES
             entry.extra = _EXTRA_ID.to_bytes(2, "little") + padding.to_bytes(2, "little") + bytes(padding)
-            package.writestr(entry, file.read_bytes())
+            package.writestr(entry, data)
