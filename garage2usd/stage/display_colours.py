@@ -14,16 +14,20 @@ __all__ = ["display_colour", "material_colour"]
 
 Rgb = tuple[float, float, float]
 
-_LAST_LINEAR = 0.04045
+_OPAQUE = 255
+_SRGB = np.arange(_OPAQUE + 1) / _OPAQUE
+_LINEAR = np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4)  # noqa: PLR2004
+"""Linear value of each step of sRGB, by IEC 61966-2-1."""
 _PLACES = 3
 
 
 def display_colour(asset: Asset) -> Rgb:
     """Linear colour of the material that most of an asset's surface has."""
-    areas: dict[str, float] = {}
-    for part in asset.parts:
-        areas[part.material] = areas.get(part.material, 0.0) + _area_m2(part)
-    most = max(areas, key=areas.__getitem__)
+    areas_m2 = dict.fromkeys((part.material for part in asset.parts), 0.0)
+    if len(areas_m2) > 1:
+        for part in asset.parts:
+            areas_m2[part.material] += _area_m2(part)
+    most = max(areas_m2, key=areas_m2.__getitem__)
     return material_colour(MATERIALS[most])
 
 
@@ -36,16 +40,11 @@ def material_colour(material: Material) -> Rgb:
 def _mean_colour(texture: str) -> Rgb:
     """Linear mean of a texture, weighted by its opacity where it has one."""
     with Image.open(texture_folder(TextureQuality.LOW) / texture) as picture:
-        pixels = np.asarray(picture.convert("RGBA"), dtype=np.float64).reshape(-1, 4) / 255
-    opacity = pixels[:, 3:]
-    mean = (_linear(pixels[:, :3]) * opacity).sum(axis=0) / max(float(opacity.sum()), 1.0)
-    red, green, blue = np.round(mean, _PLACES).tolist()
+        *channels, opacity = np.asarray(picture.convert("RGBA")).reshape(-1, 4).T
+    weights = None if opacity.min() == _OPAQUE else opacity / _OPAQUE
+    counts = (np.bincount(channel, weights, minlength=len(_LINEAR)) for channel in channels)
+    red, green, blue = (round(float(count @ _LINEAR) / max(float(count.sum()), 1.0), _PLACES) for count in counts)
     return red, green, blue
-
-
-def _linear(srgb: NDArray[np.float64]) -> NDArray[np.float64]:
-    """IEC 61966-2-1."""
-    return np.where(srgb <= _LAST_LINEAR, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
 def _area_m2(part: Part) -> float:
