@@ -1,6 +1,6 @@
 """A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path

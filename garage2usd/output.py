@@ -42,8 +42,8 @@ _LOCK = "lock.bin"
 """Locked while a run is at work in the folder; the system opens it when the run ends, however that happens."""
 _LONGEST_NAME_BYTES = 220
 """File systems take 255, of which other files' endings take some."""
-_STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?![\de])')
-"""In JSON: a string, or what makes a whole number look like others."""
+_STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)(?<!-0)\.0(?![\de])')
+"""In JSON: a string, or what makes a whole number look like others; not that of -0.0, whose sign an integer has not."""
 _UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 
 

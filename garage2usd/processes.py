@@ -1,4 +1,4 @@
-"""This process: its cores and its collector, and copies of it that do parts of its work at the same time."""
+"""The process itself: its cores, its collector, and copies of it that do parts of its work at the same time."""
 
 import gc
 import os
@@ -24,7 +24,7 @@ def cores() -> int:
 
 @contextmanager
 def without_collector() -> Iterator[None]:
-    """Python's collector of cycles waits: what is made is millions of small values, of which hardly one is in a cycle."""
+    """Python's collector of cycles waits: of the millions of small values that are made, hardly one is in a cycle."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

@@ -1,9 +1,12 @@
 """Copies of a process: each does its task, all give what one after the other gives, and threads forbid them."""
 
+import gc
 import subprocess
 import sys
 
 import pytest
+
+from garage2usd.processes import without_collector
 
 TASKS = """
 import os, threading
@@ -58,3 +61,18 @@ def test_what_is_left_when_a_copy_crashes_is_done_here():
 @pytest.mark.parametrize("workers", [1, 3])
 def test_the_error_of_the_first_task_that_fails_is_raised(workers):
     assert said(failing=(1, 3), workers=workers) == "task 1"
+
+
+@pytest.mark.parametrize("is_enabled", [True, False])
+def test_the_collector_is_as_it_was_after_an_error_too(is_enabled):
+    before = gc.isenabled()
+    (gc.enable if is_enabled else gc.disable)()
+    try:
+        with without_collector():
+            assert not gc.isenabled()
+        assert gc.isenabled() == is_enabled
+        with pytest.raises(ValueError, match="within"), without_collector():
+            raise ValueError("within")
+        assert gc.isenabled() == is_enabled
+    finally:
+        (gc.enable if before else gc.disable)()

@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from PIL import Image
-from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
+from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
@@ -332,6 +332,19 @@ def test_the_flat_form_needs_no_composition(tmp_path, made, stage, extension):
 def width_of(file):
     with Image.open(file) as picture:
         return picture.width
+
+
+@pytest.mark.parametrize("form", ["instanced", "nested"])
+def test_a_package_says_the_same_as_text_that_people_read(tmp_path, form):
+    config = GarageConfig(**CONFIG.model_dump() | {"stage": {"form": form}})
+    build(config, tmp_path / "g.usda")
+    package = build(config, tmp_path / "g.usdz").stage
+    layer = Sdf.Layer.FindOrOpen(str(package)).ExportToString()
+    assert layer == (tmp_path / "g.usda").read_text().replace("@./g_assets/", "@./assets/")
+    with zipfile.ZipFile(package) as files:
+        own = sorted(path.relative_to(tmp_path / "g_assets") for path in (tmp_path / "g_assets").rglob("*.*"))
+        assert files.namelist() == ["g.usda", *(f"assets/{path.as_posix()}" for path in own)]
+        assert len(files.read("g.usda")) < 0.75 * len(layer)
 
 
 def test_texture_quality_is_a_budget(tmp_path, made):
