@@ -19,6 +19,7 @@ HERE = Path(__file__).parent
 BEFORE = "3211d42"
 """The version from before functions were compiled once and assets were shared."""
 ROUNDS = 3
+LARGE_ROUNDS = 5
 
 CONFIGS = {
     "7 x 9": "seed = 0\n",
@@ -66,6 +67,7 @@ def waiting() -> str:
                         figures[wait][version].append(seconds)
                 loads.append(os.getloadavg()[0])
                 print(f"round {turn + 1} of {ROUNDS}, {version}", file=sys.stderr, flush=True)
+        large = _large_stages({"before": before, "now": HERE.parent}, Path(folder))
     rows = [
         "## Waiting",
         "",
@@ -89,7 +91,44 @@ def waiting() -> str:
         seconds = figures[f"warm build of {size}"]
         old, new = (1 / statistics.median(seconds[version]) for version in ("before", "now"))
         rows.append(f"| {size} | {old:.2f} | {new:.2f} | {new / old:.2f} |")
+    rows += [
+        "",
+        "### A stage of 200 x 300 squares",
+        "",
+        (
+            "Authored and opened (`Usd.Stage.Open`) by each version's own `benchmarks/stage.py`, in processes of their "
+            f"own: seconds, the fastest of {LARGE_ROUNDS} rounds in turns."
+        ),
+        "",
+        "| step | before | now | now / before |",
+        "|---|---|---|---|",
+    ]
+    for step, seconds in large.items():
+        old, new = (min(seconds[version]) for version in ("before", "now"))
+        rows.append(f"| {step} | {old:.2f} s | {new:.2f} s | {new / old:.2f} |")
     return "\n".join(rows)
+
+
+def _large_stages(roots: dict[str, Path], folder: Path) -> dict[str, dict[str, list[float]]]:
+    """Seconds of authoring and opening a large stage, by the step and the version."""
+    figures: dict[str, dict[str, list[float]]] = {step: defaultdict(list) for step in ("author", "open")}
+
+    def seconds(version: str, step: str) -> float:
+        root, room = roots[version], folder / f"large_{version}"
+        room.mkdir(exist_ok=True)
+        done = subprocess.run(
+            [sys.executable, root / "benchmarks" / "stage.py", step, "200", "300", "nested", room],
+            env=os.environ | {"PYTHONPATH": str(root)}, stdout=subprocess.PIPE, check=True,
+        )  # fmt: skip
+        return float(json.loads(done.stdout.splitlines()[-1])["seconds"])
+
+    for version in roots:
+        seconds(version, "lay_out")
+    for _ in range(LARGE_ROUNDS):
+        for step, of_version in figures.items():
+            for version in roots:
+                of_version[version].append(seconds(version, step))
+    return figures
 
 
 def _waits(root: Path, room: Path) -> dict[str, float]:
