@@ -320,8 +320,11 @@ def learn_aisles(
     schedule: NDArray[np.float64],
     first: int,
     last: int,
+    enough: int,
 ) -> int:
     """Run the episodes from `first` to below `last`; returns how many decisions were taken.
+
+    With `enough` plans in the archive none is valued any more, as where nothing but what is learnt is asked for.
 
     Notes
     -----
@@ -396,7 +399,7 @@ def learn_aisles(
                 target += gamma * values[states[ahead], options[ahead]]
             values[state, option] += alpha * (target - values[state, option])
         curve[episode] = earned
-        if connect(ground, board):
+        if archive.in_use[0] < enough and connect(ground, board):
             value = measure(ground, board, -np.inf)
             if value > NO_VALUE:
                 count = 0

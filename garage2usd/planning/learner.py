@@ -1,5 +1,6 @@
 """Learning on a site: Sarsa over squares as in the paper, or over aisles where squares are too many."""
 
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -131,7 +132,7 @@ def learn_aisles(
         tried = new_archive(1, padded=len(ground.cells), steps=len(runs.first))
         schedule, curve = np.array([0.0, 1.0, 0.0, 1.0]), np.zeros(whole)
         taken += steps + aisles.learn_aisles(
-            ground, board, runs, greedy, learnt, tried, room, random, curve, schedule, 0, whole
+            ground, board, runs, greedy, learnt, tried, room, random, curve, schedule, 0, whole, sys.maxsize
         )
         if tried.in_use[0] and tried.values[0] > best:
             values, best = learnt, tried.values[0]
@@ -145,7 +146,7 @@ def learn_aisles(
         progress("plan", first, episodes)
         taken += aisles.learn_aisles(
             ground, board, runs, parameters, values, archive, room, random, curve, schedule,
-            first, min(first + batch, episodes),
+            first, min(first + batch, episodes), sys.maxsize,
         )  # fmt: skip
     return Learnt(ranked_lanes(archive, ground), curve, taken)
 
@@ -162,7 +163,7 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
     schedule = _schedule(_NURSERY_EPISODES, epsilon=(0.5, 0.02), alpha=(0.3, 0.02))
     taken = aisles.learn_aisles(
         nursery, new_board(nursery), runs, parameters, values, archive, aisles.new_room(nursery, runs), random,
-        np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES,
+        np.zeros(_NURSERY_EPISODES), schedule, 0, _NURSERY_EPISODES, 1,
     )  # fmt: skip
     return values, taken
 
