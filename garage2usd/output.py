@@ -1,14 +1,13 @@
 """Output that is whole or absent: made elsewhere, then moved into place."""
 
 import errno
-import json
 import os
 import re
 import secrets
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
@@ -25,7 +24,6 @@ __all__ = [
     "check_length",
     "check_name",
     "check_writable",
-    "json_text",
     "only_run",
     "publish",
     "staging_folder",
@@ -42,8 +40,6 @@ _LOCK = "lock.bin"
 """Locked while a run is at work in the folder; the system opens it when the run ends, however that happens."""
 _LONGEST_NAME_BYTES = 220
 """File systems take 255, of which other files' endings take some."""
-_STRING_OR_ZERO = re.compile(r'(?P<string>"(?:[^"\\]|\\.)*")|(?<=\d)(?<!-0)\.0(?![\de])')
-"""In JSON: a string, or what makes a whole number look like others; not that of -0.0, whose sign an integer has not."""
 _UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
 
 
@@ -80,27 +76,6 @@ def check_writable(folder: Path) -> None:
             pass
     except OSError as error:
         raise OutputError(folder, f"cannot write here ({error.strerror})") from None
-
-
-def json_text(document: Mapping[str, object]) -> str:
-    """A JSON object with a line for each key, for each object of a list, and for each list of an object.
-
-    Whole numbers are written as such, which JSON does not tell from others: 2.0 as 2.
-    """
-    encoder = json.JSONEncoder(separators=(",", ":"))
-
-    def encode(value: object) -> str:
-        return _STRING_OR_ZERO.sub(lambda found: found["string"] or "", encoder.encode(value))
-
-    def text(value: object) -> str:
-        match value:
-            case [{}, *_]:
-                return "[\n" + ",\n".join(map(encode, value)) + "\n]"
-            case dict() if any(isinstance(entry, list | tuple) for entry in value.values()):
-                return "{\n" + ",\n".join(f"{encode(key)}:{encode(entry)}" for key, entry in value.items()) + "\n}"
-        return encode(value)
-
-    return "{\n" + ",\n".join(f"{encode(key)}:{text(value)}" for key, value in document.items()) + "\n}\n"
 
 
 @contextmanager

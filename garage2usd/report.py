@@ -8,9 +8,9 @@ import numpy as np
 
 from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
+from garage2usd.json_text import json_text
 from garage2usd.layout import Layout
 from garage2usd.layout.compartments import compartment_name
-from garage2usd.output import json_text
 from garage2usd.planning import (
     Plan,
     area_per_stall_m2,

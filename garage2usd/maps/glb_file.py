@@ -1,7 +1,6 @@
 """A binary glTF 2.0 file in the making: nodes, meshes, materials, and their numbers and images in one buffer."""
 
 import hashlib
-import json
 import struct
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from functools import partial
@@ -10,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.maps.glb_materials import Materials
+from garage2usd.json_text import short_json
+from garage2usd.maps.glb_materials import Materials, shortest
 from garage2usd.maps.glb_meshes import Primitive, places_of, primitive_of
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
@@ -19,10 +19,10 @@ from garage2usd.version import VERSION
 
 __all__ = ["GlbFile", "Piece"]
 
-_FLOAT, _UINT16, _UINT32 = 5126, 5123, 5125
+_FLOAT = 5126
 _VERTICES, _INDICES = 34962, 34963
-_MOST_SHORT = 2**16 - 1
-"""Vertices that two bytes number; the last number would restart a primitive."""
+_INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
+"""Types of indices, the shortest first; the last number of each would restart a primitive."""
 _ALIGNMENT = 4
 _GLTF, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
@@ -146,7 +146,7 @@ class GlbFile:
             "buffers": [{"byteLength": len(buffer)}] if buffer else [],
         }
         filled = {name: value for name, value in document.items() if value not in ([], {})}
-        text = json.dumps(filled, separators=(",", ":"), allow_nan=False).encode()
+        text = short_json(filled).encode()
         chunks = (_JSON, text + b" " * (-len(text) % _ALIGNMENT)), (_BIN, buffer)
         body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in chunks if chunk)
         return struct.pack("<III", _GLTF, 2, 12 + len(body)) + body
@@ -170,12 +170,11 @@ class _Numbers:
         return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
 
     def indices(self, triangles: NDArray[np.uint32]) -> int:
-        """Number of the accessor of what `triangles` numbers, in two bytes where that is enough."""
-        is_short = triangles.max() < _MOST_SHORT
-        data = triangles.astype("<u2" if is_short else "<u4").tobytes()
-        return self._accessor(
-            data, _UINT16 if is_short else _UINT32, triangles.size, "SCALAR", {"target": _INDICES}, None
-        )
+        """Number of the accessor of what `triangles` numbers, in as few bytes as are enough."""
+        fitting = (number for number, kind in _INDEX_TYPES.items() if triangles.max() < np.iinfo(np.dtype(kind)).max)
+        component = next(fitting)
+        data = triangles.astype(_INDEX_TYPES[component]).tobytes()
+        return self._accessor(data, component, triangles.size, "SCALAR", {"target": _INDICES}, None)
 
     def image(self, data: bytes) -> int:
         """Number of the view of an image."""
@@ -230,9 +229,4 @@ class _Numbers:
 
 def _bounds(values: NDArray[np.float32]) -> dict[str, list[float]]:
     columns = np.ascontiguousarray(values.T)  # by rows it takes several times as long
-    return {"min": _shortest(columns.min(axis=1)), "max": _shortest(columns.max(axis=1))}
-
-
-def _shortest(values: NDArray[np.float32]) -> list[float]:
-    """Single precision in the fewest digits that mean the same number."""
-    return [float(np.format_float_positional(value, unique=True, trim="0")) for value in values]
+    return {"min": shortest(columns.min(axis=1)), "max": shortest(columns.max(axis=1))}

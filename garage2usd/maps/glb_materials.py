@@ -1,16 +1,17 @@
 """Surfaces of a stage as materials, textures and images of glTF 2.0."""
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 from typing import Any, NamedTuple
 
+import numpy as np
 from PIL import Image
 from pxr import Ar
 
 from garage2usd.reading.surfaces import SurfaceLook
 
-__all__ = ["Materials", "Picture"]
+__all__ = ["Materials", "Picture", "shortest"]
 
 _Band = tuple[str, int]
 """A file and one of its channels."""
@@ -72,7 +73,7 @@ class Materials:
         self._add_texture(material, "occlusionTexture", bands)
         if any(surface.emissive_rgb):
             strength = max(1.0, *surface.emissive_rgb)
-            material["emissiveFactor"] = [part / strength for part in surface.emissive_rgb]
+            material["emissiveFactor"] = shortest([part / strength for part in surface.emissive_rgb])
             if strength > 1:
                 self._extend(material, "KHR_materials_emissive_strength", {"emissiveStrength": strength})
         if surface.clearcoat:
@@ -86,11 +87,14 @@ class Materials:
         return material
 
     def _reflection(self, surface: SurfaceLook) -> dict[str, Any]:
+        metallic, roughness = shortest([surface.metallic, surface.roughness])
         reflection: dict[str, Any] = {
-            "baseColorFactor": [*surface.colour_rgb, surface.opacity],
-            "metallicFactor": surface.metallic,
-            "roughnessFactor": surface.roughness,
+            "baseColorFactor": shortest([*surface.colour_rgb, surface.opacity]),
+            "metallicFactor": metallic,
+            "roughnessFactor": roughness,
         }
+        # 1 is what glTF takes where nothing is said
+        reflection = {name: value for name, value in reflection.items() if value not in (1.0, [1.0] * 4)}
         self._add_texture(reflection, "baseColorTexture", _whole(surface.colour_texture))
         self._add_texture(reflection, "metallicRoughnessTexture", _finish(surface))
         return reflection
@@ -110,6 +114,11 @@ class Materials:
         texture = self._texture_of.get(bands)
         if texture is not None:
             holder[name] = {"index": texture}
+
+
+def shortest(values: Iterable[float]) -> list[float]:
+    """Numbers of single precision in the fewest digits that mean the same."""
+    return [float(np.format_float_positional(np.float32(value), unique=True, trim="0")) for value in values]
 
 
 def _whole(path: str) -> tuple[_Band, ...]:

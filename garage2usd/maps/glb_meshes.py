@@ -28,7 +28,10 @@ _SQUARE = 1e-6
 """By how much the cosine between two axes may differ from that of a right angle: single precision."""
 _SMALLEST = 1e-12
 _FACET_COS = 1 - 1e-6
-_PLACE_DIGITS, _DIGITS = 5, 7
+_WELDED = 0.95
+"""Share of its vertices that a welded mesh has at most: with more it stays as it is, and number plates that differ by
+their coordinates alone share the rest."""
+_PLACE_DIGITS, _DIGITS = 4, 6
 """Of metres, and of what has none."""
 
 
@@ -73,6 +76,8 @@ def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool, is_facet
         return Primitive(mesh.positions_m, mesh.normals, None, coordinates, mesh.indices)
     rows = mesh.positions_m if coordinates is None else np.hstack([mesh.positions_m, coordinates])
     first, inverse = _distinct(rows)
+    if len(first) > _WELDED * len(rows):
+        return Primitive(mesh.positions_m, None, None, coordinates, mesh.indices)
     indices = inverse[mesh.indices].astype(np.uint32)
     return Primitive(mesh.positions_m[first], None, None, None if coordinates is None else coordinates[first], indices)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.errors import ConfigError
-from garage2usd.output import json_text
+from garage2usd.json_text import json_text
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture, read_ids, write_ids

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
 from garage2usd.errors import ConfigError
+from garage2usd.json_text import json_text
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
-from garage2usd.output import json_text, store
+from garage2usd.output import store
 from garage2usd.progress import Progress, silent
 from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.asset_files import AssetFile, asset_file

@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 from support.places import MILLIMETRE
 
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-TYPES = {5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
+TYPES = {5121: np.dtype("<u1"), 5123: np.dtype("<u2"), 5125: np.dtype("<u4"), 5126: np.dtype("<f4")}
 UNIT = 1e-3
 CORNERS = (-1, 1), (1, 1), (1, -1), (-1, -1)
 """Mouth left, mouth right, rear right, rear left; a driver who drives in looks to -Z at a yaw of 0."""

@@ -1,14 +1,11 @@
-import json
 import os
 import stat
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from garage2usd.errors import OutputError
-from garage2usd.output import check_writable, json_text, only_run, publish, staging_folder, store
+from garage2usd.output import check_writable, only_run, publish, staging_folder, store
 
 
 def make(staging, name, text):
@@ -16,25 +13,6 @@ def make(staging, name, text):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
     return path
-
-
-NUMBERS = st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.integers(-999, 999).map(float)
-STRINGS = st.text() | st.from_regex(r'"?[0-9]*\\?\.0["\],}\\]*', fullmatch=True)
-VALUES = st.recursive(
-    NUMBERS | STRINGS | st.none() | st.booleans(),
-    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(STRINGS, inner, max_size=4),
-    max_leaves=12,
-)
-
-
-@given(st.dictionaries(STRINGS, VALUES, max_size=4))
-def test_json_says_what_it_was_given(document):
-    assert json.loads(json_text(document)) == document
-
-
-def test_whole_numbers_of_json_are_short():
-    document = {"C": [5.4, 6.0, -0.5, 100.0], "x 2.0": {"version": "1.0", "most": 1e22, "least": -3.0}}
-    assert json_text(document) == '{\n"C":[5.4,6,-0.5,100],\n"x 2.0":{"version":"1.0","most":1e+22,"least":-3}\n}\n'
 
 
 def test_two_runs_do_not_work_in_one_folder(tmp_path):

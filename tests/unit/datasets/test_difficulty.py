@@ -24,7 +24,7 @@ from garage2usd.datasets.reference import make_reference, reference_settings, re
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
 from garage2usd.driving import prove_stalls
 from garage2usd.errors import ConfigError
-from garage2usd.output import json_text
+from garage2usd.json_text import json_text
 
 QUICK = {"episodes": 100, "climb_top": 2}
 STALL = StallFeatures("Stall_r00_c00_1", 1, 1, 0.12, True, 6.0, 1, 50.0)

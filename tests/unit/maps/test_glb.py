@@ -101,7 +101,7 @@ FAULTS = (
     Fault("pieces of an object on their own", "glb", "if above is not None:", "if False:"),
     Fault("mirrored z", "glb_meshes", "np.round(matrices[:, 3, :3],", "np.round(matrices[:, 3, :3] * (1, 1, -1),"),
     Fault("turned the other way", "glb_meshes", "from_matrix(axes.transpose(0, 2, 1))", "from_matrix(axes)"),
-    Fault("a place off by 2 mm", "glb_meshes", "_PLACE_DIGITS, _DIGITS = 5, 7", "_PLACE_DIGITS, _DIGITS = 2, 7"),
+    Fault("a place off by 2 mm", "glb_meshes", "_PLACE_DIGITS, _DIGITS = 4, 6", "_PLACE_DIGITS, _DIGITS = 2, 6"),
     Fault(
         "place of another object",
         "glb",
