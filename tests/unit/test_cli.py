@@ -283,18 +283,26 @@ def test_a_file_that_is_missing_is_refused_alike_by_all_commands(tmp_path, monke
 
 
 @pytest.mark.parametrize(
-    ("command", "given", "threads"),
-    [("check", None, "1"), ("build", None, "1"), ("export", "3", "3"), ("render", None, None), ("dataset", None, None)],
+    ("command", "given", "threads", "effort"),
+    [
+        ("check", {}, "1", "1"),
+        ("build", {"NUMBA_OPT": "3"}, "1", "3"),
+        ("export", {"PXR_WORK_THREAD_LIMIT": "3"}, "3", "1"),
+        ("render", {}, "None", "1"),
+        ("dataset", {}, "None", "1"),
+    ],
 )
-def test_libraries_keep_to_one_thread_unless_they_are_told_otherwise(command, given, threads):
+def test_libraries_keep_to_one_thread_and_compile_quickly_unless_they_are_told_otherwise(
+    command, given, threads, effort
+):
     code = """
 import os, garage2usd.cli as cli
-cli.main = cli.supervise = lambda *_, **__: print(os.environ.get("PXR_WORK_THREAD_LIMIT"))
+cli.main = lambda: print(os.environ.get("PXR_WORK_THREAD_LIMIT"), os.environ.get("NUMBA_OPT"))
+cli.supervise = lambda *_, **__: None
 cli.run()
 """
-    environment = {name: value for name, value in os.environ.items() if name not in ONE_THREAD}
-    environment |= {"PXR_WORK_THREAD_LIMIT": given} if given else {}
+    environment = {name: value for name, value in os.environ.items() if name not in {*ONE_THREAD, "NUMBA_OPT"}} | given
     done = subprocess.run(
         [sys.executable, "-c", code, command], env=environment, stdout=subprocess.PIPE, check=True, text=True
     )
-    assert set(done.stdout.split()) == {str(threads)}
+    assert done.stdout.split() == [threads, effort]
