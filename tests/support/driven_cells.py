@@ -29,8 +29,8 @@ def covered(read, garage, proofs, car):
         pieces = garage.standing.only(*stall.own).pieces * (1, -1)
         own = shapely.MultiPolygon([shapely.Polygon(piece) for piece in pieces])
         for way in filter(None, (proof.way_in, proof.way_out)):
-            poses = [waypoint.pose for waypoint in way.waypoints(STEP_M)]
-            grounds = [shapely.Polygon([(x, -z) for x, z in car.corners(pose)]) for pose in poses]
+            corners = np.array([car.corners(waypoint.pose) for waypoint in way.waypoints(STEP_M)])
+            grounds = shapely.polygons(corners * (1, -1))
             hit = np.unique(tree.query(grounds, predicate="intersects")[1])
             found += [middles[index] for index in hit if squares[index].distance(own) > read.side]
     return np.array(found)
