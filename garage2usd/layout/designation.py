@@ -4,9 +4,11 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
+import numpy as np
 import shapely
 
 from garage2usd.config import ParkingConfig
+from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
@@ -34,12 +36,12 @@ def with_designated_stalls(
     accessible stall is wanted, it is the one on the aisle's other side. A stall without such a neighbour in its row
     is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's.
     """
-    anchors = list(anchors)
+    far_m = Points(list(anchors)).nearest_m(np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)).tolist()
     accessible = _accessible_count(len(stalls), parking, profile)
     charging = round(parking.ev_share * len(stalls))
     order = sorted(
         (index for index, stall in enumerate(stalls) if stall.use is StallUse.STANDARD),
-        key=lambda index: (round(min(math.dist(stalls[index].centre_m, anchor) for anchor in anchors), 6), index),
+        key=lambda index: (round(far_m[index], 6), index),
     )
     uses = [stall.use for stall in stalls]
     for index in order:

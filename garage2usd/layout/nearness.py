@@ -45,6 +45,11 @@ class Points:
         near = far_m <= reach_m
         return place[near], point[near], far_m[near]
 
+    def nearest_m(self, places_m: Array) -> Array:
+        """How far the nearest point is from each place, shapes (m, 2) to (m,); there is at least one point."""
+        _, point = self._tree.query_nearest(shapely.points(places_m), all_matches=False)
+        return distances_m(places_m, self.at_m[point])
+
 
 def distances_m(first_m: Array, second_m: Array, *, norm: int = 2) -> Array:
     """Distances between points (x, z); shapes (..., 2) to (...).

@@ -15,6 +15,7 @@ from pxr import Sdf, Vt
 
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
+from garage2usd.processes import without_collector
 from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
 from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
@@ -46,6 +47,7 @@ _PHYSICS = "PhysicsScene"
 """Type and name of the prim that comes next after what stands in the garage."""
 
 
+@without_collector()
 def write_garage_layer(
     layout: Layout,
     graph: LaneGraph,

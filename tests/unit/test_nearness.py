@@ -19,6 +19,13 @@ def test_pairs_within_reach_are_those_of_scipy(norm, step_m):
     assert far_m == pytest.approx(np.linalg.norm(places[place] - points[point], ord=norm, axis=1))
 
 
+def test_the_nearest_point_is_as_far_as_scipy_says():
+    rng = np.random.default_rng(1)
+    points, places = (rng.uniform(0, 60, size=(count, 2)) for count in (40, 500))
+    assert Points(points).nearest_m(places) == pytest.approx(KDTree(points).query(places)[0])
+    assert Points([(0, 0), (9, 9)]).nearest_m(np.array([[3.0, 4.0]])).tolist() == [5.0]
+
+
 def test_one_point_is_near_by_its_distance():
     assert distances_m(np.array([0.0, 0.0]), np.array([[3.0, 4.0], [1.0, 0.0]])).tolist() == [5.0, 1.0]
     assert distances_m(np.array([0.0, 0.0]), np.array([[3.0, -4.0]]), norm=1).tolist() == [7.0]
