@@ -14,7 +14,7 @@ from garage2usd.config.plan import UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.tight import tight_stalls
-from garage2usd.output import check_name, check_writable, publish, staging_folder
+from garage2usd.output import check_name, check_writable, publish, staging_folder, writing
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.processes import without_collector
 from garage2usd.progress import Progress, silent
@@ -178,7 +178,7 @@ def build(
         check_writable(folder)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
-    with staging_folder() as staging:
+    with staging_folder() as staging, writing(staging):
         start = time.perf_counter()
         folder = staging / "stage"
         folder.mkdir()

@@ -1,6 +1,7 @@
 """The only authoring of USD: a layout becomes a stage with its assets and textures."""
 
 import os
+import re
 import shutil
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
@@ -167,6 +168,8 @@ def write_stage(
         _make_flat(layer_path, folder)
     if not packed:
         return StageFiles(path, folder if folder.exists() else None)
+    if is_flat:
+        _remove_indents(layer_path)
     inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
     if not is_flat:
         inner |= {Path(name): data for name, data in contents.items()}
@@ -194,6 +197,12 @@ def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
         contents[asset.layer.name] = asset.layer.data
         contents.update((f"{TEXTURE_FOLDER}/{texture.name}", texture.data) for texture in asset.textures)
     return contents
+
+
+def _remove_indents(layer_path: Path) -> None:
+    """Remove the blanks that begin the lines of a text layer; of its strings no line begins with one."""
+    text = layer_path.read_text(encoding="utf-8")
+    layer_path.write_text(re.sub(r"^ +", "", text, flags=re.MULTILINE), encoding="utf-8")
 
 
 def _write(contents: Mapping[str, bytes], folder: Path) -> None:

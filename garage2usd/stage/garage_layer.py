@@ -83,8 +83,8 @@ def write_garage_layer(
     path
         The file; ``.usda`` or ``.usdc``.
     is_compact
-        Whether to write a ``.usda`` as it is put together, for programs rather than for people: lines are not indented,
-        which is two thirds of the bytes, and USD does not read it once and write it again, which is half of the time.
+        Whether to write a ``.usda`` as it is put together, for programs rather than for people: without indents it
+        takes two thirds of the bytes, and half of the time, as USD does not read it to write it again.
     """
     writer = InstanceWriter(
         layout,

@@ -306,3 +306,23 @@ cli.run()
         [sys.executable, "-c", code, command], env=environment, stdout=subprocess.PIPE, check=True, text=True
     )
     assert done.stdout.split() == [threads, effort]
+
+
+@pytest.mark.parametrize("name", ["g.usdz", "g.usdc", "g.usda"])
+def test_a_file_that_cannot_be_written_is_one_error_and_leaves_nothing(tmp_path, name):
+    code = """
+import resource, sys
+from garage2usd.cli import main
+resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+main(sys.argv[1:])
+"""
+    config = tmp_path / "c.toml"
+    config.write_text("[plan]\nepisodes = 50\n")
+    command = [sys.executable, "-c", code, "build", str(config), "-o", str(tmp_path / "out" / name)]
+    done = subprocess.run(command, capture_output=True, check=False, text=True)
+    assert done.returncode == 1
+    error = done.stderr.strip().splitlines()[-1]
+    assert error.startswith("Error: ")
+    assert "File too large" in error
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "out").exists()

@@ -1,8 +1,12 @@
+import json
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
 from garage2usd.errors import GenerationError
+from garage2usd.pipeline import build
 from garage2usd.planning import evaluate, given_plan, plan_lanes
 from garage2usd.randomness import Step
 from garage2usd.site import make_site
@@ -210,3 +214,14 @@ def test_a_given_structure_is_taken_as_it_is():
 
 def test_steps_have_ids_of_their_own():
     assert len({int(step) for step in Step}) == len(Step)
+
+
+@pytest.mark.parametrize("episodes", [1, 7, 500, 501, 1234])
+def test_a_report_has_the_means_of_the_learning_curve(tmp_path, episodes):
+    config = GarageConfig(plan={"episodes": episodes, "climb": False})
+    built = build(config, tmp_path / "g.usdc")
+    curve, points = built.garage.plan.learning_curve, json.loads(built.report.read_text())["learning_curve"]
+    assert len(points) == min(episodes, 500)
+    borders = np.cumsum([0] + [episodes // len(points) + (n < episodes % len(points)) for n in range(len(points))])
+    means = [curve[start:end].mean() for start, end in pairwise(borders)]
+    assert points == pytest.approx(means, abs=1e-3)

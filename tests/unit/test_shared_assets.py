@@ -137,7 +137,7 @@ def test_check_and_view_read_shared_assets_as_ones_of_the_stages_own(tmp_path):
 
 def test_garages_that_share_assets_are_small(tmp_path):
     """Garages of 7 x 9 squares, the default, each learnt on a site of its own."""
-    config = GarageConfig(plan={"episodes": 100}, stage={"assets": "shared"})
+    config = GarageConfig(stage={"assets": "shared"})
     sizes = []
     for seed in range(3):
         folder = tmp_path / str(seed)
