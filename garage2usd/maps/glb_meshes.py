@@ -179,7 +179,7 @@ def places_of(matrices: Matrices) -> list[dict[str, list[float]]]:
     places: list[dict[str, list[float]]] = [{} for _ in matrices]
     for name, values, usual in properties:
         for node in np.flatnonzero((values != usual).any(axis=1)).tolist():
-            places[node][name] = [int(value) if value.is_integer() else value for value in values[node].tolist()]
+            places[node][name] = (values[node] + 0.0).tolist()  # no minus before a zero
     return places
 
 

@@ -143,10 +143,11 @@ def write_stage(
     assets = _asset_files(layout, config, progress)
     contents = _contents(assets.values())
     is_flat = config.form is StageForm.FLAT
+    is_compact = packed and not is_flat
     if shared is not None:
         for name, data in contents.items():
             store(shared / name, data)
-    elif is_flat or not packed:
+    elif not is_compact:
         _write(contents, folder)
 
     # a browser reads a package only if its root layer is text
@@ -162,17 +163,17 @@ def write_stage(
         metadata=metadata,
         last_frame=write_drive(path.parent / f"{own}{DRIVE_NAME}.usdc", layout, graph),
         path=layer_path,
-        is_compact=packed and not is_flat,
+        is_compact=is_compact,
     )
     if is_flat:
         _make_flat(layer_path, folder)
     if not packed:
         return StageFiles(path, folder if folder.exists() else None)
-    if is_flat:
-        _remove_indents(layer_path)
     inner = {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
-    if not is_flat:
+    if is_compact:
         inner |= {Path(name): data for name, data in contents.items()}
+    else:
+        _remove_indents(layer_path)
     named = [(f"{folder.name}/{name.as_posix()}", inner[name]) for name in sorted(inner)]
     write_usdz(path, [(layer_path.name, layer_path.read_bytes()), *named])
     shutil.rmtree(folder)
