@@ -51,6 +51,8 @@ __all__ = [
 ]
 
 
+_ORDINAL_BITS = 16
+"""Of the number of a stall on its square."""
 _MM2_PER_M2 = 1_000_000
 
 
@@ -94,26 +96,35 @@ class Layout:
 
     def plates_of_cars(self) -> Iterator[tuple[int, int, str]]:
         """Rows in `placements` of the number plates of each car and of the car, and what is to be read on them."""
-        objects = self.placements
-        cars, plates = objects.rows_of("car"), objects.rows_of("number_plate")
-        car_of = dict(zip(_places(objects.square[cars], objects.ordinal[cars]), cars.tolist(), strict=True))
-        for row, spec, place in zip(
-            plates.tolist(),
-            objects.spec[plates].tolist(),
-            _places(objects.square[plates], objects.ordinal[plates]),
-            strict=True,
-        ):
-            shape = objects.specs[spec]
-            if isinstance(shape, NumberPlateSpec):
-                yield row, car_of[place], shape.text
+        objects, (plates, cars) = self.placements, self.cars_with_plates()
+        texts = [shape.text if isinstance(shape, NumberPlateSpec) else "" for shape in objects.specs]
+        read = (texts[spec] for spec in objects.spec[plates].tolist())
+        return zip(plates.tolist(), cars.tolist(), read, strict=True)
+
+    def cars_with_plates(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Rows in `placements` of the number plates of all cars, and of the car of each; shape (plates,)."""
+        plates = self.placements.rows_of("number_plate")
+        return plates, self._cars_at(self.placements.square[plates], self.placements.ordinal[plates])
 
     def cars_in_stalls(self) -> NDArray[np.intp]:
         """Row in `placements` of the car in each stall, -1 where none stands; shape (stalls,)."""
-        objects, stalls = self.placements, self.stalls
-        rows = objects.rows_of("car")
-        car_of = dict(zip(_places(objects.square[rows], objects.ordinal[rows]), rows.tolist(), strict=True))
-        found = [car_of.get(place, -1) for place in _places(stalls.square, stalls.ordinal)]
-        return np.array(found, dtype=np.intp)
+        return self._cars_at(self.stalls.square, self.stalls.ordinal)
+
+    def _cars_at(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.intp]:
+        """Row in `placements` of the car at each of some stalls, by their squares and numbers there; -1 without one."""
+        rows = self.placements.rows_of("car")
+        cars = self._stall_keys(self.placements.square[rows], self.placements.ordinal[rows])
+        order = np.argsort(cars)
+        keys, rows = np.append(cars[order], -1), np.append(rows[order], -1)
+        wanted = self._stall_keys(square, ordinal)
+        found = np.searchsorted(keys[:-1], wanted)
+        return np.where(keys[found] == wanted, rows[found], -1)
+
+    def _stall_keys(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
+        """A number for each stall by its square and number there."""
+        row, col = square.T.astype(np.int64)
+        keys: NDArray[np.int64] = (row * self.structure.shape[1] + col) << _ORDINAL_BITS | ordinal
+        return keys
 
     @property
     def area_per_stall_m2(self) -> float:
@@ -229,13 +240,6 @@ def lay_out(
         compartments,
         frozenset(unreachable),
     )
-
-
-def _places(
-    square: NDArray[np.signedinteger[Any]], ordinal: NDArray[np.integer[Any]]
-) -> Iterator[tuple[int, int, int]]:
-    """(row, col, number on that square) of stalls or of what belongs to them."""
-    return zip(*square.T.tolist(), ordinal.tolist(), strict=True)
 
 
 def _used_stalls(

@@ -59,10 +59,8 @@ class StallTable(Table[Stall]):
 
     def names(self) -> list[str]:
         """Ids of all stalls."""
-        return [
-            stall_name((row, col), ordinal)
-            for (row, col), ordinal in zip(self.square.tolist(), self.ordinal.tolist(), strict=True)
-        ]
+        rows, cols = self.square.T.tolist()
+        return list(map(stall_name, zip(rows, cols, strict=True), self.ordinal.tolist()))
 
     def at(self, rows: NDArray[np.intp]) -> list[Stall]:
         """The stalls in some rows."""

@@ -107,7 +107,9 @@ class ObjectTable(Table[Placement]):
         KeyError
             If there is no such kind.
         """
-        return np.flatnonzero(np.isin(self.kind, [_ROWS[kind] for kind in kinds]))
+        is_wanted = np.zeros(len(KINDS), np.bool_)
+        is_wanted[[_ROWS[kind] for kind in kinds]] = True
+        return np.flatnonzero(is_wanted[self.kind])
 
 
 def compact(numbers: NDArray[np.integer[Any]]) -> NDArray[np.signedinteger[Any]]:

@@ -8,11 +8,22 @@ numbers of kinds, whatever the modules are called.
 from importlib import import_module
 from pkgutil import iter_modules
 
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.mounted import Mounted
 from garage2usd.objects.pieces import PIECES, PieceClass
 
-__all__ = ["CLASSES", "CLASSES_VERSION", "KINDS", "MOUNTED", "PIECE_LABELS", "Kind", "Mounted", "PieceClass", "Spec"]
+__all__ = [
+    "CLASSES",
+    "CLASSES_VERSION",
+    "KINDS",
+    "MOUNTED",
+    "PIECE_LABELS",
+    "Kind",
+    "Mounted",
+    "PieceClass",
+    "Spec",
+    "TilePart",
+]
 
 _MODULES = [import_module(module.name) for module in iter_modules(__path__, prefix=f"{__name__}.")]
 

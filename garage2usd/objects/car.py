@@ -6,12 +6,12 @@ from typing import Self
 from garage2usd.assets.cars import car
 from garage2usd.assets.mesh import Asset
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
-from garage2usd.objects.kind import Kind, Look, Spec, VariantSet
+from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
 __all__ = ["KIND", "PAINT_SET", "CarSpec"]
 
-KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY)
+KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
 
 PAINT_SET = "paint"
 """Variant set of every car's asset."""

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.outline import Polygon, rectangle
 
 __all__ = ["KIND", "ChargerSpec"]
 
-KIND = Kind("charger", number=22, label="charger", cityscapes="static")
+KIND = Kind("charger", number=22, label="charger", cityscapes="static", part=TilePart.PARKING)
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ from itertools import pairwise
 
 from garage2usd.assets.faces import box_faces, upright_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.outline import Polygon, square
 
 __all__ = ["KIND", "ConeSpec"]
 
-KIND = Kind("cone", number=15, label="traffic_cone", cityscapes="static")
+KIND = Kind("cone", number=15, label="traffic_cone", cityscapes="static", part=TilePart.PARKING)
 
 _FOOT_M = 0.38
 _BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)

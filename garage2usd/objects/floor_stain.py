@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from garage2usd.assets.mesh import Asset, Face, make_part
 from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 
 __all__ = ["KIND", "StainMark", "StainSpec", "TyreMarkSpec"]
 
-KIND = Kind("floor_stain", number=26, label="floor_stain", cityscapes="road", is_solid=False)
+KIND = Kind("floor_stain", number=26, label="floor_stain", cityscapes="road", is_solid=False, part=TilePart.PARKING)
 
 Projection = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 _MATERIALS = {"oil": "stain_oil", "drips": "stain_oil", "damp": "stain_damp", "patch": "stain_patch"}

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 from garage2usd.assets.mesh import Asset
 from garage2usd.objects.outline import Polygon
 
-__all__ = ["Kind", "Look", "Spec", "VariantSet"]
+__all__ = ["Kind", "Look", "Spec", "TilePart", "VariantSet"]
 
 Look = tuple[tuple[str, str], ...]
 """(variant set, variant) pairs that an instance selects."""
@@ -20,6 +20,13 @@ class VariantSet(StrEnum):
     OCCUPANCY = "occupancy"
     LIGHTS = "lights"
     CEILING = "ceiling"
+
+
+class TilePart(StrEnum):
+    """The parts that tiles consist of where they share prototypes: each repeats more often than whole tiles."""
+
+    BUILDING = "Building"
+    PARKING = "Parking"
 
 
 @dataclass(frozen=True)
@@ -42,6 +49,8 @@ class Kind:
         The variant set of the garage that switches it.
     group
         Group of the building that holds those that stand on no square.
+    part
+        The part of a tile that holds those that stand on one.
     scattered
         Where tiles share prototypes, the point instancer that draws it, because it makes all tiles different.
     """
@@ -53,6 +62,7 @@ class Kind:
     is_solid: bool = True
     follows: VariantSet | None = None
     group: str = ""
+    part: TilePart = TilePart.BUILDING
     scattered: str = ""
 
 

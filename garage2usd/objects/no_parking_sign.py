@@ -6,12 +6,12 @@ import numpy as np
 
 from garage2usd.assets.faces import disc_faces, upright_lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, make_part
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.outline import Polygon, square
 
 __all__ = ["KIND", "NoParkingSignSpec"]
 
-KIND = Kind("no_parking_sign", number=14, label="traffic_sign", cityscapes="traffic sign")
+KIND = Kind("no_parking_sign", number=14, label="traffic_sign", cityscapes="traffic sign", part=TilePart.PARKING)
 
 _DISC_RADIUS_M = 0.3
 

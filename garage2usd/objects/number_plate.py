@@ -6,7 +6,7 @@ from typing import Self
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.number_plates import PLATE_CHARACTERS, number_plates
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.objects.kind import Kind, Spec, VariantSet
+from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
 __all__ = ["KIND", "NumberPlateSpec"]
 
@@ -17,6 +17,7 @@ KIND = Kind(
     cityscapes="car",
     is_solid=False,
     follows=VariantSet.OCCUPANCY,
+    part=TilePart.PARKING,
 )
 """To Cityscapes, whose class of them is drawn in no picture, they are part of the car."""
 

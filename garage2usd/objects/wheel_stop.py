@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 from garage2usd.assets.mesh import Asset
-from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.striped import striped
 
 __all__ = ["KIND", "WheelStopSpec"]
 
-KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static")
+KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static", part=TilePart.PARKING)
 
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
 

@@ -10,16 +10,22 @@ from numpy.typing import NDArray
 
 from garage2usd.layout import Layout
 from garage2usd.layout.table import compact
-from garage2usd.objects import KINDS
-from garage2usd.structure.grid import Cell
+from garage2usd.objects import KINDS, TilePart
+from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import Square
 
 __all__ = ["ROOT_NAME", "Arrangement", "arrange", "row_name", "tile_name"]
 
 ROOT_NAME = "Garage"
 
-_AT_CORNERS = {"column": "Column"}
-"""Names of what stands where four tiles meet: where tiles share prototypes, it belongs to the first of them."""
+_FIRST_NAMES = {
+    "column": "Column",
+    "obstacle": "Core",
+    "hydrant_cabinet": "HydrantCabinet",
+    "fire_extinguisher": "FireExtinguisher",
+}
+"""What belongs to the tile that it stands on where tiles share prototypes, although it is the building's, and the name
+of the first on a tile; a column, where four tiles meet, stands on the first of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,14 +34,14 @@ class Arrangement:
 
     Attributes
     ----------
-    nested
-        Whether equal tiles share a prototype.
+    parts
+        Names of the parts of each tile that equal tiles share; empty where each tile has objects of its own.
     squares
         (row, col) of each tile, in reading order; shape (tiles, 2).
     origins_m
         (x, z) of each tile's origin, the middle of its square; float64, shape (tiles, 2).
     order, borders
-        Rows of all objects by tile, and where in it each tile begins and the last one ends.
+        Rows of all objects by tile and part, and where in it each part of each tile begins and the last one ends.
     groups
         Rows of the objects of each group of the building.
     scattered
@@ -46,7 +52,7 @@ class Arrangement:
         Number of each object's name in `names`; shape (n,).
     """
 
-    nested: bool
+    parts: tuple[str, ...]
     squares: NDArray[np.intp]
     origins_m: NDArray[np.float64]
     order: NDArray[np.int32]
@@ -56,17 +62,18 @@ class Arrangement:
     names: NDArray[np.bytes_]
     name: NDArray[np.signedinteger[Any]]
 
-    def on_tile(self, tile: int) -> NDArray[np.int32]:
-        """Rows of the objects of a tile."""
-        return self.order[self.borders[tile] : self.borders[tile + 1]]
+    @property
+    def nested(self) -> bool:
+        """Whether equal tiles share a prototype."""
+        return bool(self.parts)
+
+    def on_part(self, part: int) -> NDArray[np.int32]:
+        """Rows of the objects of a part, which are counted through from tile to tile."""
+        return self.order[self.borders[part] : self.borders[part + 1]]
 
     def on_all_tiles(self) -> NDArray[np.int32]:
         """Rows of the objects of all tiles, one tile after the other."""
         return self.order[self.borders[0] : self.borders[-1]]
-
-    def on_tiles(self) -> Iterator[NDArray[np.int32]]:
-        """Rows of the objects of each tile in turn."""
-        return (self.order[start:end] for start, end in pairwise(self.borders.tolist()))
 
     def paths(self) -> list[str]:
         """Path of each object's prim; for a scattered one the instancer's, and the number of its point in brackets."""
@@ -80,8 +87,10 @@ class Arrangement:
         return paths
 
     def _parents(self) -> Iterator[tuple[str, NDArray[np.intp]]]:
-        for (row, col), rows in zip(self.squares.tolist(), self.on_tiles(), strict=True):
-            yield f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name((row, col))}", rows
+        tiles = (f"/{ROOT_NAME}/Tiles/{row_name(row)}/{tile_name((row, col))}" for row, col in self.squares.tolist())
+        groups = (f"{tile}/{part}" for tile in tiles for part in self.parts) if self.parts else tiles
+        for group, (start, end) in zip(groups, pairwise(self.borders.tolist()), strict=True):
+            yield group, self.order[start:end]
         for group, rows in self.groups.items():
             yield f"/{ROOT_NAME}/{group}", rows
 
@@ -94,8 +103,8 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
     layout
         The objects.
     nested
-        Whether equal tiles share a prototype. Columns then belong to tiles, and what makes all tiles different is
-        scattered.
+        Whether equal tiles share a prototype, and different ones its parts. Columns and what hangs on them and on
+        walls then belong to tiles, and what makes all tiles different is scattered.
     """
     objects, structure = layout.placements, layout.structure
     squares = np.argwhere(structure.cells != Cell.OBSTACLE)
@@ -104,33 +113,37 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
     rows, cols = objects.square.T
     tile = np.where(rows >= 0, tile_of_square[rows, cols], -1)
     names, name = objects.names, objects.name
+    parts: tuple[str, ...] = ()
+    part = np.zeros(len(tile), np.intp)
     scattered = {}
     if nested:
-        for corner_kind, common_name in _AT_CORNERS.items():
-            at = objects.rows_of(corner_kind)
-            corner_x, _, corner_z = objects.position_m[at].T
-            # a corner is a border's number; the tile before it has that number less one
-            row = np.searchsorted(structure.row_edges_m, corner_z - _BORDER_TOLERANCE_M) - 1
-            col = np.searchsorted(structure.column_edges_m, corner_x - _BORDER_TOLERANCE_M) - 1
-            tile[at] = tile_of_square[row, col]
-            name = name.astype(np.int32)
-            name[at] = len(names)
-            names = np.append(names, np.bytes_(common_name))
+        parts = tuple(TilePart)
+        part = np.array([parts.index(kind.part) for kind in KINDS])[objects.kind]
+        name = name.astype(np.int32)
+        for kind_name, first_name in _FIRST_NAMES.items():
+            at = objects.rows_of(kind_name)
+            on = tile_of_square[tuple(_squares_at(structure, objects.position_m[at]))]
+            at, on = at[on >= 0], on[on >= 0]
+            number = _numbers_among_equals(on)
+            tile[at], name[at] = on, len(names) + number
+            further = [f"{first_name}_{nth}" for nth in range(2, number.max(initial=0) + 2)]
+            names = np.append(names, np.array([first_name, *further], dtype=np.bytes_))
         for kind in KINDS:
-            at = objects.rows_of(kind.name)
-            if kind.scattered and len(at):
+            if kind.scattered and len(at := objects.rows_of(kind.name)):
                 scattered[kind.scattered] = at
                 tile[at] = -2
                 name[at] = 0
         # most names were those of what is scattered and of columns
         used = np.bincount(name, minlength=len(names)) > 0
         names, name = names[used], compact(np.cumsum(used) - 1)[name]
-    order = np.argsort(tile, kind="stable").astype(np.int32)
-    borders = np.searchsorted(tile[order], np.arange(len(squares) + 1))
+    width = max(len(parts), 1)
+    key = np.where(tile >= 0, tile * width + part, tile)
+    order = np.argsort(key, kind="stable").astype(np.int32)
+    borders = np.searchsorted(key[order], np.arange(len(squares) * width + 1))
     middles = [(edges[1:] + edges[:-1]) / 2 for edges in (structure.column_edges_m, structure.row_edges_m)]
     origins = np.stack([middles[0][squares[:, 1]], middles[1][squares[:, 0]]], axis=1)
     return Arrangement(
-        nested,
+        parts,
         squares,
         origins,
         order,
@@ -143,6 +156,23 @@ def arrange(layout: Layout, *, nested: bool) -> Arrangement:
 
 
 _BORDER_TOLERANCE_M = 1e-6
+
+
+def _squares_at(structure: Structure, position_m: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Rows and columns of the squares that hold places, the first one's where a place is on a border; shape (2, n)."""
+    x, _, z = position_m.T - _BORDER_TOLERANCE_M
+    edges_m = (structure.row_edges_m, structure.column_edges_m)
+    squares = [np.searchsorted(edges, at) - 1 for edges, at in zip(edges_m, (z, x), strict=True)]
+    return np.clip(squares, 0, np.array(structure.shape)[:, None] - 1)
+
+
+def _numbers_among_equals(values: NDArray[np.intp]) -> NDArray[np.intp]:
+    """How many equal values stand before each one."""
+    order = np.argsort(values, kind="stable")
+    _, first, group = np.unique(values[order], return_index=True, return_inverse=True)
+    numbers = np.empty_like(values)
+    numbers[order] = np.arange(len(values)) - first[group]
+    return numbers
 
 
 def row_name(row: int) -> str:

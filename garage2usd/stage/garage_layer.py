@@ -42,7 +42,7 @@ __all__ = ["write_garage_layer"]
 _CLASSES = "Classes"
 """Scope of the classes that all objects of a variant set inherit from."""
 _TILE_CLASSES = "TilePrototypes"
-"""Scope of the classes that equal tiles inherit from."""
+"""Scope of the classes that equal tiles, and equal parts of them, inherit from."""
 _PHYSICS = "PhysicsScene"
 """Type and name of the prim that comes next after what stands in the garage."""
 
@@ -156,7 +156,7 @@ def _pieces(
     labels = _tile_labels(graph, arrangement.squares)
     tile_classes: Iterable[str] = ()
     if arrangement.nested:
-        shared = share_tiles(layout, arrangement, labels, writer)
+        shared = share_tiles(layout, arrangement, labels, writer, f"/{_TILE_CLASSES}")
         tiles, tile_classes = _shared_tiles(arrangement, shared), _tile_classes(shared)
     else:
         tiles = _tiles(arrangement, labels, writer)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.layout import Layout, Stall
 from garage2usd.objects import KINDS, Spec
 from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
+from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.stage.arrangement import Arrangement
 from garage2usd.stage.number_plates import plate_text
 from garage2usd.stage.prim_text import (
@@ -61,11 +62,12 @@ class InstanceWriter:
         self._prototypes = [prototypes[spec] for spec in self._objects.specs]
         self._asset_folder = asset_folder
         self._classes = classes
-        rows = self._objects.rows_of("stall").tolist()
-        self._stalls = dict(zip(rows, layout.stalls, strict=True)) if describe_stalls else {}
-        cars = zip(rows, layout.cars_in_stalls().tolist(), strict=True)
-        self._car_of = {row: car for row, car in cars if car >= 0}
-        self._plate_of = {row: (wearer, text) for row, wearer, text in layout.plates_of_cars()}
+        stalls, cars = self._objects.rows_of("stall"), layout.cars_in_stalls()
+        self._stalls = dict(zip(stalls.tolist(), layout.stalls, strict=True)) if describe_stalls else {}
+        self._car_of = np.full(len(self._objects), -1)
+        self._car_of[stalls] = cars
+        plates, wearers = layout.cars_with_plates()
+        self._car_of[plates] = wearers
         self._headers: dict[tuple[int, int, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
@@ -75,24 +77,26 @@ class InstanceWriter:
             self._arrangement.name[rows],
             objects.kind[rows],
             objects.spec[rows],
+            self._car_of[rows],
         )
         local = objects.position_m[rows]
         local[:, [0, 2]] -= origins_m
         positions = rounded_m(local)
         yaws = rounded_deg(objects.yaw_rad[rows])
-        for row, name, kind, spec, (x, y, z), yaw in zip(
+        for row, name, kind, spec, car, (x, y, z), yaw in zip(
             rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
         ):
-            stall, car = self._stalls.get(row), self._car_of.get(row)
-            is_taken = stall is not None and car is not None
+            stall, shape, has_car = self._stalls.get(row), objects.specs[spec], car >= 0
+            is_taken = stall is not None and has_car
             header = self._headers.get((kind, spec, is_taken)) or self._header(kind, spec, is_taken=is_taken)
             prim = names[name].decode("ascii")
             said = "" if stall is None else _stall_text(stall, is_taken=is_taken)
-            if row in self._plate_of:
-                wearer, text = self._plate_of[row]
-                said = plate_text(text, names[self._arrangement.name[wearer]].decode("ascii"))
-            if car is not None:
-                said += f"custom rel {CAR_OF_STALL} = <../{names[self._arrangement.name[car]].decode('ascii')}>\n"
+            if has_car:
+                car_name = names[self._arrangement.name[car]].decode("ascii")
+                if isinstance(shape, NumberPlateSpec):
+                    said += plate_text(shape.text, car_name)
+                else:
+                    said += f"custom rel {CAR_OF_STALL} = <../{car_name}>\n"
             if said:
                 yield instance_text(prim, header, place_text(x, y, z, yaw), said)
             else:

@@ -58,7 +58,8 @@ def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     prim = _author_curves(layer, path, graph.middles_m[:, None] + ring, closed=True)
-    words(prim, "garage:lane:kind", (graph.kind(square).value for square in graph.number_of))
+    kind_of = dict(graph.graph.nodes(data="kind"))
+    words(prim, "garage:lane:kind", (kind_of[square].value for square in graph.number_of))
     _author_squares(prim, "garage:lane", graph.squares)
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(graph.clear_m.astype(np.float32)))
 
@@ -78,15 +79,15 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     stalls = layout.stalls
     prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
     words(prim, "garage:stall:id", stalls.names())
-    words(prim, "garage:stall:number", (number.decode("ascii") for number in stalls.number.tolist()))
+    words(prim, "garage:stall:number", stalls.number.astype(np.str_).tolist())
     for name, choices, column in (
         ("type", STALL_TYPES, stalls.stall_type),
         ("use", STALL_USES, stalls.use),
         ("entryEdge", [edge.name.lower() for edge in EDGES], stalls.edge),
     ):
-        words(prim, f"garage:stall:{name}", (str(choices[number]) for number in column.tolist()))
+        words(prim, f"garage:stall:{name}", map([str(choice) for choice in choices].__getitem__, column.tolist()))
     _author_squares(prim, "garage:stall", stalls.square)
-    access = [graph.number_of[row, col] for row, col in stalls.access_square.tolist()]
+    access = [graph.number_of[row, col] for row, col in zip(*stalls.access_square.T.tolist(), strict=True)]
     numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
     numbers(prim, OCCUPIED, (layout.cars_in_stalls() >= 0).astype(np.int32))
 

@@ -124,15 +124,15 @@ class LaneGraph:
     def edges(self) -> tuple[LaneEdge, ...]:
         """The pairs of squares that join, in reading order; one-way from an entrance and into an exit."""
         edges = []
+        kind_of, clear_m = dict(self.graph.nodes(data="kind")), self.clear_m.tolist()
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
-            kinds = self.kind(first), self.kind(second)
+            kinds = kind_of[first], kind_of[second]
             one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
             if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
                 first, second = second, first  # noqa: PLW2901
             start, end = self.number_of[first], self.number_of[second]
             # squares that join in a line have the same side across it: R and C are constant along lines
-            width_m = float(self.clear_m[start, int(first[1] != second[1])])
-            edges.append(LaneEdge(start, end, width_m, one_way))
+            edges.append(LaneEdge(start, end, clear_m[start][first[1] != second[1]], one_way))
         return tuple(edges)
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:

@@ -1,6 +1,7 @@
 """Which stalls hold a car: stage, report and labels against where the cars stand, in every form of the stage."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -60,9 +61,9 @@ def stall_prims(stage):
     """The prims of stalls by their ids: the square is that of the tile, the number that of the prim."""
     prims = {}
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
-        if prim.GetName().startswith("Stall_") and prim.GetParent().GetName().startswith("Tile_r"):
-            tile = prim.GetParent().GetName().removeprefix("Tile_")
-            prims[f"Stall_{tile}_{prim.GetName().removeprefix('Stall_')}"] = prim
+        found = re.search(r"/Tile_(r\d+_c\d+)(?:/Parking)?/Stall_(\d+)$", str(prim.GetPath()))
+        if found:
+            prims[f"Stall_{found[1]}_{found[2]}"] = prim
     return prims
 
 

@@ -15,7 +15,7 @@ from support.sample_files import REPOSITORY
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
 from garage2usd.layout import lay_out
-from garage2usd.objects import CLASSES_VERSION, PIECE_LABELS
+from garage2usd.objects import CLASSES_VERSION, PIECE_LABELS, TilePart
 from garage2usd.pipeline import build
 from garage2usd.reading.labels import CITYSCAPES
 from garage2usd.stage.cameras import write_drive
@@ -144,6 +144,14 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
     assert len(tiles) == (layout.structure.cells != Cell.OBSTACLE).sum()
     assert all(tile.IsInstance() for tile in tiles)
     assert len({tile.GetPrototype() for tile in tiles}) < len(tiles)
+    parts = [part for tile in tiles for part in tile.GetFilteredChildren(Usd.TraverseInstanceProxies())]
+    assert {part.GetName() for part in parts} == set(TilePart)
+    assert all(part.IsInstance() for part in parts)
+    for name in TilePart:  # tiles that are different share them
+        named = [part for part in parts if part.GetName() == name]
+        assert len({part.GetPrototype() for part in named}) < len({part.GetParent().GetPrototype() for part in named})
+    # what belongs to the building stands on tiles too
+    assert not any(stage.GetPrimAtPath(f"/Garage/{group}") for group in ("Columns", "FireProtection"))
     table = labelled_objects(nested.labels)
     assert len({entry["path"] for entry in table}) == len(table)
     table, pieces = table[: len(layout.placements)], table[len(layout.placements) :]
@@ -163,7 +171,8 @@ def test_equal_tiles_share_a_prototype_and_every_object_keeps_its_place(nested):
             place = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(Usd.TimeCode.Default())
             assert list(place.ExtractTranslation()) == pytest.approx(placement.position_m, abs=1e-4)
     # and nothing beside them
-    instances = [prim for prim in everything(stage) if is_placed(prim) and not prim.GetName().startswith("Tile_")]
+    shared = {*tiles, *parts}
+    instances = [prim for prim in everything(stage) if is_placed(prim) and prim not in shared]
     scattered = sum("[" in entry["path"] for entry in table)
     assert len(instances) == len(table) - scattered
 

@@ -124,13 +124,16 @@ namespace Garage.Unity
         }
 
         // where tiles share prototypes, stalls have no prims that say who they are: the second stall of a tile is
-        // called as its car is, "Stall_2" and "Car_2", and "Stall_r03_c07_2" stands on "Row_r03/Tile_r03_c07"
+        // called as its car is, "Stall_2" and "Car_2", and "Stall_r03_c07_2" stands on "Row_r03/Tile_r03_c07", there
+        // in the part "Parking", which earlier stages lack
         static void ParkOnTile(Stall stall, Transform garage)
         {
             string[] parts = stall.Id.Split('_');
             if (garage == null || parts.Length != 4) { return; }
             string tile = "Row_" + parts[1] + "/Tile_" + parts[1] + "_" + parts[2];
-            stall.SetCar(garage.Find("Tiles/" + tile + "/Car_" + parts[3]));
+            string car = "/Car_" + parts[3];
+            Transform found = garage.Find("Tiles/" + tile + "/Parking" + car);
+            stall.SetCar(found != null ? found : garage.Find("Tiles/" + tile + car));
         }
 
         Vector3[] Points(float[] numbers)
