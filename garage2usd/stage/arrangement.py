@@ -20,7 +20,6 @@ ROOT_NAME = "Garage"
 
 _FIRST_NAMES = {
     "column": "Column",
-    "obstacle": "Core",
     "hydrant_cabinet": "HydrantCabinet",
     "fire_extinguisher": "FireExtinguisher",
 }
