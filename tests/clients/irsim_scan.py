@@ -1,6 +1,7 @@
 """Run by a test with the Python of ir-sim: load a map, put a robot somewhere and write down what its LiDAR measures."""
 
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -8,18 +9,36 @@ import irsim
 import yaml
 from PIL import Image
 
+RANGE_M = 30.0
+
+
+def in_reach(map_file, place):
+    """The part of a map that the LiDAR reaches: its picture, its side in metres and where its lower left corner lies.
+
+    ir-sim joins all occupied cells into one shape, which for the largest map takes a minute.
+    """
+    said = yaml.safe_load(map_file.read_text())
+    side, origin = said["resolution"], said["origin"][:2]
+    with Image.open(map_file.parent / said["image"]) as image:
+        columns, rows = image.size
+        reach = math.ceil(RANGE_M / side) + 1
+        column, row = (math.floor((at - start) / side) for at, start in zip(place, origin, strict=True))
+        left, right = max(column - reach, 0), min(column + reach, columns)
+        low, high = max(row - reach, 0), min(row + reach, rows)
+        part = image.crop((left, rows - high, right, rows - low))
+    return part, side, [origin[0] + left * side, origin[1] + low * side]
+
 
 def main(map_file, output, place):
-    said = yaml.safe_load(Path(map_file).read_text())
-    picture = Path(map_file).parent / said["image"]
-    with Image.open(picture) as image:
-        columns, rows = image.size
-    side = said["resolution"]
+    place = json.loads(place)
+    part, side, origin = in_reach(Path(map_file), place)
+    picture = Path(output).with_name("in_reach.png")
+    part.save(picture)
     world = {
         "world": {
-            "width": columns * side,
-            "height": rows * side,
-            "offset": said["origin"][:2],
+            "width": part.width * side,
+            "height": part.height * side,
+            "offset": origin,
             "obstacle_map": str(picture),
             "mdownsample": 1,
         },
@@ -27,8 +46,8 @@ def main(map_file, output, place):
             {
                 "kinematics": {"name": "diff"},
                 "shape": {"name": "circle", "radius": 0.2},
-                "state": [*json.loads(place), 0.0],
-                "sensors": [{"name": "lidar2d", "range_max": 30, "number": 361, "angle_range": 6.283185307179586}],
+                "state": [*place, 0.0],
+                "sensors": [{"name": "lidar2d", "range_max": RANGE_M, "number": 361, "angle_range": 6.283185307179586}],
             }
         ],
     }

@@ -1,4 +1,4 @@
-"""ir-sim loads the occupancy grid of every sample, and its LiDAR measures the distances to what stands there."""
+"""ir-sim loads what its LiDAR reaches of the occupancy grid of every sample, and measures how far things are."""
 
 import json
 import os

@@ -18,19 +18,30 @@ def covered(read, garage, proofs, car):
     garage, proofs, car
         What was driven in, the proofs, and the car.
     """
-    rows, columns = np.nonzero(read.cells == OCCUPIED)
     x, y = read.middles()
     half = read.side / 2 - 1e-9
-    middles = np.column_stack([x[columns], y[rows]])
-    squares = shapely.box(*(middles - half).T, *(middles + half).T)
-    tree = shapely.STRtree(squares)
+    row, start, end = _runs(read.cells == OCCUPIED)
+    runs = shapely.STRtree(shapely.box(x[start] - half, y[row] - half, x[end - 1] + half, y[row] + half))
     found = []
     for stall, proof in zip(garage.stalls, proofs, strict=True):
-        pieces = garage.standing.only(*stall.own).pieces * (1, -1)
-        own = shapely.MultiPolygon([shapely.Polygon(piece) for piece in pieces])
         for way in filter(None, (proof.way_in, proof.way_out)):
             corners = np.array([car.corners(waypoint.pose) for waypoint in way.waypoints(STEP_M)])
             grounds = shapely.polygons(corners * (1, -1))
-            hit = np.unique(tree.query(grounds, predicate="intersects")[1])
-            found += [middles[index] for index in hit if squares[index].distance(own) > read.side]
+            hit = np.unique(runs.query(grounds, predicate="intersects")[1])
+            if not len(hit):
+                continue
+            middles = np.array([(x[column], y[row[run]]) for run in hit for column in range(start[run], end[run])])
+            squares = shapely.box(*(middles - half).T, *(middles + half).T)
+            pieces = garage.standing.only(*stall.own).pieces * (1, -1)
+            own = shapely.MultiPolygon([shapely.Polygon(piece) for piece in pieces])
+            is_foreign = shapely.distance(squares, own) > read.side
+            touched = shapely.STRtree(squares[is_foreign]).query(grounds, predicate="intersects")[1]
+            found += list(middles[is_foreign][np.unique(touched)])
     return np.array(found)
+
+
+def _runs(cells):
+    """Runs of cells along rows: the row, the first column and the one after the last of each."""
+    changes = np.diff(cells.astype(np.int8), axis=1, prepend=0, append=0)
+    (rows, starts), (_, ends) = np.nonzero(changes == 1), np.nonzero(changes == -1)
+    return rows, starts, ends
