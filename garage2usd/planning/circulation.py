@@ -12,6 +12,7 @@ from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
+from garage2usd.planning.survey import STRETCH, survey
 from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
@@ -174,13 +175,11 @@ def circulation(structure: Structure) -> Circulation:
     R4: lanes that stay with two neighbours form stretches; a dead end beside one makes no junction, as no car drives
     on through it.
     """
-    from garage2usd.planning.survey import STRETCH, survey  # noqa: PLC0415 - compiled code is for those who ask
-
     lane = structure.cells == Cell.LANE
     padded = bordered(structure.cells, Cell.OBSTACLE)
     cells = padded.ravel()
-    state, queue = np.zeros(len(cells), np.int32), np.zeros(len(cells), np.int64)
-    figures = survey(np.flatnonzero(cells == Cell.LANE), padded.shape[1], cells, state, queue, 0, 1)
+    state = np.zeros(len(cells), np.int32)
+    figures = survey(np.flatnonzero(cells == Cell.LANE), padded.shape[1], cells, state, 0, 1)
     states = np.where(lane, state.reshape(padded.shape)[1:-1, 1:-1], 0)
     _, pieces = pieces_of(lane)
     blocks = lane[:-1, :-1] & lane[1:, :-1] & lane[:-1, 1:] & lane[1:, 1:]

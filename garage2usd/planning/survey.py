@@ -1,12 +1,11 @@
-"""The survey of circulation on lanes: pruning of dead ends, loops, blocks, stretches. Compiled."""
-# ruff: noqa: C901, PLR0912 - pruning and flooding are loops over the same squares, kept in one for speed
+"""The survey of circulation on lanes: pruning of dead ends, loops, blocks, stretches. In C, `survey.c`."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled
+from garage2usd.native import in_c
 
 __all__ = ["STRETCH", "Survey", "survey"]
 
@@ -35,15 +34,13 @@ class Survey(NamedTuple):
     excess: int
 
 
-@compiled
 def survey(
     squares: NDArray[np.int64],
     stride: int,
     cells: NDArray[np.int8],
     state: NDArray[np.int32],
-    queue: NDArray[np.int64],
     dead_end_squares: int,
-    stretch_squares: Whole,
+    stretch_squares: int,
 ) -> Survey:
     """Count where lanes break the rules of circulation.
 
@@ -58,8 +55,6 @@ def survey(
     state
         int32, shape of `cells`, set on all lanes: minus the round in which a dead end is pruned; the number of
         neighbours of a junction, 3 or 4; or `STRETCH` and the squares of the stretch that the lane belongs to.
-    queue
-        int64: room for as many squares.
     dead_end_squares
         R1: rounds of pruning that are free.
     stretch_squares
@@ -70,55 +65,22 @@ def survey(
     A round of pruning takes off all lanes with at most one neighbour, portals being neighbours that stay (k-core
     decomposition, Seidman 1983, for k = 2 with the portals held). Without stretches, those lanes keep the state 2.
     """
-    steps = (-stride, stride, -1, 1)
-    lanes = edges = blocks = tail = 0
-    for q in squares:
-        if cells[q] != 1:
-            continue
-        lanes += 1
-        right, below = cells[q + 1] == 1, cells[q + stride] == 1
-        edges += right + below
-        blocks += right and below and cells[q + stride + 1] == 1
-        count = 0
-        for step in steps:
-            count += cells[q + step] >= 1
-        state[q] = count
-        if count < 2:  # noqa: PLR2004 - neighbours
-            queue[tail] = q
-            tail += 1
-    head = rounds = deep = 0
-    while head < tail:
-        rounds += 1
-        last = tail
-        while head < last:
-            q = queue[head]
-            head += 1
-            state[q] = -rounds
-            deep += rounds > dead_end_squares
-            for step in steps:
-                p = q + step
-                if cells[p] == 1 and state[p] > 1:
-                    state[p] -= 1
-                    if state[p] == 1:
-                        queue[tail] = p
-                        tail += 1
-    excess = 0
-    if stretch_squares > 0:
-        for first in squares:
-            if cells[first] != 1 or state[first] != 2:  # noqa: PLR2004
-                continue
-            queue[0], state[first] = first, STRETCH
-            head, tail = 0, 1
-            while head < tail:
-                q = queue[head]
-                head += 1
-                for step in steps:
-                    p = q + step
-                    if cells[p] == 1 and state[p] == 2:  # noqa: PLR2004
-                        state[p] = STRETCH
-                        queue[tail] = p
-                        tail += 1
-            for index in range(tail):
-                state[queue[index]] = STRETCH + tail
-            excess += int(max(0, tail - stretch_squares))
-    return Survey(deep, edges - lanes + 1 - blocks, blocks, excess)
+    queue, found = np.empty(len(cells), np.int64), np.zeros(4, np.int64)
+    _survey(squares, len(squares), stride, cells, state, queue, dead_end_squares, stretch_squares, found)
+    return Survey(*found.tolist())
+
+
+@in_c
+def _survey(
+    squares: NDArray[np.int64],
+    count: int,
+    stride: int,
+    cells: NDArray[np.int8],
+    state: NDArray[np.int32],
+    queue: NDArray[np.int64],
+    dead_end_squares: int,
+    stretch_squares: int,
+    found: NDArray[np.int64],
+) -> None:
+    """`survey` of the first `count` squares, with room for as many in `queue`; `found` takes the figures."""
+    raise NotImplementedError

@@ -1,0 +1,129 @@
+"""The numeric loops in C: Python functions that are declared in Python and written in the `.c` files beside this one.
+
+They are compiled when garage2usd is installed, into one library that needs nothing of Python.
+"""
+
+import ctypes
+import functools
+import struct
+import typing
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar, cast
+
+import numpy as np
+
+__all__ = ["LIBRARY", "in_c", "load"]
+
+P = ParamSpec("P")
+T = TypeVar("T")
+Words = tuple[str, list[int | float]]
+"""The layout of some fields as the module `struct` writes it, and their numbers."""
+
+LIBRARY = Path(__file__).with_name("loops.so")
+"""The library that `hatch_build.py` makes of the C files."""
+
+_NUMBERS: dict[Any, tuple[Callable[[Any], Any], Any]] = {
+    bool: (bool, ctypes.c_bool),
+    int: (int, ctypes.c_int64),
+    float: (float, ctypes.c_double),
+    np.uint64: (int, ctypes.c_uint64),
+}
+
+
+@functools.cache
+def load(path: Path = LIBRARY) -> ctypes.CDLL:
+    """Open the library of compiled loops.
+
+    Raises
+    ------
+    RuntimeError
+        If it is not there.
+    """
+    if not path.exists():
+        raise RuntimeError(f"{path} is missing: install garage2usd, or run python hatch_build.py in its repository")
+    return ctypes.CDLL(str(path))
+
+
+def in_c(function: Callable[P, T]) -> Callable[P, T]:
+    """Have a function be the C function of the same name, less an underscore; its own body is never run.
+
+    Named tuples go to C by the address of their fields, which `planning.h` declares in the same order, arrays by the
+    address of their first number, and numbers as they are. Arguments are given by position.
+
+    Raises
+    ------
+    TypeError
+        When called, if an array is not of the annotated type, or its numbers do not lie side by side.
+    """
+    hints = typing.get_type_hints(function)
+    returns = hints.pop("return")
+    packers = [_packer(hint) for hint in hints.values()]
+
+    @functools.cache
+    def symbol() -> Callable[..., Any]:
+        found = load()[function.__name__.lstrip("_")]
+        found.argtypes = [kind for _, kind in packers]
+        found.restype = None if returns is type(None) else _NUMBERS[returns][1]
+        return found
+
+    @functools.wraps(function)
+    def call(*values: P.args, **_: P.kwargs) -> T:
+        packed = [pack(value) for (pack, _), value in zip(packers, values, strict=True)]
+        return cast("T", symbol()(*packed))
+
+    return call
+
+
+def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an annotation
+    """How an argument is handed to C by its annotation, and its type there."""
+    if hint in _NUMBERS:
+        return _NUMBERS[hint]
+    if typing.get_origin(hint) is np.ndarray:
+        return functools.partial(_address, _dtype(hint)), ctypes.c_void_p
+    return functools.partial(_packed, hint), ctypes.c_char_p
+
+
+def _packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
+    """The fields of a named tuple as C has them."""
+    layout, numbers = _words(kind, value)
+    return struct.pack(f"={layout}", *numbers)
+
+
+def _words(kind: type, value: Any) -> Words:  # noqa: ANN401 - a named tuple
+    """The fields of a named tuple in words of 8 bytes."""
+    layout: list[str] = []
+    numbers: list[int | float] = []
+    for field, (hint, dtype) in zip(value, _fields(kind), strict=True):
+        if dtype is not None:
+            layout.append("qqqq"[: 1 + field.ndim])
+            numbers += (_address(dtype, field), *field.shape)
+        elif hint is float:
+            layout.append("d")
+            numbers.append(field)
+        elif hint in _NUMBERS:
+            layout.append("q")
+            numbers.append(int(field))
+        else:
+            inner, more = _words(hint, field)
+            layout.append(inner)
+            numbers += more
+    return "".join(layout), numbers
+
+
+@functools.cache
+def _fields(kind: type) -> list[tuple[Any, np.dtype[Any] | None]]:
+    """The annotations of a named tuple, and of arrays the types of their numbers."""
+    hints = typing.get_type_hints(kind).values()
+    return [(hint, _dtype(hint) if typing.get_origin(hint) is np.ndarray else None) for hint in hints]
+
+
+def _dtype(hint: Any) -> np.dtype[Any]:  # noqa: ANN401 - an annotation
+    """The type of the numbers of an annotated array."""
+    return np.dtype(typing.get_args(typing.get_args(hint)[1])[0])
+
+
+def _address(dtype: np.dtype[Any], array: np.ndarray[Any, Any]) -> int:
+    if array.dtype != dtype or not array.flags.c_contiguous:
+        raise TypeError(f"an array of {array.dtype}, strides {array.strides}, where C takes {dtype} side by side")
+    return array.ctypes.data

@@ -1,0 +1,30 @@
+/* NumPy arrays in C order: the address of the first number, and the shape. */
+#ifndef GARAGE2USD_ARRAYS_H
+#define GARAGE2USD_ARRAYS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A function that garage2usd.native finds by its name; all others stay within the library. */
+#define FROM_PYTHON __attribute__((visibility("default")))
+
+#define ROW_OF(type) struct { type *at; int64_t count; }
+#define TABLE_OF(type) struct { type *at; int64_t rows, columns; }
+#define CUBE_OF(type) struct { type *at; int64_t layers, rows, columns; }
+
+typedef ROW_OF(bool) BoolRow;
+typedef ROW_OF(int8_t) Int8Row;
+typedef ROW_OF(int32_t) Int32Row;
+typedef ROW_OF(int64_t) Int64Row;
+typedef ROW_OF(uint64_t) UInt64Row;
+typedef ROW_OF(double) DoubleRow;
+typedef TABLE_OF(bool) BoolTable;
+typedef TABLE_OF(int8_t) Int8Table;
+typedef TABLE_OF(int32_t) Int32Table;
+typedef TABLE_OF(int64_t) Int64Table;
+typedef TABLE_OF(float) FloatTable;
+typedef TABLE_OF(double) DoubleTable;
+typedef CUBE_OF(int32_t) Int32Cube;
+typedef CUBE_OF(int64_t) Int64Cube;
+
+#endif
