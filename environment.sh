@@ -48,7 +48,7 @@ fi
 
 extra=""
 [ "$goal" = demo ] || extra="[test]"
-stamp=".venv/.$goal-$(cat pyproject.toml environment.sh tests/support/browser.py tests/support/gltf_validator.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
+stamp=".venv/.$goal-$(cat pyproject.toml environment.sh hatch_build.py garage2usd/native/*.[ch] tests/support/browser.py tests/support/gltf_validator.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"

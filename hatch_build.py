@@ -34,7 +34,7 @@ def _compiler() -> list[str]:
     if given:
         return shlex.split(given)
     system = shutil.which("cc")
-    return [system] if system else [sys.executable, "-m", "ziglang", "cc"]
+    return [system] if system else [sys.executable, "-m", "ziglang", "cc", "-mcpu=baseline"]
 
 
 class NativeLoops(BuildHookInterface[Any]):

@@ -1,11 +1,8 @@
 """How long steps tell the command line how far they are; nothing below ``cli`` prints."""
 
-from collections.abc import Callable
 from typing import Protocol
 
-__all__ = ["Progress", "compiling", "silent", "when_compiling"]
-
-_told: dict[str, Callable[[str], None]] = {}
+__all__ = ["Progress", "silent"]
 
 
 class Progress(Protocol):
@@ -17,16 +14,3 @@ class Progress(Protocol):
 
 def silent(step: str, done: int, total: int) -> None:
     """Ignore progress: the default of every step."""
-
-
-def when_compiling(room: str, tell: Callable[[str], None] | None) -> None:
-    """Have `tell` called with a room's name, once, when functions of that room have to be compiled; None for nobody."""
-    _told.pop(room, None)
-    if tell is not None:
-        _told[room] = tell
-
-
-def compiling(module: str) -> None:
-    """Tell who asked to be told that a function of a module is being compiled."""
-    for room in [room for room in _told if module.startswith(f"{room}.")]:
-        _told.pop(room)(room)

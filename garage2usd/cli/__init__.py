@@ -28,8 +28,6 @@ __all__ = ["main", "run"]
 
 _KEPT_OBJECTS = 50_000
 """How many objects are made before Python looks for dead cycles: by default 700, though nearly all live to the end."""
-_QUICKLY_COMPILED = {"NUMBA_OPT": "1"}
-"""Numba's lowest level above none: a first build takes a tenth less, and what is compiled is no slower."""
 _MANY_THREADS = {"render", "dataset"}
 """Commands whose work is done by threads of Blender, or by processes that are told of theirs when they are started."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
@@ -56,9 +54,9 @@ def run() -> None:
     # else Python looks for dead cycles in all that is left, three times, which takes a fifth of a second after a build
     atexit.register(gc.freeze)
     name = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
-    settings = _QUICKLY_COMPILED if name in _MANY_THREADS else _QUICKLY_COMPILED | ONE_THREAD
-    for variable, value in settings.items():
-        os.environ.setdefault(variable, value)
+    if name not in _MANY_THREADS:
+        for variable, value in ONE_THREAD.items():
+            os.environ.setdefault(variable, value)
     if name in SUPERVISED:
         supervise(main, name=name)
     main()

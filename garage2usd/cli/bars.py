@@ -6,19 +6,15 @@ from typing import TYPE_CHECKING, Self, TextIO
 import click
 
 from garage2usd.cli.termination import TERMINATION
-from garage2usd.progress import when_compiling
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
 
 __all__ = ["Bars"]
 
-_COMPILED = {"garage2usd.planning": ("the planner", 10), "garage2usd.driving": ("the search for paths", 5)}
-"""Rooms with compiled functions, what they are to a reader, and about how many seconds a machine of 2020 takes."""
-
 
 class Bars:
-    """One progress bar for each step that reports, and a line where the compiler has to run; on a terminal only.
+    """One progress bar for each step that reports; on a terminal only.
 
     Parameters
     ----------
@@ -36,8 +32,6 @@ class Bars:
 
     def __enter__(self) -> Self:
         """Start without a bar."""
-        for room in _COMPILED:
-            when_compiling(room, self._announce)
         return self
 
     def __exit__(
@@ -45,8 +39,6 @@ class Bars:
     ) -> None:
         """End the last bar."""
         self._end()
-        for room in _COMPILED:
-            when_compiling(room, None)
 
     def __call__(self, step: str, done: int, total: int) -> None:
         """Show that `done` of `total` units of `step` are finished."""
@@ -72,19 +64,8 @@ class Bars:
             return None
         return f"{1 / self._bar.time_per_iteration:.2g} {self._unit}/s"
 
-    def _announce(self, room: str) -> None:
-        """Say what is compiled; the bar begins anew after it, as its rate is not that of compiling."""
-        if self._stream.isatty():
-            what, seconds = _COMPILED[room]
-            self._leave()
-            click.echo(f"compiling {what}, once after installing: about {seconds} s", file=self._stream)
-
     def _end(self) -> None:
         if self._bar is not None:
             self._bar.update((self._bar.length or 0) - self._bar.pos)
-            self._leave()
-
-    def _leave(self) -> None:
-        if self._bar is not None:
             self._bar.__exit__(None, None, None)
             self._bar = None

@@ -7,7 +7,6 @@ import sys
 import time
 from pathlib import Path
 
-import numba
 import pytest
 from click.testing import CliRunner
 from PIL import Image
@@ -211,26 +210,6 @@ def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
     assert first.value.code == second.value.code == 128 + signal.SIGTERM
 
 
-def test_a_terminal_is_told_once_that_the_planner_is_compiled():
-    class Terminal(io.StringIO):
-        def isatty(self):
-            return True
-
-    def planned(cells):
-        return cells + 1
-
-    planned.__module__ = "garage2usd.planning.made_up"
-    terminal, file = Terminal(), io.StringIO()
-    for stream in (terminal, file):
-        with bars.Bars(stream) as progress:
-            progress("plan", 0, 2)
-            numba.njit(planned)(1)
-            numba.njit(planned)(1.5)
-            progress("plan", 2, 2)
-    numba.njit(planned)(True)
-    assert terminal.getvalue().count("compiling the planner, once after installing") == 1
-    assert file.getvalue() == ""
-
 
 def test_the_schema_command_prints_the_schema():
     assert json.loads(run("schema").output) == config_schema()
@@ -283,29 +262,27 @@ def test_a_file_that_is_missing_is_refused_alike_by_all_commands(tmp_path, monke
 
 
 @pytest.mark.parametrize(
-    ("command", "given", "threads", "effort"),
+    ("command", "given", "threads"),
     [
-        ("check", {}, "1", "1"),
-        ("build", {"NUMBA_OPT": "3"}, "1", "3"),
-        ("export", {"PXR_WORK_THREAD_LIMIT": "3"}, "3", "1"),
-        ("render", {}, "None", "1"),
-        ("dataset", {}, "None", "1"),
+        ("build", {}, "1"),
+        ("check", {}, "1"),
+        ("export", {"PXR_WORK_THREAD_LIMIT": "3"}, "3"),
+        ("render", {}, "None"),
+        ("dataset", {}, "None"),
     ],
 )
-def test_libraries_keep_to_one_thread_and_compile_quickly_unless_they_are_told_otherwise(
-    command, given, threads, effort
-):
+def test_libraries_keep_to_one_thread_unless_they_are_told_otherwise(command, given, threads):
     code = """
 import os, garage2usd.cli as cli
-cli.main = lambda: print(os.environ.get("PXR_WORK_THREAD_LIMIT"), os.environ.get("NUMBA_OPT"))
+cli.main = lambda: print(os.environ.get("PXR_WORK_THREAD_LIMIT"))
 cli.supervise = lambda *_, **__: None
 cli.run()
 """
-    environment = {name: value for name, value in os.environ.items() if name not in {*ONE_THREAD, "NUMBA_OPT"}} | given
+    environment = {name: value for name, value in os.environ.items() if name not in ONE_THREAD} | given
     done = subprocess.run(
         [sys.executable, "-c", code, command], env=environment, stdout=subprocess.PIPE, check=True, text=True
     )
-    assert done.stdout.split() == [threads, effort]
+    assert done.stdout.split() == [threads]
 
 
 @pytest.mark.parametrize("name", ["g.usdz", "g.usdc", "g.usda"])

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-SLOW = ("numba", "scipy", "bpy", "gymnasium")
+SLOW = ("scipy", "bpy", "gymnasium")
 
 
 @pytest.mark.parametrize(

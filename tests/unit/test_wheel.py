@@ -13,6 +13,8 @@ from support.sample_files import REPOSITORY
 DATA_FILES = (
     "datasets/*.jinja",
     "datasets/*.json",
+    "native/*.[ch]",
+    "native/loops.so",
     "profiles/*.toml",
     "render/*.osl",
     "sensors/rigs/*.toml",
@@ -35,7 +37,7 @@ def pip(*arguments):
 def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     pip("wheel", REPOSITORY, "--no-deps", "--no-build-isolation", "--wheel-dir", folder)
-    (file,) = folder.glob("garage2usd-*-py3-none-any.whl")
+    (file,) = folder.glob("garage2usd-*-py3-none-linux_*.whl")
     return file
 
 
@@ -68,6 +70,7 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     assert len(pictures) > 10
     expected = (
         "datasets/card.md.jinja",
+        "native/loops.so",
         "profiles/cn-jgj100.toml",
         "stage/meshes.npz",
         "view/page/index.html",
