@@ -3,10 +3,11 @@
 ``python hatch_build.py`` does it by hand. The compiler is ``$CC``, else the system's ``cc``, else that of the package
 ``ziglang``, which an installation without a compiler fetches for the time of building.
 """
+# ruff: noqa: S603 - compilers are run
 
+import functools
 import os
 import shlex
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -15,26 +16,60 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
+__all__ = ["NativeLoops", "compile_loops"]
+
 NATIVE = Path(__file__).parent / "garage2usd" / "native"
-# no multiplication and addition in one rounding, so that plans are the same on every machine
-FLAGS = ("-O2", "-std=c11", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-fvisibility=hidden", "-Wall", "-Wextra")
 LIBRARY = NATIVE / "loops.so"
+
+_LANGUAGE = ("-std=c11", "-Wall", "-Wextra")
+# a product and a sum are rounded one by one, so that plans are the same on every machine
+_ARITHMETIC = ("-O2", "-ffp-contract=off", "-fno-math-errno")
+_LIBRARY = ("-fPIC", "-shared", "-fvisibility=hidden")
+_SMALLEST = b"#include <math.h>\n#include <stdint.h>\ndouble of(double x) { return log(x); }\n"
 
 
 def compile_loops(library: Path = LIBRARY, source: Path = NATIVE, flags: tuple[str, ...] = ()) -> None:
-    """Compile all C files of a folder into a shared library, which is there whole or not at all."""
+    """Compile all C files of a folder into a shared library, which is there whole or not at all.
+
+    Raises
+    ------
+    SystemExit
+        If the compiler is not there, or refuses a file.
+    """
     unfinished = library.with_name(f"{library.name}.{os.getpid()}")
-    command = [*_compiler(), *FLAGS, *flags, "-o", unfinished, *sorted(source.glob("*.c")), "-lm"]
-    subprocess.run(command, check=True)
+    files = sorted(source.glob("*.c"))
+    command = [
+        *_compiler(),
+        *_LANGUAGE,
+        *_ARITHMETIC,
+        *_LIBRARY,
+        *flags,
+        "-o",
+        str(unfinished),
+        *map(str, files),
+        "-lm",
+    ]
+    try:
+        subprocess.run(command, check=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        sys.exit(f"garage2usd's loops in C are not compiled ({error}); the environment variable CC names the compiler")
     unfinished.replace(library)
 
 
 def _compiler() -> list[str]:
-    given = os.environ.get("CC")
-    if given:
+    if given := os.environ.get("CC"):
         return shlex.split(given)
-    system = shutil.which("cc")
-    return [system] if system else [sys.executable, "-m", "ziglang", "cc", "-mcpu=baseline"]
+    return ["cc"] if _has_system_compiler() else [sys.executable, "-m", "ziglang", "cc", "-mcpu=baseline"]
+
+
+@functools.cache
+def _has_system_compiler() -> bool:
+    """Whether ``cc`` is there, with the headers of the C library."""
+    command = ["cc", *_LIBRARY, "-x", "c", "-", "-o", os.devnull]
+    try:
+        return subprocess.run(command, input=_SMALLEST, capture_output=True, check=False).returncode == 0
+    except OSError:
+        return False
 
 
 class NativeLoops(BuildHookInterface[Any]):
@@ -42,9 +77,9 @@ class NativeLoops(BuildHookInterface[Any]):
 
     def dependencies(self) -> list[str]:
         """A compiler where there is none."""
-        return [] if os.environ.get("CC") or shutil.which("cc") else ["ziglang>=0.13"]
+        return [] if os.environ.get("CC") or _has_system_compiler() else ["ziglang>=0.13"]
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002 - hatchling's interface
         """Compile before the files are gathered."""
         compile_loops()
         build_data["pure_python"] = False

@@ -93,33 +93,46 @@ def _building() -> str:
 
 
 def _compiled() -> str:
-    """Steps per second of the compiled planner over the same code run by Python itself."""
-    pairs = [(_steps_per_second(compiled=True), _steps_per_second(compiled=False)) for _ in range(3)]
+    """Actions per second of the loop in C over those of plain Python, to which tests hold it."""
+    pairs = [(_actions_per_second(_LEARN_IN_C), _actions_per_second(_LEARN_SLOWLY)) for _ in range(3)]
     ratio = statistics.median(fast / slow for fast, slow in pairs)
     fast, slow = (statistics.median(rates) for rates in zip(*pairs, strict=True))
-    rows = ["## Compiled against pure Python", "", "| code | actions/s on 7x9, `paper` | ratio |", "|---|---|---|"]
-    rows += [f"| numba | {fast:,.0f} | {ratio:.0f} |", f"| the same, `NUMBA_DISABLE_JIT=1` | {slow:,.0f} | 1 |"]
+    rows = ["## Sarsa in C against plain Python", "", "| code | actions/s on 7x9, `paper` | ratio |", "|---|---|---|"]
+    rows += [
+        f"| `native/sarsa.c` | {fast:,.0f} | {ratio:.0f} |",
+        f"| `tests/support/sarsa/slow_sarsa.py` | {slow:,.0f} | 1 |",
+    ]
     return "\n".join(rows)
 
 
-def _steps_per_second(*, compiled: bool) -> float:
-    episodes = 5000 if compiled else PYTHON_EPISODES
-    code = f"""
+_SITE = """
 import json, time
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.planning import plan_lanes
 from garage2usd.site import make_site
 site = make_site(SiteConfig(entrance_cells=((6, 2),), exit_cells=((6, 6),)), bay=BayConfig(), seed=0)
-def run(episodes):
-    plan = PlanConfig(preset="paper", climb=False, archive_size=10, episodes=episodes)
-    return plan_lanes(site, plan=plan, bay=BayConfig(), seed=1).steps
-run(5)
+"""
+_LEARN_IN_C = f"""{_SITE}
+from garage2usd.planning import plan_lanes
+plan = PlanConfig(preset="paper", climb=False, archive_size=10, episodes=5000)
 start = time.perf_counter()
-steps = run({episodes})
+steps = plan_lanes(site, plan=plan, bay=BayConfig(), seed=1).steps
 print(json.dumps(steps / (time.perf_counter() - start)))
 """
-    environment = {**os.environ, "NUMBA_DISABLE_JIT": "0" if compiled else "1"}
-    run = subprocess.run([sys.executable, "-W", "ignore", "-c", code], env=environment, check=True, capture_output=True)  # noqa: S603
+_LEARN_SLOWLY = f"""{_SITE}
+from garage2usd.planning.decision import DecisionProcess
+from support.sarsa.slow_sarsa import SlowSarsa, SplitMix64
+plan = PlanConfig(preset="paper", climb=False)
+slow = SlowSarsa(DecisionProcess(site, BayConfig(), plan.resolved()), plan, SplitMix64(1), 10, float)
+start = time.perf_counter()
+for _ in range({PYTHON_EPISODES}):
+    slow.episode()
+print(json.dumps(slow.steps / (time.perf_counter() - start)))
+"""
+
+
+def _actions_per_second(code: str) -> float:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (HERE.parent, HERE.parent / "tests")))}
+    run = subprocess.run([sys.executable, "-c", code], env=environment, check=True, capture_output=True)  # noqa: S603
     return float(json.loads(run.stdout))
 
 

@@ -17,7 +17,7 @@ __all__ = ["waiting"]
 
 HERE = Path(__file__).parent
 BEFORE = "3211d42"
-"""The version from before functions were compiled once and assets were shared."""
+"""The version from before assets were shared; it compiles its loops by Numba, which has to be installed for it."""
 ROUNDS = 3
 LARGE_ROUNDS = 5
 
@@ -73,8 +73,8 @@ def waiting() -> str:
         "",
         (
             f"Processor seconds, medians of {ROUNDS} rounds in turns, of this version and of {BEFORE}, from which it "
-            "departed. First: with an empty cache of machine code, as after installing; the first 20 x 30 comes after "
-            "the first 7 x 9. Second: a command that finds that cache. Warm: a build after the first of its process, "
+            "departed. First: as after installing, when the version before has compiled nothing yet; the first 20 x 30 "
+            "comes after the first 7 x 9. Second: a command after those. Warm: a build after the first of its process, "
             "each of another seed. This version's defaults do more: plans circulate and are dimensioned, garages have "
             "stair cores and fire equipment, and each build is checked. The machine's load average was "
             f"{min(loads):.1f} to {max(loads):.1f} meanwhile, which adds to the seconds of both alike."
@@ -139,7 +139,7 @@ def _waits(root: Path, room: Path) -> dict[str, float]:
         configs[size].write_text(text)
     environment = os.environ | {"PYTHONPATH": str(root), "NUMBA_CACHE_DIR": str(room / "cache")}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    # as installing does
+    # as installing does, which also compiles the loops in C
     subprocess.run([sys.executable, "-m", "compileall", "-q", root / "garage2usd"], env=environment, check=True)
 
     def command(*arguments: object) -> float:

@@ -57,7 +57,9 @@ def python_functions():
     found = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         for node in ast.parse(path.read_text()).body:
-            if isinstance(node, ast.FunctionDef) and any(getattr(one, "id", "") == "in_c" for one in node.decorator_list):
+            if isinstance(node, ast.FunctionDef) and any(
+                getattr(one, "id", "") == "in_c" for one in node.decorator_list
+            ):
                 module = ".".join(("garage2usd", *path.relative_to(PACKAGE).with_suffix("").parts))
                 declared = getattr(importlib.import_module(module), node.name).__wrapped__
                 assert node.name.lstrip("_") not in found, f"{node.name} is declared twice"

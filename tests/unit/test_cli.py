@@ -210,7 +210,6 @@ def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
     assert first.value.code == second.value.code == 128 + signal.SIGTERM
 
 
-
 def test_the_schema_command_prints_the_schema():
     assert json.loads(run("schema").output) == config_schema()
 

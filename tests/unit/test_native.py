@@ -1,6 +1,5 @@
 """Python and C agree about what they hand to each other, which nothing else would notice but a crash."""
 
-
 import numpy as np
 import pytest
 from support.c_declarations import c_functions, c_structs, python_functions, same_type
