@@ -13,7 +13,7 @@ from garage2usd.config.plan import SarsaParameters
 from garage2usd.planning.archive import Archive, below, keep, uniform
 from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.polish import connect
+from garage2usd.planning.repair import connect
 
 __all__ = ["OPTIONS", "Runs", "learn_aisles", "new_values", "runs_of"]
 

@@ -1,12 +1,11 @@
 """The planner: Sarsa on a site, then repair and polish of the best that it met."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
+from garage2usd.planning.board import NO_VALUE, Board, measure, new_board, value_now
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
@@ -21,13 +20,11 @@ from garage2usd.planning.ranking import (
     least_floor_first,
     put_lanes,
 )
+from garage2usd.planning.repair import connect
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.progress import Progress, silent
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Structure
-
-if TYPE_CHECKING:
-    from garage2usd.planning.board import Board
 
 __all__ = ["plan_lanes"]
 
@@ -70,8 +67,6 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     is taken before any that does not; the reported score has no such term. Deviation: where R and C are chosen, plans
     are compared by the floor that a stall takes.
     """
-    from garage2usd.planning.board import new_board  # noqa: PLC0415 - only planning pays for the compiler
-
     ground = ground_of(site, bay=bay, plan=plan)
     rng = generator(seed, Step.PLAN)
     if not len(ground.squares) or not len(ground.entrances):
@@ -114,16 +109,13 @@ def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed
 
 
 def _archived(
-    site: Structure, ground: Ground, board: "Board", lanes: Lanes, *, is_polished: bool = False
+    site: Structure, ground: Ground, board: Board, lanes: Lanes, *, is_polished: bool = False
 ) -> ArchivedPlan:
     return ArchivedPlan(site.with_cells(cells_of(ground, lanes)), _score(ground, board, lanes), is_polished)
 
 
-def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[Ranked]:
+def _repaired(ground: Ground, board: Board, lanes: Lanes) -> list[Ranked]:
     """Lanes connected with each other and the portals by shortest paths; empty if there are none."""
-    from garage2usd.planning.board import NO_VALUE, measure  # noqa: PLC0415
-    from garage2usd.planning.polish import connect  # noqa: PLC0415
-
     put_lanes(ground, board, lanes)
     if not connect(ground, board):
         return []
@@ -131,10 +123,8 @@ def _repaired(ground: Ground, board: "Board", lanes: Lanes) -> list[Ranked]:
     return [(value, lanes_on(ground, board))]
 
 
-def _score(ground: Ground, board: "Board", lanes: Lanes) -> Score:
+def _score(ground: Ground, board: Board, lanes: Lanes) -> Score:
     """The compiled score of one layout; `evaluate` gives the same from the structure."""
-    from garage2usd.planning.board import measure, value_now  # noqa: PLC0415
-
     put_lanes(ground, board, lanes)
     measure(ground, board, -np.inf)
     stalls, time, unused = board.tally[:3].tolist()
@@ -143,7 +133,7 @@ def _score(ground: Ground, board: "Board", lanes: Lanes) -> Score:
     return Score(float(value_now(ground, board)), stalls, time / stalls, unused)
 
 
-def _draw(ground: Ground, board: "Board", ranked: list[Ranked], plan: PlanConfig, rng: np.random.Generator) -> int:
+def _draw(ground: Ground, board: Board, ranked: list[Ranked], plan: PlanConfig, rng: np.random.Generator) -> int:
     """Which plan of the archive is taken: the first, or any above the quality floor that keeps the rules as well."""
     if plan.choice is Choice.BEST:
         return 0

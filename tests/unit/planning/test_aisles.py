@@ -11,7 +11,7 @@ from garage2usd.planning.board import measure
 from garage2usd.planning.bound import counting_bound
 from garage2usd.planning.drift import drift
 from garage2usd.planning.ground import cells_of, ground_of
-from garage2usd.planning.polish import connect
+from garage2usd.planning.repair import connect
 from garage2usd.site import make_site
 
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")

@@ -10,7 +10,7 @@ from garage2usd.planning import board as board_module
 from garage2usd.planning import labels
 from garage2usd.planning.board import NO_VALUE, measure, new_board, value_now
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
-from garage2usd.planning.polish import connect
+from garage2usd.planning.repair import connect
 
 clear, dead_ends, lay = map(from_python, (board_module.clear, board_module.dead_ends, board_module.lay))
 trim = from_python(labels.trim)

@@ -12,7 +12,7 @@ from garage2usd.planning import flips
 from garage2usd.planning.board import NO_VALUE, measure, new_board
 from garage2usd.planning.flips import FLIPPED, REFUSED, TALLIED
 from garage2usd.planning.ground import ground_of
-from garage2usd.planning.polish import connect
+from garage2usd.planning.repair import connect
 
 flip_within = from_python(flips.flip_within)
 
