@@ -1,6 +1,4 @@
-"""Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. Compiled."""
-# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
-# ruff: noqa: C901, PLR0912, PLR0915, PLR2004 - a decision is one loop over the squares of a run
+"""Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. In C, `aisles.c`."""
 
 from itertools import pairwise, product
 from typing import NamedTuple
@@ -8,12 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_inlined, compiled_inner
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.planning.archive import Archive, below, keep, uniform
-from garage2usd.planning.board import NO_VALUE, Board, clear, measure, stalls_at
+from garage2usd.native import in_c
+from garage2usd.planning.archive import Archive
+from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.repair import connect
 
 __all__ = ["OPTIONS", "Runs", "learn_aisles", "new_values", "runs_of"]
 
@@ -22,10 +19,6 @@ OPTIONS = 4
 
 _PROFILES, _SHARES, _AHEAD = 9, 2, 4
 """How many profiles, shares of the commonest one and numbers of free squares ahead tell the states of a run apart."""
-_EVEN_SHARE = 0.8
-"""Of the squares of a run that has one profile all along, but for an obstacle or two. Not measured."""
-_LONGEST_PART = 8
-"""Runs of an archived plan that one episode decides anew: some rows of stalls with their aisles. Not measured."""
 _ANY_STRETCH = 1000
 """Squares, as many as `site.width_cells` and `height_cells` allow: a stretch of any length."""
 _INSETS = 3
@@ -242,71 +235,7 @@ def new_values() -> NDArray[np.float64]:
     return np.full((_STATES, OPTIONS), _OPTIMISTIC)
 
 
-@compiled_inner
-def _profile(board: Board, square: int, across: int) -> int:
-    """What lies behind a square: 0 to 3 squares or more up to a wall, or 4 to 8 for 0 to 4 squares up to a lane.
-
-    More than four free squares count as a lane behind four.
-    """
-    gap, q = 0, square - across
-    while board.cells[q] == 0 and gap < 4:
-        gap += 1
-        q -= across
-    if board.cells[q] == 1:
-        return 4 + gap
-    return min(gap, 3) if board.cells[q] != 0 else 8
-
-
-@compiled_inner
-def _commonest(counts: NDArray[np.int64]) -> int:
-    """Where a row of numbers is greatest first."""
-    most = 0
-    for place in range(len(counts)):
-        if counts[place] > counts[most]:
-            most = place
-    return most
-
-
-@compiled_inlined
-def _state(board: Board, first: int, length: int, along: int, across: int, room: Room) -> tuple[int, int]:
-    """State of a run, the same on every site, and its most frequent profile."""
-    profiles, counts, ahead = room.profiles, room.counts, room.ahead
-    for profile in range(_PROFILES):
-        counts[profile] = 0
-    for far in range(_AHEAD):
-        ahead[far] = 0
-    for index in range(length):
-        q = first + index * along
-        profiles[index] = _profile(board, q, across)
-        counts[profiles[index]] += 1
-        far = 0
-        while far < _AHEAD - 1 and board.cells[q + (far + 1) * across] == 0:
-            far += 1
-        ahead[far] += 1
-    most = _commonest(counts)
-    even = 1 if counts[most] > _EVEN_SHARE * length else 0
-    return (most * _SHARES + even) * _AHEAD + _commonest(ahead), most
-
-
-@compiled_inner
-def _lay_run(ground: Ground, board: Board, first: int, last: int, along: int, across: int) -> float:
-    """Make all free squares of a run lanes; what the stalls and unused squares beside it gain."""
-    cells, weights = board.cells, ground.weights
-    gain = 0.0
-    for sign in (-1.0, 1.0):
-        for q in range(first - along, last + 2 * along, along):
-            for p in (q - across, q, q + across):
-                if cells[p] == 0:
-                    stalls, _ = stalls_at(ground, board, p)
-                    gain += sign * (weights[0] * stalls + (weights[2] if stalls == 0 else 0.0))
-        if sign < 0:
-            for q in range(first, last + along, along):
-                if cells[q] == 0:
-                    cells[q] = 1
-    return gain
-
-
-@compiled
+@in_c
 def learn_aisles(
     ground: Ground,
     board: Board,
@@ -334,80 +263,4 @@ def learn_aisles(
     The reward is the increment of ``k_1 N_S + k_3 U_S``, per square of the run. What stays apart is joined by
     repair.
     """
-    gamma, epsilon, alpha = parameters.gamma, schedule[0], schedule[2]
-    states, options, rewards, tape, profiles, _, _, laid = room
-    taken = 0
-    for episode in range(first, last):
-        clear(ground, board)
-        # most episodes decide part of an archived one anew
-        entry, part_begin, part_end = -1, 0, len(runs.first)
-        if archive.in_use[0] > 0 and uniform(random) < parameters.revisit_rate:
-            entry, rival = below(random, archive.in_use[0]), below(random, archive.in_use[0])
-            if archive.values[rival] > archive.values[entry]:
-                entry = rival
-        # only what is decided anew is explored; whole episodes follow what is learnt on other sites
-        explored = epsilon if entry >= 0 or parameters.revisit_rate == 0 else 0.0
-        # direction and the aisle across it
-        choice = archive.starts[entry] if entry >= 0 else episode % (2 * runs.spines.shape[1])
-        direction, place = choice % 2, choice // 2
-        along, across = (1, ground.stride) if direction == 0 else (ground.stride, 1)
-        earned = 0.0
-        for number in range(runs.spines.shape[2]):
-            spine = runs.spines[direction, place, number]
-            if spine < 0:
-                break
-            earned += _lay_run(
-                ground, board, runs.first[spine], runs.first[spine] + (runs.length[spine] - 1) * across, across, along
-            )
-        begin = 0 if direction == 0 else runs.turned[0]
-        if entry >= 0:
-            part_begin = begin + below(random, runs.turned[direction] - begin)
-            part_end = part_begin + 1 + below(random, np.int64(_LONGEST_PART))
-        for run in range(begin, runs.turned[direction]):
-            head, length = runs.first[run], runs.length[run]
-            state, most = _state(board, head, length, along, across, room)
-            option = below(random, np.int64(OPTIONS))
-            if run < part_begin or run >= part_end:
-                option = archive.tapes[entry, run]
-            elif uniform(random) >= explored:
-                for other in range(OPTIONS):
-                    if values[state, other] > values[state, option]:
-                        option = other
-            low, high = 0, length - 1
-            if option == 2:
-                low, high = 1, length - 2
-            elif option == 3:
-                best, since = 0, 0
-                low, high = 0, -1
-                for index in range(length + 1):
-                    if index == length or profiles[index] != most:
-                        if index - since > best:
-                            best, low, high = index - since, since, index - 1
-                        since = index + 1
-            gain = 0.0
-            if option > 0 and low <= high:
-                gain = _lay_run(ground, board, head + low * along, head + high * along, along, across)
-            earned += gain
-            states[run], options[run], rewards[run] = state, option, gain / length
-            tape[run] = option
-            taken += 1
-        # what became of a run is felt by the run ahead of it, not by the next to be decided
-        for run in range(begin, runs.turned[direction]):
-            target, state, option = rewards[run], states[run], options[run]
-            ahead = runs.ahead[run]
-            if ahead >= 0:
-                target += gamma * values[states[ahead], options[ahead]]
-            values[state, option] += alpha * (target - values[state, option])
-        curve[episode] = earned
-        if archive.in_use[0] < enough and connect(ground, board):
-            value = measure(ground, board, -np.inf)
-            if value > NO_VALUE:
-                count = 0
-                for q in ground.squares:
-                    if board.cells[q] == 1:
-                        laid[count] = q
-                        count += 1
-                keep(archive, laid, count, value, tape, len(tape), choice)
-        epsilon, alpha = epsilon * schedule[1], alpha * schedule[3]
-    schedule[0], schedule[2] = epsilon, alpha
-    return taken
+    raise NotImplementedError

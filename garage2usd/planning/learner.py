@@ -2,19 +2,19 @@
 
 import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
+from garage2usd.planning import aisles
+from garage2usd.planning.archive import new_archive, next_random, ranked_lanes
+from garage2usd.planning.board import Board, new_board
 from garage2usd.planning.ground import Ground, Lanes, ground_of
+from garage2usd.planning.sarsa import grown, learn, new_memory, new_room
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, Structure
-
-if TYPE_CHECKING:
-    from garage2usd.planning.board import Board
 
 __all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]
 
@@ -61,7 +61,7 @@ def uses_aisles(ground: Ground, plan: PlanConfig) -> bool:
 
 
 def learn_squares(
-    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
+    ground: Ground, board: Board, plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
 ) -> Learnt:
     """Learn over squares, as often as the settings say; the curve is that of the start that met the best plan."""
     count = plan.resolved().starts
@@ -77,12 +77,9 @@ def learn_squares(
 
 
 def _learn_once(
-    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress
+    ground: Ground, board: Board, plan: PlanConfig, random: NDArray[np.uint64], progress: Progress
 ) -> Learnt:
     """Run all episodes in batches, between which progress is reported and signals are handled."""
-    from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415 - only planning pays for it
-    from garage2usd.planning.sarsa import grown, learn, new_memory, new_room  # noqa: PLC0415
-
     parameters = plan.resolved()
     steps = parameters.max_steps_per_square * len(ground.squares)
     kept = min(plan.archive_size, _ELITE) if parameters.revisit_rate else plan.archive_size
@@ -104,7 +101,7 @@ def _learn_once(
 
 
 def learn_aisles(
-    ground: Ground, board: "Board", plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
+    ground: Ground, board: Board, plan: PlanConfig, random: NDArray[np.uint64], progress: Progress = silent
 ) -> Learnt:
     """Learn over aisles on a small site first, and carry the values over to this one.
 
@@ -114,9 +111,6 @@ def learn_aisles(
     obstacles holds here; episodes on the site itself then decide parts of the best plans anew. Their number is what
     the settings say, or less where the site is so large that they would take more than a second.
     """
-    from garage2usd.planning import aisles  # noqa: PLC0415
-    from garage2usd.planning.archive import new_archive, ranked_lanes  # noqa: PLC0415
-
     parameters = plan.resolved(aisles=True)
     runs = aisles.runs_of(ground)
     if not len(runs.first):
@@ -153,10 +147,6 @@ def learn_aisles(
 
 def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint64]) -> tuple[NDArray[np.float64], int]:
     """What is learnt over aisles on a small site like this one, and how many decisions it took."""
-    from garage2usd.planning import aisles  # noqa: PLC0415
-    from garage2usd.planning.archive import new_archive, next_random  # noqa: PLC0415
-    from garage2usd.planning.board import new_board  # noqa: PLC0415
-
     nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(next_random(random)))))
     values, runs = aisles.new_values(), aisles.runs_of(nursery)
     archive = new_archive(1, padded=len(nursery.cells), steps=len(runs.first))

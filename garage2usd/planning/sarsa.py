@@ -1,16 +1,14 @@
-"""Episodes of tabular Sarsa: an agent drives over the site and colours lanes. Compiled."""
-# Over 300 lines: Numba caches by file, and an edited callee in another one leaves its callers stale.
-# ruff: noqa: C901, PLR0912, PLR0915, PLR1714 - an episode is one loop; calls that share its state halve the speed
+"""Episodes of tabular Sarsa: an agent drives over the site and colours lanes. In C, `sarsa.c`."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled, compiled_inlined, compiled_inner
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.planning.archive import Archive, keep, next_random, uniform
-from garage2usd.planning.board import NO_VALUE, Board, clear, faults_cost, lay, value_now
+from garage2usd.native import in_c
+from garage2usd.planning.archive import Archive
+from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
 
 __all__ = ["ACTIONS", "STAY", "Memory", "Room", "grown", "learn", "new_memory", "new_room", "observe"]
@@ -18,8 +16,6 @@ __all__ = ["ACTIONS", "STAY", "Memory", "Room", "grown", "learn", "new_memory", 
 STAY = 4
 ACTIONS = 5
 """Up, down, left, right, stay; the first four as `garage2usd.structure.grid.NEIGHBOUR_STEPS`."""
-
-_UNTOUCHED = 3
 
 
 class Memory(NamedTuple):
@@ -98,80 +94,18 @@ def grown(memory: Memory) -> Memory:
     return larger
 
 
-@compiled
+@in_c
 def _carry_over(memory: Memory, larger: Memory) -> None:
     """Put all that a table holds into an empty one."""
-    for row in range(len(memory.keys)):
-        if memory.keys[row] != 0:
-            place = _row(larger, memory.keys[row])
-            for action in range(ACTIONS):
-                larger.q[place, action] = memory.q[row, action]
+    raise NotImplementedError
 
 
-@compiled_inner
-def _row(memory: Memory, key: np.uint64) -> int:
-    """Row of a state, a new one if it was never met."""
-    mask = np.uint64(len(memory.keys) - 1)
-    place = (key ^ (key >> np.uint64(32))) & mask
-    while memory.keys[place] != key:
-        if memory.keys[place] == 0:
-            memory.keys[place] = key
-            memory.used[0] += 1
-            break
-        place = (place + np.uint64(1)) & mask
-    return int(np.int64(place))  # numba mixes unsigned and signed to float
-
-
-@compiled
-def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: Whole) -> np.uint64:
+@in_c
+def observe(ground: Ground, board: Board, parameters: SarsaParameters, square: int, previous: int) -> np.uint64:
     """Hash of the state S_t = (D, M, A_{t-1})."""
-    cells, stride, radius = board.cells, ground.stride, parameters.window_radius_squares
-    prime = np.uint64(0x9E3779B97F4A7C15)
-    key = np.uint64(previous + 1) << np.uint64(32)  # above the squares of any row of M
-    packed = np.uint64(0)
-    for row in range(-radius, radius + 1):
-        first = square + row * stride - radius
-        for q in range(first, first + 2 * radius + 1):
-            packed = (packed << np.uint64(3)) | np.uint64(cells[q] + 1)
-        key = (key ^ packed) * prime
-        key ^= key >> np.uint64(29)
-        packed = np.uint64(0)
-    if parameters.sees_distances:
-        for step in (-stride, stride, -1, 1):
-            q, far = square + step, 0
-            while cells[q] == 0 or cells[q] == 1:
-                q += step
-                far += 1
-            packed = (packed << np.uint64(12)) | np.uint64(far)
-        key = (key ^ packed) * prime
-        key ^= key >> np.uint64(31)
-    return key | np.uint64(1)
+    raise NotImplementedError
 
 
-@compiled_inlined
-def _choose(memory: Memory, row: int, allowed: NDArray[np.bool_], epsilon: float, random: NDArray[np.uint64]) -> Whole:
-    """An epsilon-greedy action: greedy with probability 1 - epsilon + epsilon / |A|."""
-    count = 0
-    for action in range(ACTIONS):
-        count += allowed[action]
-    if uniform(random) < epsilon:
-        nth = np.int64(uniform(random) * count)
-        for action in range(ACTIONS):
-            if allowed[action]:
-                if nth == 0:
-                    return action
-                nth -= 1
-    first = np.int64(next_random(random) % np.uint64(ACTIONS))
-    best: Whole = -1
-    top = -np.inf
-    for offset in range(ACTIONS):
-        place = (first + offset) % ACTIONS
-        if allowed[place] and memory.q[row, place] > top:
-            best, top = place, memory.q[row, place]
-    return best
-
-
-@compiled
 def learn(
     ground: Ground,
     board: Board,
@@ -196,122 +130,24 @@ def learn(
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))``. `curve` takes the paper's
     ``E = sum_{t=1}^{T-1} R_t`` of each episode, without the R_T of a failure.
     """
-    p = parameters
-    cells = board.cells
-    moves, allowed, tape, laid = room
-    max_steps = min(p.max_steps_per_square * len(ground.squares), len(tape))
-    action: Whole = STAY
-    epsilon, unchanged, steps_taken = memory.course[0], memory.course[1], 0
-    for episode in range(first, last):
-        if 2 * (memory.used[0] + max_steps) > len(memory.keys):
-            memory.course[0], memory.course[1] = epsilon, unchanged
-            return episode, steps_taken
-        clear(ground, board)
-        start = ground.entrances[np.int64(next_random(random) % np.uint64(len(ground.entrances)))]
-        position, run, lanes = start, 0, 0
-        step: Whole = 0
-        previous: Whole = np.int64(STAY)
-        # go on from part of an archived episode
-        if archive.in_use[0] > 0 and uniform(random) < p.revisit_rate:
-            entry = np.int64(next_random(random) % np.uint64(archive.in_use[0]))
-            rival = np.int64(next_random(random) % np.uint64(archive.in_use[0]))
-            if archive.values[rival] > archive.values[entry]:
-                entry = rival
-            start = archive.starts[entry]
-            position = start
-            share = uniform(random)
-            step = np.int64(share * archive.lengths[entry])
-            for index in range(step):
-                action = archive.tapes[entry, index]
-                tape[index] = action
-                position += moves[action]
-                if cells[position] == 0:
-                    lay(ground, board, position)
-                    laid[lanes] = position
-                    lanes += 1
-                run = run + 1 if action == previous else 1
-                previous = action
-        best_value, best_lanes = NO_VALUE, 0
-        best_step: Whole = 0
-        earned, reward = float(board.tally[0]), 0.0
-        row, old_row, action = -1, -1, STAY
-        old_action: Whole = STAY
-        done = False
-        while step < max_steps and not done:
-            if p.masks_actions:
-                ways = 0
-                for way in range(4):
-                    kind = cells[position + moves[way]]
-                    allowed[way] = kind == 0 or kind == 1
-                    ways += allowed[way]
-                allowed[STAY] = False
-                if ways == 0:  # walled in
-                    break
-            row = _row(memory, observe(ground, board, p, position, previous))
-            action = _choose(memory, row, allowed, epsilon, random)
-            if old_row >= 0:
-                target = reward + p.gamma * memory.q[row, action]
-                memory.q[old_row, old_action] += p.alpha * (target - memory.q[old_row, old_action])
-            target_square = position + moves[action]
-            kind = cells[target_square]
-            reward = -p.step_penalty
-            failed = False
-            if action == STAY:
-                done = position == start
-                reward -= p.step_penalty
-            elif position == start and previous != STAY:
-                failed = True  # having come back to the start, only staying is left
-            elif kind == 0 or kind == 1 or target_square == start:
-                if previous != STAY and previous == (action ^ 1):
-                    reward -= p.turn_back_penalty
-                elif previous != STAY and previous != action and run < p.min_run_squares:
-                    reward -= p.interval_penalty
-                if kind == 0:
-                    beside = 0
-                    for way in range(4):
-                        beside += cells[target_square + moves[way]] == 1
-                    reward -= p.wheeling_penalty * max(0, beside - 1)
-                    reward += p.loop_reward * (beside > 1)
-                    stalls = board.tally[0]
-                    lay(ground, board, target_square)
-                    laid[lanes] = target_square
-                    lanes += 1
-                    reward += board.tally[0] - stalls
-                run = run + 1 if action == previous else 1
-                position = target_square
-            else:
-                failed = True
-            steps_taken += 1
-            if failed:
-                memory.q[row, action] += p.alpha * (-p.failure_penalty - memory.q[row, action])
-                row = -1
-                break
-            tape[step] = action
-            step += 1
-            previous = action
-            earned += reward
-            old_row, old_action = row, action
-            if p.archives_prefixes and kind == 0 and board.tally[_UNTOUCHED] == 0:
-                value = value_now(ground, board)
-                if value > best_value:
-                    value -= faults_cost(ground, board)
-                    if value > best_value:
-                        best_value, best_lanes, best_step = value, lanes, step
-        if row >= 0:
-            memory.q[row, action] += p.alpha * (reward - memory.q[row, action])
-        if not p.archives_prefixes and board.tally[_UNTOUCHED] == 0:
-            best_value = value_now(ground, board) - faults_cost(ground, board)
-            best_lanes, best_step = lanes, step
-        if best_value > NO_VALUE:
-            keep(archive, laid, best_lanes, best_value, tape, best_step, start)
-        curve[episode] = earned
-        key = np.uint64(0)
-        for index in range(lanes):
-            key ^= np.uint64(laid[index] * laid[index] + 1) * np.uint64(0xBF58476D1CE4E5B9)
-        unchanged = unchanged + 1 if key == memory.last[0] else 0.0
-        memory.last[0] = key
-        epsilon = max(epsilon * p.epsilon_decay, p.epsilon_min)
-        if unchanged >= p.patience_episodes:
-            epsilon, unchanged = p.epsilon_refresh, 0.0
-    memory.course[0], memory.course[1] = epsilon, unchanged
-    return last, steps_taken
+    taken = np.zeros(1, np.int64)
+    episode = _learn(ground, board, parameters, memory, archive, room, random, curve, first, last, taken)
+    return episode, int(taken[0])
+
+
+@in_c
+def _learn(
+    ground: Ground,
+    board: Board,
+    parameters: SarsaParameters,
+    memory: Memory,
+    archive: Archive,
+    room: Room,
+    random: NDArray[np.uint64],
+    curve: NDArray[np.float64],
+    first: int,
+    last: int,
+    taken: NDArray[np.int64],
+) -> int:
+    """`learn`, where `taken` takes the number of actions."""
+    raise NotImplementedError
