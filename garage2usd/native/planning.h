@@ -219,6 +219,9 @@ void sync_sides(const Ground *ground, const Board *board, const Sizes *sizes);
 void foresee(const Ground *ground, const Board *board, const Sizes *sizes);
 void settle(const Ground *ground, const Board *board, const Sizes *sizes, int64_t passes);
 
+/* Whether any side is chosen with the plan. */
+static inline bool is_sized(const Sizes *sizes) { return sizes->is_chosen.at[0] || sizes->is_chosen.at[1]; }
+
 /* Whether cars drive along X on a square, and along Z, as a sum of `ALONG_X` and `ALONG_Z`. */
 enum { ALONG_X = 1, ALONG_Z = 2 };
 static inline int64_t driven_ways(const int8_t *cells, int64_t stride, int64_t q)
