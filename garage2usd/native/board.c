@@ -93,7 +93,7 @@ double value_now(const Ground *ground, const Board *board)
 }
 
 /* Dead-end aisles over the ground's limit, from the tip to the next junction or portal. */
-static int64_t dead_ends(const Ground *ground, const int8_t *cells)
+int64_t dead_ends(const Ground *ground, const int8_t *cells)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t count = 0;

@@ -178,12 +178,16 @@ void survey(const int64_t *squares, int64_t count, int64_t stride, const int8_t 
             int64_t dead_end_squares, int64_t stretch_squares, Survey *found);
 
 /* board.c */
+FROM_PYTHON
 void clear(const Ground *ground, Board *board);
+FROM_PYTHON
 void lay(const Ground *ground, Board *board, int64_t square);
 FROM_PYTHON
 double value_now(const Ground *ground, const Board *board);
 FROM_PYTHON
 double measure(const Ground *ground, Board *board, double enough);
+FROM_PYTHON
+int64_t dead_ends(const Ground *ground, const int8_t *cells);
 double faults_cost(const Ground *ground, Board *board);
 int64_t mark_network(const Ground *ground, Board *board, int64_t first);
 
@@ -213,10 +217,14 @@ static inline int64_t stalls_at(const Ground *ground, const Board *board, int64_
 
 /* sizes.c */
 void copy_sides(const Int64Table *target, const Int64Table *source);
+FROM_PYTHON
 double weigh(const Ground *ground, const Board *board, const Sizes *sizes, int64_t axis, int64_t line, int64_t side_mm);
+FROM_PYTHON
 void resize(const Ground *ground, const Sizes *sizes, int64_t axis, int64_t line, int64_t side_mm);
+FROM_PYTHON
 void sync_sides(const Ground *ground, const Board *board, const Sizes *sizes);
 void foresee(const Ground *ground, const Board *board, const Sizes *sizes);
+FROM_PYTHON
 void settle(const Ground *ground, const Board *board, const Sizes *sizes, int64_t passes);
 
 /* Whether any side is chosen with the plan. */
@@ -247,6 +255,17 @@ static inline int64_t side_now(const Sizes *sizes, int64_t axis, int64_t line)
 
 /* What the floor costs, in stalls. */
 static inline double floor_cost(const Sizes *sizes) { return sizes->price.at[0] * sizes->area_m2.at[0]; }
+
+/* flips.c: what became of a flip. */
+enum { REFUSED = 0, FLIPPED = 1, TALLIED = 2 };
+FROM_PYTHON
+int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, int32_t *hops, int64_t q, int64_t p,
+                    double enough);
+
+/* polish.c */
+FROM_PYTHON
+double improve(const Ground *ground, Board *board, const Sizes *sizes, const PolishRoom *room, uint64_t *random,
+               int64_t passes, int64_t flips, double hottest, double coldest);
 
 /* repair.c: connect all lanes and portals by shortest paths over free squares; false if there are none. */
 FROM_PYTHON
