@@ -1,16 +1,13 @@
-"""A draft of lanes under annealing: labels, and one move that is judged before it is made. Compiled."""
-# ruff: noqa: PLR2004 - an entrance among the cells
+"""A draft of lanes under annealing: labels, and one move that is judged before it is made. In C, `draft.c`."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import Whole, compiled_inlined, compiled_inner
-from garage2usd.planning.board import FAR, Board
 from garage2usd.planning.ground import Ground
 
-__all__ = ["Draft", "add_square", "apply", "gather", "new_draft", "revert"]
+__all__ = ["Draft", "new_draft"]
 
 _MOVED = 400
 """Room for the squares of one move; what needs more is not a move."""
@@ -91,63 +88,3 @@ def new_draft(ground: Ground) -> Draft:
         np.zeros(6, np.int64),
         np.zeros(6, np.int64),
     )
-
-
-@compiled_inner
-def add_square(draft: Draft, q: int, label: Whole) -> bool:
-    """Have a square in the move; False if there is no room for it."""
-    if draft.size[0] >= _MOVED:
-        return False
-    draft.moved[draft.size[0]] = q
-    draft.fresh[draft.size[0]] = label
-    draft.size[0] += 1
-    return True
-
-
-@compiled_inlined
-def gather(draft: Draft, stride: int) -> None:
-    """Find the squares that a move may touch."""
-    draft.marks[0] += 1
-    mark, stamp, size = draft.marks[0], draft.stamp, 0
-    for index in range(draft.size[0]):
-        q = draft.moved[index]
-        for step in (0, -stride, stride, -1, 1):
-            if stamp[0, q + step] != mark:
-                stamp[0, q + step] = mark
-                draft.around[size] = q + step
-                size += 1
-    draft.size[1] = size
-
-
-@compiled_inlined
-def apply(ground: Ground, board: Board, draft: Draft) -> None:
-    """Make the move; new lanes get their hops from what is around."""
-    cells, hops, label, stride = board.cells, board.hops, draft.label, ground.stride
-    for index in range(draft.size[0]):
-        q = draft.moved[index]
-        draft.old[index], draft.old_hops[index] = label[q], hops[q]
-        label[q] = draft.fresh[index]
-        was_lane = cells[q] == 1
-        cells[q] = 1 if draft.fresh[index] > 0 else 0
-        if not was_lane or cells[q] == 0:
-            hops[q] = FAR
-    for turn in range(2):
-        for place in range(draft.size[0]):
-            index = place if turn == 0 else draft.size[0] - 1 - place
-            q = draft.moved[index]
-            if cells[q] == 1 and draft.old[index] == 0:
-                for step in (-stride, stride, -1, 1):
-                    p = q + step
-                    if cells[p] == 1:
-                        hops[q] = min(hops[q], hops[p] + 1)
-                    elif cells[p] == 2:
-                        hops[q] = 1
-
-
-@compiled_inlined
-def revert(board: Board, draft: Draft) -> None:
-    """Take the move back."""
-    for index in range(draft.size[0] - 1, -1, -1):
-        q = draft.moved[index]
-        draft.label[q], board.hops[q] = draft.old[index], draft.old_hops[index]
-        board.cells[q] = 1 if draft.old[index] > 0 else 0

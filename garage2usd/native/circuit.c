@@ -1,0 +1,403 @@
+/* Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. */
+#include <string.h>
+
+#include "draft.h"
+
+/* Shares of the moves that are of a side, and that start at what is broken. */
+#define RESIZED_SHARE 0.02
+#define FAULTY_SHARE 0.25
+
+/* What a fault weighs, in stalls, in the choice of the best plan: while annealing, and where faults are mended. */
+#define FAULT_PRICE 30.0
+#define FAULT_PRICE_AT_LAST 1.0e5
+
+/* What is broken still at last is mended where it is, by moves that may cost stalls before they pay. */
+enum { MENDING_TRIALS = 60000, MENDING_REFRESH = 2000 };
+#define MENDING_HEAT 2.0
+#define MENDING_FAULTY_SHARE 1.0
+
+/* Where `Draft.tally` and `Draft.change` have the faults of labels, blocks and squares too long, after the STALLS, TIME
+ * and UNUSED that a board's tally has, too. */
+enum { BAD = 3, BLOCKS = 4, EXCESS = 5 };
+enum { TAKEN_OFF = -1, PUT_ON = 1 };
+
+/* The number of the row or of the column that a square lies on, by the axis. */
+static int64_t line_on(int64_t stride, int64_t axis, int64_t q) { return axis == 0 ? q / stride : q % stride; }
+
+/* Blocks of two by two lanes that touch the moved squares. */
+static int64_t blocks_at(const int8_t *cells, Draft *draft, int64_t stride)
+{
+    int64_t mark = ++draft->marks.at[BLOCKS_MET], count = 0;
+    int64_t *stamp = draft->stamp.at + BLOCKS_MET * draft->stamp.columns;
+    const int64_t corners[4] = { 0, -1, -stride, -stride - 1 };
+    for (int64_t index = 0; index < draft->size.at[MOVED]; index++)
+        for (int place = 0; place < 4; place++) {
+            int64_t corner = draft->moved.at[index] + corners[place];
+            if (stamp[corner] != mark) {
+                stamp[corner] = mark;
+                count += cells[corner] == LANE && cells[corner + 1] == LANE && cells[corner + stride] == LANE &&
+                         cells[corner + stride + 1] == LANE;
+            }
+        }
+    return count;
+}
+
+/* Add what the squares around a move hold, or take it off. */
+static void count_around(const Ground *ground, const Board *board, Draft *draft, int64_t sign)
+{
+    const int8_t *cells = board->cells.at;
+    int64_t *change = draft->change.at;
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
+        int64_t x = draft->around.at[index];
+        if (cells[x] == FREE) {
+            int64_t near, count = stalls_at(ground, board, x, &near);
+            change[STALLS] += sign * count;
+            change[UNUSED] += sign * (count == 0);
+            if (count > 0)
+                change[TIME] += sign * count * (1 + near);
+        } else if (cells[x] == LANE) {
+            change[BAD] += sign * fault(cells, draft->label.at, ground->stride, x);
+        }
+    }
+    change[BLOCKS] += sign * blocks_at(cells, draft, ground->stride);
+}
+
+/* Squares by which the stretches around a move are too long. */
+static int64_t excess_around(const Ground *ground, const Board *board, Draft *draft)
+{
+    const int8_t *cells = board->cells.at, *label = draft->label.at;
+    const int64_t steps[4] = STEPS_BESIDE(ground->stride);
+    int64_t stride = ground->stride, *queue = draft->queue.at, excess = 0;
+    int64_t mark = ++draft->marks.at[SEARCHED], *stamp = draft->stamp.at + SEARCHED * draft->stamp.columns;
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
+        int64_t first = draft->around.at[index];
+        if (label[first] != THROUGH || stamp[first] == mark || through(cells, label, stride, first) != 2)
+            continue;
+        stamp[first] = mark;
+        queue[0] = first;
+        int64_t head = 0, tail = 1;
+        while (head < tail) {
+            int64_t q = queue[head++];
+            for (int way = 0; way < 4; way++) {
+                int64_t p = q + steps[way];
+                if (label[p] == THROUGH && stamp[p] != mark && through(cells, label, stride, p) == 2) {
+                    stamp[p] = mark;
+                    queue[tail++] = p;
+                }
+            }
+        }
+        excess += most(0, tail - ground->rules.stretch_squares);
+    }
+    return excess;
+}
+
+/* Count where cars drive around a move into the lines, or take it off. */
+static void drive(const Board *board, const Draft *draft, const Sizes *sizes, int64_t stride, int64_t sign)
+{
+    int64_t *rows = sizes->driven.at, *columns = sizes->driven.at + sizes->driven.columns;
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
+        int64_t q = draft->around.at[index];
+        if (board->cells.at[q] < LANE)
+            continue;
+        int64_t ways = driven_ways(board->cells.at, stride, q);
+        rows[q / stride] += sign * (ways & ALONG_X);
+        columns[q % stride] += sign * (ways >> 1);
+    }
+}
+
+/* Whether a line is to have another side than it has. */
+static bool has_other_side(const Sizes *sizes, int64_t axis, int64_t line)
+{
+    return sizes->is_chosen.at[axis] &&
+           side_now(sizes, axis, line) != sizes->actual_mm.at[axis * sizes->actual_mm.columns + line];
+}
+
+/* Find the lines around a move that get another side by it. */
+static void find_lines(const Ground *ground, Draft *draft, const Sizes *sizes)
+{
+    int64_t *lines = draft->lines.at, size = 0;
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++)
+        for (int64_t axis = 0; axis < 2; axis++) {
+            int64_t line = line_on(ground->stride, axis, draft->around.at[index]);
+            if (!has_other_side(sizes, axis, line))
+                continue;
+            bool is_new = true;
+            for (int64_t place = 0; place < size; place++)
+                is_new &= lines[place * 2] != axis || lines[place * 2 + 1] != line;
+            if (is_new) {
+                lines[size * 2] = axis;
+                lines[size * 2 + 1] = line;
+                size++;
+            }
+        }
+    draft->size.at[LINES] = size;
+}
+
+/* Give the lines that a move touches the sides that they are to have now. */
+static void resize_lines(const Ground *ground, const Draft *draft, const Sizes *sizes)
+{
+    for (int64_t place = 0; place < draft->size.at[LINES]; place++) {
+        int64_t axis = draft->lines.at[place * 2], line = draft->lines.at[place * 2 + 1];
+        resize(ground, sizes, axis, line, side_now(sizes, axis, line));
+    }
+}
+
+/* Whether a square around a move lay on a stretch that is too long. */
+static bool touches_long(const Board *board, const Draft *draft, int64_t stretch_squares)
+{
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
+        int64_t q = draft->around.at[index];
+        if (draft->label.at[q] > OFF && is_long(board, stretch_squares, q))
+            return true;
+    }
+    return false;
+}
+
+/* Measure the whole board into the draft's tally; its value less that of the floor, NO_VALUE if infeasible. */
+static double tally_whole(const Ground *ground, Board *board, Draft *draft, const Sizes *sizes)
+{
+    sync_sides(ground, board, sizes);
+    double exact = measure(ground, board, -INFINITY);
+    if (exact == NO_VALUE)
+        return NO_VALUE;
+    for (int figure = STALLS; figure <= UNUSED; figure++)
+        draft->tally.at[figure] = board->tally.at[figure];
+    if (is_sized(sizes))
+        foresee(ground, board, sizes);
+    return exact - floor_cost(sizes);
+}
+
+/* What a move adds to the value, less the price of the faults that it adds; very little if no stall is left. */
+static double gain_of(const Ground *ground, const Draft *draft, double price, double stretch_price)
+{
+    const int64_t *change = draft->change.at, *tally = draft->tally.at;
+    const double *weights = ground->weights.at;
+    int64_t stalls = tally[STALLS] + change[STALLS];
+    if (stalls <= 0)
+        return NO_VALUE;
+    double gain = weights[0] * (double)change[STALLS] + weights[2] * (double)change[UNUSED];
+    gain += weights[1] * ((double)(tally[TIME] + change[TIME]) / (double)stalls -
+                          (double)tally[TIME] / (double)most(1, tally[STALLS]));
+    return gain - price * (double)(change[BAD] + change[BLOCKS]) - stretch_price * (double)change[EXCESS];
+}
+
+/* Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most. */
+static int64_t shortcut(const Board *board, const Draft *draft, int64_t stride)
+{
+    const int64_t steps[4] = STEPS_BESIDE(stride);
+    const int8_t *cells = board->cells.at;
+    const int32_t *hops = board->hops.at;
+    int64_t saved = 0;
+    for (int64_t index = 0; index < draft->size.at[MOVED]; index++) {
+        int64_t q = draft->moved.at[index];
+        if (cells[q] != LANE || draft->old.at[index] != OFF || hops[q] >= FAR)
+            continue;
+        for (int way = 0; way < 4; way++) {
+            int64_t p = q + steps[way];
+            if (cells[p] == LANE && hops[p] < FAR)
+                saved = most(saved, hops[p] - hops[q] - 1);
+        }
+    }
+    return saved;
+}
+
+/* More than the lines around a move are likely to gain by other sides, to leave most of them unweighed. */
+static double hope_of(const Ground *ground, const Draft *draft, const Sizes *sizes)
+{
+    double hope = 0.0;
+    for (int64_t index = 0; index < draft->size.at[AROUND]; index++)
+        for (int64_t axis = 0; axis < 2; axis++) {
+            int64_t line = line_on(ground->stride, axis, draft->around.at[index]);
+            if (!has_other_side(sizes, axis, line))
+                continue;
+            double hint = sizes->hint.at[axis * sizes->hint.columns + line];
+            /* squares around a move lie on a line more than once: what is feared counts but for one of them */
+            hope += hint > 0 ? hint + 0.2 * fabs(hint) + 2.0 : (0.8 * hint + 2.0) / (double)draft->size.at[AROUND];
+        }
+    return hope;
+}
+
+/* Add what a move that is made changes to the draft's tally. */
+static void book(Draft *draft)
+{
+    for (int figure = STALLS; figure <= UNUSED; figure++)
+        draft->tally.at[figure] += draft->change.at[figure];
+}
+
+static void copy_cells(Int8Row *target, const Int8Row *source)
+{
+    memcpy(target->at, source->at, (size_t)source->count);
+}
+
+static void copy_hops(Int32Row *target, const Int32Row *source)
+{
+    memcpy(target->at, source->at, (size_t)source->count * sizeof(int32_t));
+}
+
+/* Make the move of the draft if it gains as much as the threshold. */
+static bool try_move(const Ground *ground, Board *board, Draft *draft, const Sizes *sizes, double threshold,
+                     double price, double stretch_price)
+{
+    int64_t *change = draft->change.at, stride = ground->stride;
+    bool sized = is_sized(sizes);
+    gather(draft, stride);
+    for (int64_t figure = 0; figure < draft->change.count; figure++)
+        change[figure] = 0;
+    draft->size.at[LINES] = 0;
+    count_around(ground, board, draft, TAKEN_OFF);
+    if (touches_long(board, draft, ground->rules.stretch_squares))
+        change[EXCESS] -= excess_around(ground, board, draft);
+    if (sized)
+        drive(board, draft, sizes, stride, TAKEN_OFF);
+    apply(ground, board, draft);
+    count_around(ground, board, draft, PUT_ON);
+    if (sized)
+        drive(board, draft, sizes, stride, PUT_ON);
+    /* most moves end here: the whole is measured only where what is around promises enough */
+    double hope = sized ? hope_of(ground, draft, sizes) : 0.0;
+    hope -= ground->weights.at[1] * (double)shortcut(board, draft, stride);
+    if (gain_of(ground, draft, price, stretch_price) + hope >= threshold) {
+        if (ground->rules.stretch_squares > 0)
+            change[EXCESS] += excess_around(ground, board, draft);
+        double floor = sizes->area_m2.at[0];
+        if (sized) {
+            find_lines(ground, draft, sizes);
+            resize_lines(ground, draft, sizes);
+        }
+        if (measure(ground, board, INFINITY) > NO_VALUE) {
+            for (int figure = STALLS; figure <= UNUSED; figure++)
+                change[figure] = board->tally.at[figure] - draft->tally.at[figure];
+            double gain = gain_of(ground, draft, price, stretch_price) -
+                          sizes->price.at[0] * (sizes->area_m2.at[0] - floor);
+            if (gain >= threshold) {
+                copy_hops(&draft->hops, &board->hops);
+                book(draft);
+                return true;
+            }
+        }
+        copy_hops(&board->hops, &draft->hops);
+    }
+    if (sized)
+        drive(board, draft, sizes, stride, TAKEN_OFF);
+    revert(board, draft);
+    if (sized) {
+        drive(board, draft, sizes, stride, PUT_ON);
+        resize_lines(ground, draft, sizes);
+    }
+    return false;
+}
+
+/* The least change that annealing takes at a temperature, drawn at random. */
+static double threshold_at(double heat, uint64_t *random)
+{
+    double draw = uniform(random);
+    return heat * log(draw > 1e-300 ? draw : 1e-300);
+}
+
+/* Give a line along which no car drives another side, if that pays. */
+static void try_side(const Ground *ground, const Board *board, Draft *draft, const Sizes *sizes, uint64_t *random,
+                     double heat)
+{
+    int64_t axis = below(random, 2);
+    int64_t line = below(random, axis == 0 ? board->cells.count / ground->stride : ground->stride);
+    int64_t side = sizes->free_mm.at[below(random, sizes->free_mm.count)];
+    int64_t at = axis * sizes->kept_mm.columns + line;
+    if (!sizes->is_chosen.at[axis] || sizes->driven.at[at] > 0 || side == sizes->kept_mm.at[at])
+        return;
+    int64_t fitted = most(side, sizes->least_mm.at[at]);
+    double area = weigh(ground, board, sizes, axis, line, fitted);
+    for (int64_t figure = 0; figure < draft->change.count; figure++)
+        draft->change.at[figure] = figure < sizes->change.count ? sizes->change.at[figure] : 0;
+    double gain = gain_of(ground, draft, 0.0, 0.0) - sizes->price.at[0] * area;
+    if (gain >= threshold_at(heat, random)) {
+        sizes->kept_mm.at[at] = side;
+        resize(ground, sizes, axis, line, fitted);
+        book(draft);
+    }
+}
+
+/* Label and measure the lanes on the board, and list what is broken. */
+static void take_stock(const Ground *ground, Board *board, Draft *draft, const Sizes *sizes)
+{
+    label_lanes(ground, board, draft);
+    tally_whole(ground, board, draft, sizes);
+    find_faults(ground, board, draft);
+    copy_hops(&draft->hops, &board->hops);
+}
+
+/* Anneal the feasible lanes in `board.cells` under the rules; leaves the best that keeps them, returns its value.
+ *
+ * `heats` are the temperatures at first and at last, `prices` those of a fault and then of a square that a stretch is
+ * too long, all in stalls.
+ *
+ * Each lane is labelled as driven through or as so many squares deep in a dead end; where every lane has what its label
+ * asks for around it, pruning ends within the rounds of R1. So R1 and R3 are judged around a move, R4 along the
+ * stretches that it touches. A move that seems worth it by what is around it is measured whole before it is made, as it
+ * may lead cars another way far around: stalls, T_S and floor are exact. */
+FROM_PYTHON
+double anneal_labels(const Ground *ground, Board *board, Draft *draft, const Sizes *sizes, PolishRoom *room,
+                     uint64_t *random, int64_t trials, const double *heats, const double *prices, int64_t refresh)
+{
+    double best = NO_VALUE, fault_price = FAULT_PRICE, share = 1.0 / (double)most(1, trials);
+    int64_t best_faults = 0;
+    copy_cells(&room->cells, &board->cells);
+    copy_sides(&room->kept_mm, &sizes->kept_mm);
+    double cooling = pow(heats[1] / heats[0], share), heat = heats[0];
+    double pricing = pow(prices[1] / prices[0], share), price = prices[0];
+    double stretch_pricing = pow(prices[3] / prices[2], share), stretch_price = prices[2];
+    double faulty_share = FAULTY_SHARE;
+    bool sized = is_sized(sizes), changed = true;
+    if (sized) {
+        sync_sides(ground, board, sizes);
+        measure(ground, board, -INFINITY);
+        settle(ground, board, sizes, 2);
+    }
+    take_stock(ground, board, draft, sizes);
+    for (int64_t trial = 0; trial <= trials + MENDING_TRIALS; trial++) {
+        if (trial == trials) {
+            heat = MENDING_HEAT;
+            faulty_share = MENDING_FAULTY_SHARE;
+            refresh = MENDING_REFRESH;
+        }
+        if (trial == trials || (trial % refresh == refresh - 1 && changed)) {
+            changed = false;
+            copy_cells(&draft->cells, &board->cells);
+            if (ground->rules.is_asked)
+                trim(ground, board);
+            double measured = tally_whole(ground, board, draft, sizes);
+            int64_t faults = board->tally.at[FAULTS];
+            if (measured - fault_price * (double)faults > best - fault_price * (double)best_faults) {
+                best = measured;
+                best_faults = faults;
+                copy_cells(&room->cells, &board->cells);
+                copy_sides(&room->kept_mm, &sizes->kept_mm);
+            }
+            copy_cells(&board->cells, &draft->cells);
+            if (trial >= trials) {
+                /* what is broken still is mended on the best, from its trimmed lanes */
+                fault_price = FAULT_PRICE_AT_LAST;
+                copy_cells(&board->cells, &room->cells);
+                copy_sides(&sizes->kept_mm, &room->kept_mm);
+            }
+            /* moves leave labels that are sound but not what pruning says: loops of dead ends */
+            take_stock(ground, board, draft, sizes);
+            /* beyond the last trial only to mend what is broken still */
+            if (trial >= trials && best_faults == 0)
+                break;
+        }
+        if (trial < trials) {
+            heat *= cooling;
+            price *= pricing;
+            stretch_price *= stretch_pricing;
+        }
+        if (sized && uniform(random) < RESIZED_SHARE) {
+            try_side(ground, board, draft, sizes, random, heat);
+            continue;
+        }
+        if (propose(ground, board, draft, random, faulty_share))
+            changed |= try_move(ground, board, draft, sizes, threshold_at(heat, random), price, stretch_price);
+    }
+    copy_cells(&board->cells, &room->cells);
+    copy_sides(&sizes->kept_mm, &room->kept_mm);
+    return tally_whole(ground, board, draft, sizes);
+}
