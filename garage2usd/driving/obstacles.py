@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.driving.sweep import Floats
+from garage2usd.driving.car import DesignCar
+from garage2usd.driving.sweep import Floats, Scene
 
 __all__ = ["Obstacles"]
 
@@ -51,6 +52,10 @@ class Obstacles:
     def boxes(self) -> Floats:
         """Left, top, right and bottom of each piece; shape (pieces, 4)."""
         return np.concatenate([self.pieces.min(axis=1), self.pieces.max(axis=1)], axis=1)
+
+    def met_by(self, car: DesignCar) -> Scene:
+        """The pieces as a car meets them."""
+        return Scene(self.pieces, self.boxes, np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2]))
 
     def named(self, pieces: Iterable[int]) -> tuple[str, ...]:
         """Names of what some pieces belong to, each once, in order."""

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.search import least_clearance
+from garage2usd.driving.sweep import least_clearance
 
 __all__ = ["GAUSS", "WEIGHTS", "Path", "PathPoints", "Piece"]
 
@@ -183,7 +183,7 @@ class Path:
         bulges = (length / counts[owner]) ** 2 / 8 * (tightest + np.abs(rate) * reach + tightest**2 * reach)
         low, high = poses[:, :2].min(axis=0), poses[:, :2].max(axis=0)
         near = obstacles.near(tuple((low + high) / 2), float((high - low).max()) / 2 + reach + most_m)
-        return float(least_clearance(poses, bulges, near.pieces, near.boxes, body, most_m))
+        return least_clearance(near.met_by(car), poses, bulges, most_m)
 
 
 def _moved(into: Floats, signs: Floats, curvatures: Floats, rates: Floats, yaws: Floats) -> NDArray[np.complex128]:

@@ -9,8 +9,8 @@ import numpy as np
 from garage2usd.driving.car import DesignCar, Point, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.search import HEADINGS, least_clearance, search
-from garage2usd.driving.sweep import Floats, bulge, clearance, corners_at
+from garage2usd.driving.search import HEADINGS, Task, search
+from garage2usd.driving.sweep import Floats, bulge, least_clearance, touched_shapes
 from garage2usd.errors import ConfigError
 
 __all__ = ["LanePose", "Limits", "Search", "find_way", "least_clearance_m", "touched_parked"]
@@ -124,27 +124,25 @@ def find_way(
     reach = limits.reach_m + car.length_m
     near = obstacles.near((parked.x_m, parked.z_m), math.sqrt(2) * reach)
     local = near.seen_from(parked.x_m, parked.z_m, frame).near((0.0, 0.0), reach)
-    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
+    scene = local.met_by(car)
     touched = np.zeros(len(local.pieces), np.int64)
-    standing = _standing(start, local, body, limits.margin_m)
+    standing = local.named(touched_shapes(scene, start, limits.margin_m))
     if standing:
         return Search(None, standing, is_exhausted=True)
 
     def look(goals: Floats, straight_m: float, effort: int) -> tuple[int, Floats]:
-        return search(
+        task = Task(
+            scene,
             start,
             goals,
-            local.pieces,
-            local.boxes,
-            body,
-            car.rear_axle_radius_m,
-            limits.margin_m,
-            limits.reach_m,
-            straight_m,
-            limits.gear_changes,
-            effort,
-            touched,
+            radius=car.rear_axle_radius_m,
+            margin=limits.margin_m,
+            reach=limits.reach_m,
+            straight_m=straight_m,
+            max_changes=limits.gear_changes,
+            max_nodes=effort,
         )
+        return search(task, touched)
 
     found, steps = 0, np.empty((0, 3))
     for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
@@ -172,22 +170,22 @@ def find_way(
 def touched_parked(car: DesignCar, parked: Pose, obstacles: Obstacles, margin_m: float) -> tuple[str, ...]:
     """Names of what comes nearer than a margin to a car where it is parked."""
     near = obstacles.near((parked.x_m, parked.z_m), car.length_m + margin_m)
-    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
-    return _standing(np.array([parked.x_m, parked.z_m, parked.yaw_rad]), near, body, margin_m)
+    pose = np.array([parked.x_m, parked.z_m, parked.yaw_rad])
+    return near.named(touched_shapes(near.met_by(car), pose, margin_m))
 
 
 def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, most_m: float = 1.0) -> float:
     """What is left at least between a car and all obstacles on a way: a lower bound, at most `most_m`."""
-    body = np.array([car.ahead_m, car.rear_overhang_m, car.width_m / 2])
+    scene = obstacles.met_by(car)
     step_m = min(_FINE_M, _FINE_RAD * car.rear_axle_radius_m)
     if not way.moves:
         poses = np.array([[way.start.x_m, way.start.z_m, way.start.yaw_rad]] * 2)
-        return float(least_clearance(poses, np.zeros(1), obstacles.pieces, obstacles.boxes, body, most_m))
+        return least_clearance(scene, poses, np.zeros(1), most_m)
     poses, move = way.poses(step_m)
     bends = [abs(each.curvature_per_m) for each in way.moves]
     turns = np.array([each.length_m * bend for each, bend in zip(way.moves, bends, strict=True)]) / np.bincount(move)
-    lies_off = [bulge(1 / bend if bend else 0.0, turn, body) for bend, turn in zip(bends, turns, strict=True)]
-    return float(least_clearance(poses, np.array(lies_off)[move], obstacles.pieces, obstacles.boxes, body, most_m))
+    lies_off = [bulge(1 / bend if bend else 0.0, turn, scene.body) for bend, turn in zip(bends, turns, strict=True)]
+    return least_clearance(scene, poses, np.array(lies_off)[move], most_m)
 
 
 def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:
@@ -205,16 +203,6 @@ def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[f
         half_x, half_z = half_z, half_x
     heading = (quarters * HEADINGS // 4) % HEADINGS
     return heading, x - half_x - _SAME, z - half_z - _SAME, x + half_x + _SAME, z + half_z + _SAME
-
-
-def _standing(start: Floats, local: Obstacles, body: Floats, margin_m: float) -> tuple[str, ...]:
-    """Names of what a car touches where it is parked."""
-    corners = np.empty((8, 2))
-    x, z, yaw = start.tolist()
-    corners_at(x, z, yaw, body, corners, 0)
-    corners_at(x, z, yaw, body, corners, 4)
-    gaps = [clearance(corners, piece, margin_m) for piece in local.pieces]
-    return local.named(piece for piece, gap in enumerate(gaps) if gap < margin_m)
 
 
 def _moves(steps: Floats, radius_m: float) -> tuple[Move, ...]:

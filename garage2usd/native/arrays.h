@@ -26,5 +26,6 @@ typedef TABLE_OF(float) FloatTable;
 typedef TABLE_OF(double) DoubleTable;
 typedef CUBE_OF(int32_t) Int32Cube;
 typedef CUBE_OF(int64_t) Int64Cube;
+typedef CUBE_OF(double) DoubleCube;
 
 #endif
