@@ -13,7 +13,7 @@ from typing import Any, ParamSpec, TypeVar, cast
 
 import numpy as np
 
-__all__ = ["LIBRARY", "in_c", "load"]
+__all__ = ["LIBRARY", "in_c", "load", "packed"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -81,10 +81,10 @@ def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an
         return _NUMBERS[hint]
     if typing.get_origin(hint) is np.ndarray:
         return functools.partial(_address, _dtype(hint)), ctypes.c_void_p
-    return functools.partial(_packed, hint), ctypes.c_char_p
+    return functools.partial(packed, hint), ctypes.c_char_p
 
 
-def _packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
+def packed(kind: type, value: Any) -> bytes:  # noqa: ANN401 - a named tuple
     """The fields of a named tuple as C has them."""
     layout, numbers = _words(kind, value)
     return struct.pack(f"={layout}", *numbers)

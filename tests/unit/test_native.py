@@ -2,9 +2,19 @@
 
 import numpy as np
 import pytest
-from support.c_declarations import c_functions, c_structs, python_functions, same_type
+from support.c_declarations import c_functions, c_structs, python_functions, same_type, size_of
 
-from garage2usd.native import load
+from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.driving.search import Task
+from garage2usd.driving.sweep import Scene
+from garage2usd.native import load, packed
+from garage2usd.planning import aisles, polish, sarsa
+from garage2usd.planning.archive import new_archive, next_random
+from garage2usd.planning.board import new_board
+from garage2usd.planning.draft import new_draft
+from garage2usd.planning.ground import ground_of
+from garage2usd.planning.sizes import sizes_of
+from garage2usd.structure.grid import Structure
 
 
 def test_python_declares_each_function_as_c_has_it():
@@ -19,9 +29,34 @@ def test_python_declares_each_function_as_c_has_it():
             assert same_type(hint, c_type, structs), f"{name}: {argument} is {hint} in Python, {c_type} in C"
 
 
-def test_arrays_of_other_numbers_or_with_gaps_are_refused():
-    from garage2usd.planning.archive import next_random
+def examples():
+    """A named tuple of each class that C takes, as planning and driving make them."""
+    cells = np.zeros((7, 9), np.int8)
+    cells[6, 2], cells[6, 6] = 2, 3
+    ground = ground_of(Structure.from_arrays(cells, 8.1, 8.1), bay=BayConfig(), plan=PlanConfig())
+    parameters, archive = PlanConfig().resolved(), new_archive(3, padded=len(ground.cells), steps=5)
+    sizes, runs = sizes_of(ground, BayConfig()), aisles.runs_of(ground)
+    scene = Scene(np.zeros((2, 4, 2)), np.zeros((2, 4)), np.zeros(3))
+    made = (
+        ground, new_board(ground), parameters, archive, sizes, runs, scene, new_draft(ground),
+        sarsa.new_memory(parameters, bits=4), sarsa.new_room(ground, archive), polish.new_room(ground, sizes),
+        aisles.new_room(ground, runs), Task(scene, np.zeros(3), np.zeros((1, 5)), 6.0, 0.1, 9.0, 0.5, 3, 10),
+    )  # fmt: skip
+    return {type(value): value for value in made}
 
+
+def test_named_tuples_are_as_long_as_their_structs():
+    made, structs, met = examples(), c_structs(), set()
+    functions = c_functions()
+    for name, hints in python_functions().items():
+        for hint, c_type in zip(hints.values(), functions[name].takes, strict=False):
+            if c_type[:-1] in structs:
+                met.add(hint)
+                assert len(packed(hint, made[hint])) == size_of(c_type[:-1], structs), c_type
+    assert met == made.keys() - {Scene} or met == made.keys()
+
+
+def test_arrays_of_other_numbers_or_with_gaps_are_refused():
     for array in (np.zeros(1, np.int64), np.zeros((2, 2), np.uint64).T):
         with pytest.raises(TypeError, match="uint64"):
             next_random(array)
