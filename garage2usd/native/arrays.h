@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* A function that garage2usd.native finds by its name; all others stay within the library. */
-#define FROM_PYTHON __attribute__((visibility("default")))
+#define FROM_PYTHON __attribute__((visibility("protected")))
 
 #define ROW_OF(type) struct { type *at; int64_t count; }
 #define TABLE_OF(type) struct { type *at; int64_t rows, columns; }

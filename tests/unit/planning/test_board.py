@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
-from support.compiled import from_python
+from support.inner_loops import clear, dead_ends, lay
 from support.planning_reference import BAY, drawn, feasible, random_site, score, sown
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning import board as board_module
 from garage2usd.planning import labels
 from garage2usd.planning.board import NO_VALUE, measure, new_board, value_now
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
 from garage2usd.planning.repair import connect
 
-clear, dead_ends, lay = map(from_python, (board_module.clear, board_module.dead_ends, board_module.lay))
 trim = from_python(labels.trim)
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
 FORBID = PlanConfig(circulation="allow", dead_ends="forbid")

@@ -4,17 +4,13 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from support.compiled import from_python
+from support.inner_loops import FLIPPED, REFUSED, TALLIED, flip_within
 from support.planning_reference import BAY, random_site
 
 from garage2usd.config import PlanConfig
-from garage2usd.planning import flips
 from garage2usd.planning.board import NO_VALUE, measure, new_board
-from garage2usd.planning.flips import FLIPPED, REFUSED, TALLIED
 from garage2usd.planning.ground import ground_of
 from garage2usd.planning.repair import connect
-
-flip_within = from_python(flips.flip_within)
 
 
 @pytest.mark.parametrize("circulation", ["allow", "loops"])

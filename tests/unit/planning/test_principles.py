@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from support.compiled import from_python
+from support import inner_loops
 from support.planning_reference import BAY, drawn, random_site
 
 from garage2usd.config import PlanConfig
-from garage2usd.planning import board as compiled
 from garage2usd.planning import plan_lanes, principles
 from garage2usd.planning.ground import ground_of
 from garage2usd.structure.dead_ends import dead_ends
@@ -70,4 +69,4 @@ def test_compiled_count_is_the_same():
         for entry in plan.archive[:10]:
             flat = np.pad(entry.structure.cells, 4, constant_values=-1).ravel()
             expected = sum(end.needs_turning_stall for end in dead_ends(entry.structure))
-            assert from_python(compiled.dead_ends)(ground, flat) == expected
+            assert inner_loops.dead_ends(ground, flat) == expected

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from support.compiled import from_python
+from support.inner_loops import resize, settle, sync_sides, weigh
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
-from garage2usd.planning import sizes as compiled
 from garage2usd.planning.board import FAULTS, measure, new_board
 from garage2usd.planning.circuit import anneal_labels
 from garage2usd.planning.circulation import circulation
@@ -16,7 +15,6 @@ from garage2usd.planning.polish import improve, new_room
 from garage2usd.planning.sizes import sizes_of
 from garage2usd.structure.grid import Cell, Structure
 
-resize, settle, sync, weigh = map(from_python, (compiled.resize, compiled.settle, compiled.sync, compiled.weigh))
 BAY = BayConfig()
 PLAN = PlanConfig(longest_stretch_cells=0)
 
@@ -39,7 +37,7 @@ def board_with(structure, plan=PLAN):
     sizes.price[0] = 1 / 25
     board.cells[:] = ground.cells
     board.cells[ground.squares[lanes_of(structure, ground)]] = Cell.LANE
-    sync(ground, board, sizes)
+    sync_sides(ground, board, sizes)
     measure(ground, board, -np.inf)
     return ground, board, sizes
 

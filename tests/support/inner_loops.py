@@ -1,0 +1,60 @@
+"""Functions in C that only C calls, within reach of tests."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.native import in_c
+from garage2usd.planning.board import Board
+from garage2usd.planning.ground import Ground
+from garage2usd.planning.sizes import Sizes
+
+REFUSED, FLIPPED, TALLIED = 0, 1, 2
+"""What became of a flip."""
+
+
+@in_c
+def clear(ground: Ground, board: Board) -> None:
+    """Take all lanes off."""
+
+
+@in_c
+def lay(ground: Ground, board: Board, square: int) -> None:
+    """Make a free square a lane, beside an entrance or a lane; keeps the tally."""
+
+
+@in_c
+def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
+    """Dead-end aisles over the ground's limit, from the tip to the next junction or portal."""
+
+
+@in_c
+def weigh(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int) -> float:
+    """Set `Sizes.change` to what another side of a line would add; returns the floor that it would add, in m2."""
+
+
+@in_c
+def resize(ground: Ground, sizes: Sizes, axis: int, line: int, side_mm: int) -> None:
+    """Give a line another side."""
+
+
+@in_c
+def sync_sides(ground: Ground, board: Board, sizes: Sizes) -> None:
+    """Count anew where cars drive, and give every line the side that follows."""
+
+
+@in_c
+def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
+    """Choose the side of every line without traffic, for most stalls less the price of the floor."""
+
+
+@in_c
+def flip_within(
+    ground: Ground,
+    board: Board,
+    known: NDArray[np.int64],
+    hops: NDArray[np.int32],
+    q: int,
+    p: int,
+    enough: float,
+) -> int:
+    """Flip one square, or two side by side, unless the lanes cannot be worth so much with that."""
