@@ -21,6 +21,7 @@ void revert(Board *board, Draft *draft);
 void label_lanes(const Ground *ground, Board *board, Draft *draft);
 int64_t fault(const int8_t *cells, const int8_t *label, int64_t stride, int64_t q);
 void find_faults(const Ground *ground, const Board *board, Draft *draft);
+FROM_PYTHON
 void trim(const Ground *ground, Board *board);
 
 /* How many neighbours of a square are portals or lanes that cars drive on through. */

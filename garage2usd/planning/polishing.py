@@ -1,15 +1,20 @@
 """Polish of the best plans that learning met: climbing and annealing, on equal squares or in metres."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
+from garage2usd.planning.board import Board
+from garage2usd.planning.circuit import anneal_labels
+from garage2usd.planning.draft import new_draft
+from garage2usd.planning.drift import drift
 from garage2usd.planning.ground import Ground, Lanes
 from garage2usd.planning.learner import uses_aisles
+from garage2usd.planning.polish import Room, improve, new_room
 from garage2usd.planning.ranking import (
     Ranked,
     apart,
@@ -20,14 +25,8 @@ from garage2usd.planning.ranking import (
     put_lanes,
     ranked_plans,
 )
+from garage2usd.planning.sizes import Sizes, sizes_of
 from garage2usd.structure.grid import Structure
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from garage2usd.planning.board import Board
-    from garage2usd.planning.polish import Room
-    from garage2usd.planning.sizes import Sizes
 
 __all__ = ["polish"]
 
@@ -77,7 +76,7 @@ _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 def polish(
     site: Structure,
     ground: Ground,
-    board: "Board",
+    board: Board,
     ranked: list[Ranked],
     plan: PlanConfig,
     bay: BayConfig,
@@ -88,8 +87,6 @@ def polish(
     Those that break fewest rules come first, then those with the least floor for a stall where R and C are chosen,
     else those of the highest value.
     """
-    from garage2usd.planning.sizes import sizes_of  # noqa: PLC0415
-
     sizes = sizes_of(ground, bay)
     is_sized = bool(sizes.is_chosen.any())
     if is_sized:
@@ -125,8 +122,8 @@ class _Polisher:
     """
 
     ground: Ground
-    board: "Board"
-    sizes: "Sizes"
+    board: Board
+    sizes: Sizes
     random: NDArray[np.uint64]
     effort: float
 
@@ -136,10 +133,8 @@ class _Polisher:
         return len(self.ground.squares)
 
     @cached_property
-    def room(self) -> "Room":
+    def room(self) -> Room:
         """Room for plans."""
-        from garage2usd.planning.polish import new_room  # noqa: PLC0415
-
         return new_room(self.ground, self.sizes)
 
     @cached_property
@@ -175,15 +170,10 @@ class _Polisher:
 
     def _improve(self, *, passes: int = 0, flips: int = 0, heats: tuple[float, float] = (1.0, 1.0)) -> float:
         """Climb and anneal the lanes on the board; their value."""
-        from garage2usd.planning.polish import improve  # noqa: PLC0415
-
         return improve(self.ground, self.board, self.sizes, self.room, self.random, passes, flips, *heats)
 
     def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed under the rules of circulation by labels, and all as they were; best first."""
-        from garage2usd.planning.circuit import anneal_labels  # noqa: PLC0415
-        from garage2usd.planning.draft import new_draft  # noqa: PLC0415
-
         draft = new_draft(self.ground)
         trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
         if self.is_sized:  # each takes longer
@@ -205,8 +195,6 @@ class _Polisher:
 
     def drifted(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed with flips judged by what is around them, and all as they were; best first."""
-        from garage2usd.planning.drift import drift  # noqa: PLC0415
-
         hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
         flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
         drifting = partial(
@@ -214,7 +202,7 @@ class _Polisher:
         )
         return self._improved(ranked, ranked[:_DRIFTED], drifting)
 
-    def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: "Callable[[], float]") -> list[Ranked]:
+    def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: Callable[[], float]) -> list[Ranked]:
         """What is made of some plans, and all plans as they were; best first."""
         best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
         for _, lanes in starts:

@@ -1,19 +1,15 @@
 """Plans in order: by their value, by the rules that they break, by the floor that a stall takes."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
 
 from garage2usd.config import BayConfig
+from garage2usd.planning.board import FAULTS, Board, measure
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensioning import area_per_stall_m2, dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of
 from garage2usd.structure.grid import Cell, Structure
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from garage2usd.planning.board import Board
 
 __all__ = [
     "Ranked",
@@ -33,7 +29,7 @@ _FINALISTS, _MOSTLY_COMMON = 12, 0.9
 """Plans that are dimensioned to be compared in metres, which takes time; common share of lanes of plans too alike."""
 
 
-def ranked_plans(plans: "Iterable[Ranked]") -> list[Ranked]:
+def ranked_plans(plans: Iterable[Ranked]) -> list[Ranked]:
     """Each once, best first; equal values by their lanes, so that no order of meeting matters."""
     return sorted(
         {lanes.tobytes(): (value, lanes) for value, lanes in plans}.values(),
@@ -41,15 +37,13 @@ def ranked_plans(plans: "Iterable[Ranked]") -> list[Ranked]:
     )
 
 
-def keeping_rules_first(ground: Ground, board: "Board", ranked: list[Ranked]) -> list[Ranked]:
+def keeping_rules_first(ground: Ground, board: Board, ranked: list[Ranked]) -> list[Ranked]:
     """The same, those that break the rules of circulation least often first."""
     return sorted(ranked, key=lambda entry: faults_of(ground, board, entry[1])) if ground.rules.is_asked else ranked
 
 
-def faults_of(ground: Ground, board: "Board", lanes: Lanes) -> int:
+def faults_of(ground: Ground, board: Board, lanes: Lanes) -> int:
     """How often lanes break the rules of circulation."""
-    from garage2usd.planning.board import FAULTS, measure  # noqa: PLC0415
-
     put_lanes(ground, board, lanes)
     measure(ground, board, -np.inf)
     return int(board.tally[FAULTS])
@@ -78,13 +72,13 @@ def apart(ranked: list[Ranked], count: int) -> list[Ranked]:
     return chosen
 
 
-def lanes_on(ground: Ground, board: "Board") -> Lanes:
+def lanes_on(ground: Ground, board: Board) -> Lanes:
     """The lanes on the board."""
     lanes: Lanes = board.cells[ground.squares] == Cell.LANE
     return lanes
 
 
-def put_lanes(ground: Ground, board: "Board", lanes: Lanes) -> None:
+def put_lanes(ground: Ground, board: Board, lanes: Lanes) -> None:
     """Have these lanes on the board and no others; keeps no tally."""
     board.cells[:] = ground.cells
     board.cells[ground.squares[lanes]] = Cell.LANE

@@ -53,14 +53,15 @@ def c_structs():
 
 
 def python_functions():
-    """Type hints of the functions that Python declares with ``in_c``, by the name that they have in C."""
+    """Type hints of what Python declares with ``in_c``, in tests too, by the name that it has in C."""
     found = {}
-    for path in sorted(PACKAGE.rglob("*.py")):
+    modules = {path: ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for path in PACKAGE.rglob("*.py")}
+    modules[Path(__file__).with_name("inner_loops.py")] = "support.inner_loops"
+    for path, module in sorted(modules.items()):
         for node in ast.parse(path.read_text()).body:
             if isinstance(node, ast.FunctionDef) and any(
                 getattr(one, "id", "") == "in_c" for one in node.decorator_list
             ):
-                module = ".".join(("garage2usd", *path.relative_to(PACKAGE).with_suffix("").parts))
                 declared = getattr(importlib.import_module(module), node.name).__wrapped__
                 assert node.name.lstrip("_") not in found, f"{node.name} is declared twice"
                 found[node.name.lstrip("_")] = typing.get_type_hints(declared)

@@ -28,6 +28,11 @@ def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
 
 
 @in_c
+def trim(ground: Ground, board: Board) -> None:
+    """Take off the tips of all dead ends that are too deep, until none is."""
+
+
+@in_c
 def weigh(ground: Ground, board: Board, sizes: Sizes, axis: int, line: int, side_mm: int) -> float:
     """Set `Sizes.change` to what another side of a line would add; returns the floor that it would add, in m2."""
 

@@ -12,7 +12,6 @@ from click.testing import CliRunner
 from PIL import Image
 from support.sample_files import REPOSITORY
 
-import garage2usd.compiled  # noqa: F401 - it listens to the compiler
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema

@@ -2,16 +2,14 @@
 
 import numpy as np
 import pytest
-from support.inner_loops import clear, dead_ends, lay
+from support.inner_loops import clear, dead_ends, lay, trim
 from support.planning_reference import BAY, drawn, feasible, random_site, score, sown
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning import labels
 from garage2usd.planning.board import NO_VALUE, measure, new_board, value_now
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
 from garage2usd.planning.repair import connect
 
-trim = from_python(labels.trim)
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
 FORBID = PlanConfig(circulation="allow", dead_ends="forbid")
 
