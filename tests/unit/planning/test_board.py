@@ -1,4 +1,4 @@
-"""The compiled board: laying square by square gives the score of the whole, and repair repairs."""
+"""The board: laying square by square gives the score of the whole, and repair repairs."""
 
 import numpy as np
 import pytest
