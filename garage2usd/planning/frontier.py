@@ -1,53 +1,60 @@
-"""Frontier-based search over layouts: lane or free is decided square by square in reading order. Compiled.
+"""Frontier-based search over layouts: lane or free is decided square by square in reading order.
 
-A dynamic programme over the broken profile (transfer matrices, one square at a time) keeps the best value of each
-frontier and what can follow it; an enumeration by these suffixes then meets only layouts that may win.
+In C, `frontier.c`.
 """
-# ruff: noqa: C901, PLR0912, PLR0915 - loops that numba flattens
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.compiled import compiled, compiled_allocating, copy_row
-from garage2usd.planning.board import FAR, Board, measure
-from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, first_frontier, step
-from garage2usd.planning.ground import PADDING, Ground
+from garage2usd.native import in_c
+from garage2usd.planning.board import Board
+from garage2usd.planning.broken_profile import SquareTable, choices_of, first_frontier, new_room
+from garage2usd.planning.ground import Ground
 
 __all__ = ["Enumeration", "advance", "enumerate_layouts", "new_enumeration", "suffix_values"]
 
 
-@compiled_allocating
 def advance(
     table: SquareTable, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """All frontiers after a square, each with its best value so far; keys ascend."""
-    room = np.zeros((3, table.cols + 2), np.int64)
-    choices = table.depth + 2 if table.depth >= 0 else 2
-    next_keys = np.empty(choices * len(keys), np.int64)
-    next_values = np.empty(choices * len(keys))
-    count = 0
-    for row in range(len(keys)):
-        for choice in range(choices):
-            key, gain = step(table, index, keys[row], choice, room)
-            if gain == FORBIDDEN:
-                continue
-            next_keys[count], next_values[count] = key, values[row] + gain
-            count += 1
+    most = choices_of(table) * len(keys)
+    next_keys, next_values = np.empty(most, np.int64), np.empty(most)
+    count = _step_frontiers(table, index, keys, values, len(keys), new_room(table), next_keys, next_values)
     order = np.argsort(next_keys[:count])
     unique_keys, unique_values = np.empty(count, np.int64), np.empty(count)
-    size = 0
-    for row in order:
-        if size > 0 and unique_keys[size - 1] == next_keys[row]:
-            unique_values[size - 1] = max(unique_values[size - 1], next_values[row])
-        else:
-            unique_keys[size], unique_values[size] = next_keys[row], next_values[row]
-            size += 1
+    size = _merge_frontiers(order, count, next_keys, next_values, unique_keys, unique_values)
     return unique_keys[:size].copy(), unique_values[:size].copy()
 
 
-@compiled_allocating
+@in_c
+def _step_frontiers(
+    table: SquareTable,
+    index: int,
+    keys: NDArray[np.int64],
+    values: NDArray[np.float64],
+    count: int,
+    room: NDArray[np.int64],
+    next_keys: NDArray[np.int64],
+    next_values: NDArray[np.float64],
+) -> int:
+    raise NotImplementedError
+
+
+@in_c
+def _merge_frontiers(
+    order: NDArray[np.int64],
+    count: int,
+    keys: NDArray[np.int64],
+    values: NDArray[np.float64],
+    unique_keys: NDArray[np.int64],
+    unique_values: NDArray[np.float64],
+) -> int:
+    raise NotImplementedError
+
+
 def suffix_values(
     table: SquareTable,
     index: int,
@@ -56,67 +63,24 @@ def suffix_values(
     next_suffix: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """The most that square `index` and all after it add to each frontier before it."""
-    room = np.zeros((3, table.cols + 2), np.int64)
-    suffix = np.full(len(keys), FORBIDDEN)
-    choices = table.depth + 2 if table.depth >= 0 else 2
-    for row in range(len(keys)):
-        for choice in range(choices):
-            key, gain = step(table, index, keys[row], choice, room)
-            if gain == FORBIDDEN:
-                continue
-            place = np.searchsorted(next_keys, key)
-            if place < len(next_keys) and next_keys[place] == key and next_suffix[place] > FORBIDDEN:
-                suffix[row] = max(suffix[row], gain + next_suffix[place])
+    suffix = np.empty(len(keys))
+    _follow_frontiers(table, index, keys, len(keys), next_keys, next_suffix, len(next_keys), new_room(table), suffix)
     return suffix
 
 
-@compiled
-def _detour(ground: Ground, board: Board, cols: int, depth: int, relaxed: NDArray[np.int64]) -> float:
-    """How much more time than over free squares the stalls so far take at least, given what is decided no lane.
-
-    Squares from `depth` on may all still be lanes.
-    """
-    cells, hops, queue, stride = board.cells, board.hops, board.queue, ground.stride
-    border = PADDING * (stride + 1)
-    first_open = border + (depth // cols) * stride + depth % cols
-    for q in ground.squares:
-        hops[q] = FAR
-    tail = 0
-    for entrance in ground.entrances:
-        for way in (-stride, stride, -1, 1):
-            p = entrance + way
-            if hops[p] == FAR and (cells[p] == 1 or (cells[p] == 0 and p >= first_open)):
-                hops[p] = 1
-                queue[tail] = p
-                tail += 1
-    head = 0
-    while head < tail:
-        q = queue[head]
-        head += 1
-        for way in (-stride, stride, -1, 1):
-            p = q + way
-            if (cells[p] == 1 or (cells[p] == 0 and p >= first_open)) and hops[p] == FAR:
-                hops[p] = hops[q] + 1
-                queue[tail] = p
-                tail += 1
-    more = 0.0
-    for q in ground.squares:
-        if q >= first_open:
-            break
-        if cells[q] != 0:
-            continue
-        edges, near, free = 0, FAR, FAR
-        for side in range(4):
-            p = q + (-stride, stride, -1, 1)[side]
-            if cells[p] == 1:
-                edges |= 1 << side
-                free = min(free, relaxed[p])
-            if cells[p] == 1 or (cells[p] == 0 and p >= first_open):
-                near = min(near, hops[p])
-        stalls = ground.capacity[q, edges]
-        if stalls > 0 and near > free:
-            more += stalls * (near - free)
-    return more
+@in_c
+def _follow_frontiers(
+    table: SquareTable,
+    index: int,
+    keys: NDArray[np.int64],
+    count: int,
+    next_keys: NDArray[np.int64],
+    next_suffix: NDArray[np.float64],
+    next_count: int,
+    room: NDArray[np.int64],
+    suffix: NDArray[np.float64],
+) -> None:
+    raise NotImplementedError
 
 
 class Enumeration(NamedTuple):
@@ -133,7 +97,7 @@ class Enumeration(NamedTuple):
     keys, values
         Frontier and value before each square; int64 and float64, shape (squares + 1,).
     room
-        int64, shape (3, columns + 2), as `step` asks for.
+        int64, shape (3, columns + 2), for a step.
     best_cells
         The cells of the best layout, as in `Board.cells`.
     best
@@ -158,7 +122,7 @@ class Enumeration(NamedTuple):
 
 def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumeration:
     """An enumeration of the layouts that beat a value."""
-    total, choices = len(table.kinds), table.depth + 2 if table.depth >= 0 else 2
+    total, choices = len(table.kinds), choices_of(table)
     keys = np.zeros(total + 1, np.int64)
     keys[0] = first_frontier(table)
     return Enumeration(
@@ -170,14 +134,14 @@ def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumera
         tried=np.full(total, -1),
         keys=keys,
         values=np.zeros(total + 1),
-        room=np.zeros((3, table.cols + 2), np.int64),
+        room=new_room(table),
         best_cells=ground.cells.copy(),
         best=np.array([floor]),
         counts=np.zeros(2, np.int64),
     )
 
 
-@compiled
+@in_c
 def enumerate_layouts(
     state: Enumeration,
     steps: int,
@@ -207,59 +171,4 @@ def enumerate_layouts(
     relaxed, price
         Hops of the squares over free squares, and what a hop of a stall costs in the relaxed value.
     """
-    total, choices = state.ways.shape
-    room = state.room
-    ways, bounds, children, tried = state.ways, state.bounds, state.children, state.tried
-    next_keys, next_values = state.next_keys, state.next_values
-    stride = ground.stride
-    border = PADDING * (stride + 1)
-    best, depth = state.best[0], state.counts[0]
-    for _ in range(steps):
-        if depth < 0:
-            break
-        if depth == total:
-            value = measure(ground, board, -np.inf)
-            state.counts[1] += 1
-            if value > best + 1e-9:
-                best = value
-                copy_row(state.best_cells, board.cells)
-            depth -= 1
-            continue
-        if tried[depth] < 0:
-            children[depth] = tried[depth] = 0
-            first, last = offsets[depth + 1], offsets[depth + 2]
-            for choice in range(choices):
-                key, gain = step(table, depth, state.keys[depth], choice, room)
-                if gain == FORBIDDEN:
-                    continue
-                place = first + np.searchsorted(keys[first:last], key)
-                value = state.values[depth] + gain
-                bound = value + suffixes[place]
-                if bound <= best + 1e-9:
-                    continue
-                slot = children[depth]
-                while slot > 0 and bounds[depth, slot - 1] < bound:
-                    ways[depth, slot], bounds[depth, slot] = ways[depth, slot - 1], bounds[depth, slot - 1]
-                    next_keys[depth, slot] = next_keys[depth, slot - 1]
-                    next_values[depth, slot] = next_values[depth, slot - 1]
-                    slot -= 1
-                ways[depth, slot], bounds[depth, slot] = choice, bound
-                next_keys[depth, slot], next_values[depth, slot] = key, value
-                children[depth] += 1
-        square = border + (depth // table.cols) * stride + depth % table.cols
-        slot = tried[depth]
-        if slot == children[depth] or bounds[depth, slot] <= best + 1e-9:
-            board.cells[square] = ground.cells[square]
-            tried[depth] = -1
-            depth -= 1
-            continue
-        tried[depth] += 1
-        board.cells[square] = 1 if ways[depth, slot] > 0 else ground.cells[square]
-        if (depth + 1) % table.cols == 0:
-            detour = price * _detour(ground, board, table.cols, depth + 1, relaxed)
-            if bounds[depth, slot] - detour <= best + 1e-9:
-                continue
-        state.keys[depth + 1], state.values[depth + 1] = next_keys[depth, slot], next_values[depth, slot]
-        depth += 1
-    state.best[0], state.counts[0] = best, depth
-    return bool(depth < 0)
+    raise NotImplementedError

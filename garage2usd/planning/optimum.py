@@ -2,7 +2,6 @@
 
 from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +9,14 @@ from numpy.typing import NDArray
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
+from garage2usd.planning.board import NO_VALUE, new_board
+from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, are_complete, column_bits, first_frontier
 from garage2usd.planning.circulation import CirculationRules, circulation
+from garage2usd.planning.frontier import advance, enumerate_layouts, new_enumeration, suffix_values
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, CellArray, Structure
-
-if TYPE_CHECKING:
-    from garage2usd.planning.broken_profile import SquareTable
 
 __all__ = ["Optimum", "find_optimum", "free_hops"]
 
@@ -123,10 +122,8 @@ class _TooLargeError(Exception):
     """Says what is allowed."""
 
 
-def _table_of(ground: Ground, cols: int) -> "SquareTable":
+def _table_of(ground: Ground, cols: int) -> SquareTable:
     """The site as the search reads it; nothing is worth anything yet."""
-    from garage2usd.planning.broken_profile import SquareTable, column_bits  # noqa: PLC0415 - only planning pays for it
-
     rules = ground.rules
     depth = min(rules.dead_end_squares, len(ground.squares)) if rules.is_asked else -1
     bits = column_bits(cols, depth)
@@ -152,22 +149,18 @@ class _Beaten:
     frontiers: int
 
 
-def _beat(ground: Ground, table: "SquareTable", value: float, progress: Progress) -> _Beaten:
+def _beat(ground: Ground, table: SquareTable, value: float, progress: Progress) -> _Beaten:
     """Look for a layout of more than `value`."""
-    from garage2usd.planning.board import NO_VALUE, new_board  # noqa: PLC0415
-    from garage2usd.planning.broken_profile import FORBIDDEN, complete  # noqa: PLC0415
-    from garage2usd.planning.frontier import enumerate_layouts, new_enumeration, suffix_values  # noqa: PLC0415
-
     squares, floor = _squares_of(ground), max(value, NO_VALUE)
     stalls = table._replace(worth=ground.capacity[squares].astype(np.float64))
     keys, counts = _frontiers(stalls, progress)[-1]
-    most = max((count for key, count in zip(keys, counts, strict=True) if complete(stalls, key)), default=0.0)
+    most = float(np.max(counts[are_complete(stalls, keys)], initial=0.0))
     if most == 0:
         return _Beaten(None, 0, 0)
     hops, price = free_hops(ground), -float(ground.weights[1]) / most
     table = table._replace(worth=_worth(ground, hops, price))
     layers = _frontiers(table, progress)
-    suffixes = [np.array([0.0 if complete(table, key) else FORBIDDEN for key in layers[-1][0]])]
+    suffixes = [np.where(are_complete(table, layers[-1][0]), 0.0, FORBIDDEN)]
     for index in reversed(range(len(squares))):
         suffixes.append(suffix_values(table, index, layers[index][0], layers[index + 1][0], suffixes[-1]))
         progress("suffixes", len(squares) - index, len(squares))
@@ -189,11 +182,8 @@ def _beat(ground: Ground, table: "SquareTable", value: float, progress: Progress
     return _Beaten(lanes, int(state.counts[1]), frontiers)
 
 
-def _frontiers(table: "SquareTable", progress: Progress) -> _Frontiers:
+def _frontiers(table: SquareTable, progress: Progress) -> _Frontiers:
     """The frontiers before each square and after the last, each with the most that leads to it."""
-    from garage2usd.planning.broken_profile import first_frontier  # noqa: PLC0415
-    from garage2usd.planning.frontier import advance  # noqa: PLC0415
-
     layers = [(np.array([first_frontier(table)], dtype=np.int64), np.zeros(1))]
     kept = 1
     for index in range(len(table.kinds)):
