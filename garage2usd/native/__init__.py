@@ -7,13 +7,15 @@ import ctypes
 import functools
 import struct
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 import numpy as np
 
-__all__ = ["LIBRARY", "in_c", "load", "packed"]
+__all__ = ["LIBRARY", "in_c", "load", "packed", "using"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -22,6 +24,7 @@ Words = tuple[str, list[int | float]]
 
 LIBRARY = Path(__file__).with_name("loops.so")
 """The library that `hatch_build.py` makes of the C files."""
+_CALLED = ContextVar("called", default=LIBRARY)
 
 _NUMBERS: dict[Any, tuple[Callable[[Any], Any], Any]] = {
     bool: (bool, ctypes.c_bool),
@@ -45,6 +48,16 @@ def load(path: Path = LIBRARY) -> ctypes.CDLL:
     return ctypes.CDLL(str(path))
 
 
+@contextmanager
+def using(library: Path) -> Iterator[None]:
+    """Call the functions of another library, such as one with a fault in it."""
+    token = _CALLED.set(library)
+    try:
+        yield
+    finally:
+        _CALLED.reset(token)
+
+
 def in_c(function: Callable[P, T]) -> Callable[P, T]:
     """Have a function be the C function of the same name, less an underscore; its own body is never run.
 
@@ -61,8 +74,8 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
     packers = [_packer(hint) for hint in hints.values()]
 
     @functools.cache
-    def symbol() -> Callable[..., Any]:
-        found = load()[function.__name__.lstrip("_")]
+    def symbol(library: Path) -> Callable[..., Any]:
+        found = load(library)[function.__name__.lstrip("_")]
         found.argtypes = [kind for _, kind in packers]
         found.restype = None if returns is type(None) else _NUMBERS[returns][1]
         return found
@@ -70,7 +83,7 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
     @functools.wraps(function)
     def call(*values: P.args, **_: P.kwargs) -> T:
         packed = [pack(value) for (pack, _), value in zip(packers, values, strict=True)]
-        return cast("T", symbol()(*packed))
+        return cast("T", symbol(_CALLED.get())(*packed))
 
     return call
 

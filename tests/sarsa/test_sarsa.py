@@ -5,20 +5,19 @@ import subprocess
 import sys
 from collections import Counter
 
-import numpy as np
 import pytest
 from hypothesis import Phase
 from support.sample_files import REPOSITORY
-from support.sarsa.following import check_states, property_of
+from support.sarsa.following import check_states, following
 from support.sarsa.mutants import MUTANTS
 
-from garage2usd.planning import sarsa
+from garage2usd.native import LIBRARY
 
-test_learn_follows_the_decision_process = property_of(sarsa, number=np.float32, examples=200, phases=tuple(Phase))
+test_learn_follows_the_decision_process = following(examples=200, phases=tuple(Phase))
 
 
 def test_the_table_tells_states_apart_as_the_decision_process_does():
-    check_states(sarsa)
+    check_states()
 
 
 def test_names_of_faults_are_unique():
@@ -27,7 +26,7 @@ def test_names_of_faults_are_unique():
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.name)
 def test_each_fault_fits_one_place(mutant):
-    assert (REPOSITORY / "garage2usd" / "planning" / f"{mutant.module}.py").read_text().count(mutant.old) == 1
+    assert (LIBRARY.parent / f"{mutant.file}.c").read_text().count(mutant.old) == 1
     assert mutant.new != mutant.old
 
 

@@ -77,6 +77,8 @@ def same_type(hint, c_type, structs):
     """Whether an annotation and a type of C have the same bits."""
     if not c_type.endswith("*"):
         return NUMBERS.get(c_type) is hint
+    if dtype_of(hint) is np.int64 and c_type[:-1] in structs:  # filled by C
+        return {field for field, _ in structs[c_type[:-1]]} == {"int64_t"}
     if dtype_of(hint) is not None:
         return DTYPES.get(c_type[:-1]) is dtype_of(hint)
     return c_type[:-1] in structs and not different_fields(hint, c_type[:-1], structs)

@@ -61,13 +61,12 @@ class Entry:
 
 @dataclass
 class SlowSarsa:
-    """Learning on one site; `number` is the type that values are kept in, as float32 rounds them."""
+    """Learning on one site; values are kept in single precision, as the table has them."""
 
     process: DecisionProcess
     plan: PlanConfig
     random: SplitMix64
     archive_size: int
-    number: type
     q: dict = field(default_factory=lambda: defaultdict(lambda: [0.0] * len(Action)))
     worths: dict = field(default_factory=dict)
     archive: list = field(default_factory=list)
@@ -134,7 +133,7 @@ class SlowSarsa:
     def _learn(self, pair, target):
         seen, action = pair
         old = self.q[seen][action]
-        self.q[seen][action] = float(self.number(old + self.process.parameters.alpha * (target - old)))
+        self.q[seen][action] = float(np.float32(old + self.process.parameters.alpha * (target - old)))
 
     def _better(self, best, state, tape):
         if state.lanes not in self.worths:
