@@ -1,7 +1,7 @@
 """Plant faults in the C text of Sarsa and see its property find them.
 
 ``python -m support.sarsa.mutations [--only NAME]`` in ``tests``. Each fault of ``mutants.py`` is planted alone in a
-copy of the C files, whose library then runs on the random sites of the property. Ends with 1 if a fault survives.
+copy of its C files, whose library then runs on the random sites of the property. Ends with 1 if a fault survives.
 """
 
 import argparse
@@ -18,21 +18,26 @@ from support.sarsa.following import check_states, following
 from support.sarsa.mutants import MUTANTS, Mutant
 
 EXAMPLES, CONTROL_EXAMPLES = 200, 50
+FILES = ("arrays.h", "planning.h", "archive.c", "board.c", "sarsa.c", "survey.c")
+"""What Sarsa over squares is made of."""
 FORK = multiprocessing.get_context("fork")
 
 
-def planted(mutant: Mutant, folder: Path) -> Path:
-    """A library with the fault in it, compiled in a new folder."""
-    shutil.copytree(LIBRARY.parent, folder, ignore=shutil.ignore_patterns("*.py", "*.so", "__pycache__"))
-    file = folder / f"{mutant.file}.c"
-    text = file.read_text(encoding="utf-8")
-    assert text.count(mutant.old) == 1, f"{mutant.name}: its text is {text.count(mutant.old)} times in {file.name}"
-    file.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
+def library_of(folder: Path, mutant: Mutant | None = None) -> Path:
+    """A library with the fault in it, or with none, compiled in a new folder."""
+    folder.mkdir()
+    for name in FILES:
+        shutil.copy(LIBRARY.with_name(name), folder)
+    if mutant:
+        file = folder / f"{mutant.file}.c"
+        text = file.read_text(encoding="utf-8")
+        assert text.count(mutant.old) == 1, f"{mutant.name}: its text is {text.count(mutant.old)} times in {file.name}"
+        file.write_text(text.replace(mutant.old, mutant.new), encoding="utf-8")
     compile_loops(folder / LIBRARY.name, folder, ("-O0", "-w"))
     return folder / LIBRARY.name
 
 
-def failure_of(library: Path, examples: int = EXAMPLES) -> str | None:
+def failure_of(library: Path, examples: int) -> str | None:
     """How the property fails of a library; None if it holds."""
     try:
         with using(library):
@@ -43,10 +48,10 @@ def failure_of(library: Path, examples: int = EXAMPLES) -> str | None:
     return None
 
 
-def failure_apart(library: Path) -> str | None:
+def failure_apart(library: Path, examples: int = EXAMPLES) -> str | None:
     """`failure_of` in a process of its own, as a fault may write where it must not."""
     receiver, sender = FORK.Pipe(duplex=False)
-    child = FORK.Process(target=lambda: sender.send(failure_of(library)))
+    child = FORK.Process(target=lambda: sender.send(failure_of(library, examples)))
     child.start()
     sender.close()
     try:
@@ -61,13 +66,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", metavar="NAME", help="plant the faults alone whose names hold this")
     only = parser.parse_args().only or ""
-    assert failure_of(LIBRARY, CONTROL_EXAMPLES) is None, "the property fails of the library as it is"
     chosen = [mutant for mutant in MUTANTS if only in mutant.name]
     survivors = 0
     with tempfile.TemporaryDirectory() as folder:
+        control = failure_apart(library_of(Path(folder, "control")), CONTROL_EXAMPLES)
+        assert control is None, f"the property fails of Sarsa as it is: {control}"
         for number, mutant in enumerate(chosen):
             start = time.perf_counter()
-            failure = failure_apart(planted(mutant, Path(folder, str(number))))
+            failure = failure_apart(library_of(Path(folder, str(number)), mutant))
             survivors += failure is None
             verdict = f"caught ({failure})" if failure else "SURVIVED"
             print(f"{mutant.name}: {verdict}, {time.perf_counter() - start:.1f} s", flush=True)
