@@ -100,7 +100,7 @@ double drift(const Ground *ground, Board *board, int8_t *best_cells, uint64_t *r
     size_t bytes = (size_t)board->cells.count;
     double best = measure(ground, board, -INFINITY);
     memcpy(best_cells, cells, bytes);
-    int64_t known[3];
+    int64_t known[3]; /* stalls, time and unused squares, as in the board's tally */
     memcpy(known, board->tally.at, sizeof known);
     double cooling = pow(coldest / hottest, 1.0 / (double)most(1, flips)), heat = hottest;
     int64_t wholes = 0;

@@ -78,7 +78,7 @@ void find_faults(const Ground *ground, const Board *board, Draft *draft)
     draft->size.at[FAULTY] = count;
 }
 
-/* The lane nearest to the root on the way from the tip of a dead end, within the squares that it may have and one. */
+/* The last lane of a walk from the tip of a dead end to its root, which ends one lane beyond the depth allowed. */
 static int64_t towards_root(const Ground *ground, const Board *board, int64_t tip)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);

@@ -81,6 +81,7 @@ static bool flip_pair(const Ground *ground, const Board *board, Draft *draft, ui
     return add_square(draft, q, ends ? TIP : THROUGH) && add_square(draft, p, ends ? TIP + 1 : THROUGH);
 }
 
+/* Whether a square is in the move. */
 static bool is_moved(const Draft *draft, int64_t q)
 {
     for (int64_t index = 0; index < draft->size.at[MOVED]; index++)
