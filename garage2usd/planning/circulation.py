@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from garage2usd.config import PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
+from garage2usd.planning.survey import STRETCH, survey
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
-from garage2usd.planning.survey import STRETCH, survey
 from garage2usd.structure.pieces import pieces_of
 
 __all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
