@@ -14,8 +14,25 @@ typedef struct { double x, z; } Spot;
 /* A rectangle along the axes: least x and z, and most x and z. */
 typedef struct { double left, low, right, high; } Box;
 
+/* A turn about the vertical axis with its sine and cosine. */
+typedef struct { double yaw, sine, cosine; } Heading;
+
+/* An axis, and how far a hull goes along it. */
+typedef struct {
+    bool has_length;
+    Spot along;
+    double low, high;
+} Axis;
+
 /* Corners of a car's footprints: of one pose, and of a step from one pose to another. */
 enum { CORNERS = 4, BOTH = 8 };
+
+/* The hull of two footprints: its corners, and the axes across its edges, as many of them as were asked for. */
+typedef struct {
+    Spot corners[BOTH];
+    int64_t known;
+    Axis axes[8];
+} Hull;
 
 /* garage2usd.driving.sweep.Scene */
 typedef struct {
@@ -27,12 +44,14 @@ typedef struct {
 static inline double lesser(double one, double other) { return other < one ? other : one; }
 static inline double greater(double one, double other) { return other > one ? other : one; }
 
+static inline Heading heading_of(double yaw) { return (Heading){yaw, sin(yaw), cos(yaw)}; }
+
 /* sweep.c */
-void corners_at(double x, double z, double yaw, const double *body, Spot *corners);
-Box box_around(const Spot *corners, double reach);
+void put_footprint(Hull *hull, int64_t first, double x, double z, Heading heading, const double *body);
+Box box_around(const Hull *hull, double reach);
 FROM_PYTHON
 double bulge(double radius, double turn, const double *body);
-double clearance(const Spot *corners, const Scene *scene, int64_t number, double enough);
+double clearance(Hull *hull, const Scene *scene, int64_t number, double enough);
 
 /* Whether a shape's box is out of another. */
 static inline bool is_beyond(const Scene *scene, int64_t number, const Box *box)

@@ -32,15 +32,15 @@ typedef struct {
     int64_t max_nodes;
 } Task;
 
-/* A place of the rear axle's middle with its heading. */
-typedef struct { double x, z, yaw; } Place;
-
-/* A place that was reached: what the way to it costs, and its last step. */
+/* A place that was reached: where it is, of which cell, what the way to it costs, its last step, and whether a later
+ * node of the same cell costs less. */
 typedef struct {
-    Place place;
+    double x, z, yaw;
     double cost, step_m;
+    int64_t cell;
     int32_t parent;
     int8_t gear, steering, changes;
+    bool is_beaten;
 } Node;
 
 /* A node that is still to be looked at: those of least priority first, of these the oldest. */
@@ -49,28 +49,24 @@ typedef struct {
     int64_t node;
 } Open;
 
-/* The least cost of a cell; a key of 0 where there is none yet. */
-typedef struct {
-    int64_t key;
-    double best;
-} Slot;
-
+/* What the search has reached: the nodes, a heap of those to be looked at, and a table of open addressing with the node
+ * of each cell, 0 where there is none, as the start is in no cell. */
 typedef struct {
     Node *nodes;
     int64_t count;
     Open *open;
     int64_t open_count;
-    Slot *slots;
+    int32_t *slots;
     int64_t mask;
     double cell_m;
 } Room;
 
 /* Number of a shape that the hull of two footprints comes nearer to than `need`; -1 if there is none. */
-static int64_t first_touch(const Spot *corners, const Scene *scene, double need)
+static int64_t first_touch(Hull *hull, const Scene *scene, double need)
 {
-    Box box = box_around(corners, need);
+    Box box = box_around(hull, need);
     for (int64_t number = 0; number < scene->shapes.layers; number++)
-        if (!is_beyond(scene, number, &box) && clearance(corners, scene, number, need) < need)
+        if (!is_beyond(scene, number, &box) && clearance(hull, scene, number, need) < need)
             return number;
     return -1;
 }
@@ -85,7 +81,7 @@ static double turn_to(const double *goal, double yaw)
 }
 
 /* A lower bound of the way to any goal, with no regard for what stands in it. */
-static double left_of_way(const Place *at, const DoubleTable *goals, double radius)
+static double left_of_way(const Node *at, const DoubleTable *goals, double radius)
 {
     double least = INFINITY;
     for (int64_t number = 0; number < goals->rows; number++) {
@@ -97,7 +93,7 @@ static double left_of_way(const Place *at, const DoubleTable *goals, double radi
     return least;
 }
 
-static bool reaches(const Place *at, const DoubleTable *goals)
+static bool reaches(const Node *at, const DoubleTable *goals)
 {
     for (int64_t number = 0; number < goals->rows; number++) {
         const double *goal = goals->at + number * 5;
@@ -108,21 +104,25 @@ static bool reaches(const Place *at, const DoubleTable *goals)
     return false;
 }
 
-/* A number above 0 for a place, a heading and a gear; places lie within 40 m of the origin. */
-static int64_t cell_of(const Place *at, int64_t gear, double cell_m)
+/* A number for a place, a heading and a gear; places lie within 40 m of the origin. */
+static int64_t cell_of(double x, double z, int64_t heading, int64_t gear, double cell_m)
 {
-    int64_t column = (int64_t)floor(at->x / cell_m) + 1024, row = (int64_t)floor(at->z / cell_m) + 1024;
-    int64_t heading = (int64_t)rint(at->yaw / TURN) % HEADINGS;
-    if (heading < 0)
-        heading += HEADINGS;
-    return ((column * 2048 + row) * HEADINGS + heading) * 2 + (gear > 0) + 1;
+    int64_t column = (int64_t)floor(x / cell_m) + 1024, row = (int64_t)floor(z / cell_m) + 1024;
+    return ((column * 2048 + row) * HEADINGS + heading) * 2 + (gear > 0);
 }
 
-/* Where a key is in a table of open addressing, or where it would be put. */
-static Slot *slot_of(const Room *room, int64_t key)
+/* Number of the heading next to a yaw. */
+static int64_t heading_number(double yaw)
 {
-    int64_t at = (int64_t)((uint64_t)key * UINT64_C(0x9E3779B97F4A7C1) >> 20) & room->mask;
-    while (room->slots[at].key != 0 && room->slots[at].key != key)
+    int64_t number = (int64_t)rint(yaw / TURN) % HEADINGS;
+    return number < 0 ? number + HEADINGS : number;
+}
+
+/* Where the node of a cell is in the table, or where it would be put. */
+static int32_t *slot_of(const Room *room, int64_t cell)
+{
+    int64_t at = (int64_t)((uint64_t)cell * UINT64_C(0x9E3779B97F4A7C1) >> 20) & room->mask;
+    while (room->slots[at] != 0 && room->nodes[room->slots[at]].cell != cell)
         at = (at + 1) & room->mask;
     return &room->slots[at];
 }
@@ -172,61 +172,67 @@ static int64_t write_steps(const Node *nodes, int64_t last, double *steps)
     return count;
 }
 
-/* The place to which a step leads, and how long it is. */
-static Place driven(const Place *from, int64_t gear, int64_t steering, const Task *task, double *length)
-{
-    double radius = task->radius, yaw = from->yaw;
-    if (steering == 0) {
-        *length = task->straight_m;
-        return (Place){from->x - sin(yaw) * gear * *length, from->z - cos(yaw) * gear * *length, yaw};
-    }
-    double to = gear * steering > 0 ? (floor(yaw / TURN + NEAR) + 1) * TURN : (ceil(yaw / TURN - NEAR) - 1) * TURN;
-    *length = radius * fabs(to - yaw);
-    return (Place){
-        from->x + steering * radius * (cos(to) - cos(yaw)),
-        from->z - steering * radius * (sin(to) - sin(yaw)),
-        to,
-    };
-}
-
 /* Look from a node to all that a step leads to; false where there is no room for another node. */
 static bool expand(Room *room, const Task *task, int64_t number, double full, int64_t *touched)
 {
-    static const int8_t gears[2] = {-1, 1}, steerings[3] = {0, 1, -1};
     const Node from = room->nodes[number];
-    Spot corners[BOTH];
-    corners_at(from.place.x, from.place.z, from.place.yaw, task->scene.body.at, corners);
+    const double radius = task->radius, yaw = from.yaw;
+    /* straight on, after an arc that turns to the left, and to the right */
+    const Heading headings[3] = {
+        heading_of(yaw),
+        heading_of((floor(yaw / TURN + NEAR) + 1) * TURN),
+        heading_of((ceil(yaw / TURN - NEAR) - 1) * TURN),
+    };
+    const int64_t numbers[3] = {heading_number(yaw), heading_number(headings[1].yaw), heading_number(headings[2].yaw)};
+    Hull hull;
+    put_footprint(&hull, 0, from.x, from.z, headings[0], task->scene.body.at);
     for (int way = 0; way < 6; way++) {
-        int8_t gear = gears[way / 3], steering = steerings[way % 3];
+        static const int8_t gears[6] = {-1, -1, -1, 1, 1, 1}, steerings[6] = {0, 1, -1, 0, 1, -1};
+        int8_t gear = gears[way], steering = steerings[way];
         bool is_change = from.gear == -gear;
         int64_t changes = from.changes + is_change;
         if (changes > task->max_changes)
             continue;
-        double length;
-        Place to = driven(&from.place, gear, steering, task, &length);
-        if (fabs(to.x - task->start.at[0]) > task->reach || fabs(to.z - task->start.at[1]) > task->reach)
+        int side = steering == 0 ? 0 : gear * steering > 0 ? 1 : 2;
+        Heading to = headings[side];
+        double length, x, z, need;
+        if (steering == 0) {
+            length = task->straight_m;
+            x = from.x - to.sine * gear * length;
+            z = from.z - to.cosine * gear * length;
+            need = task->margin;
+        } else {
+            length = radius * fabs(to.yaw - yaw);
+            x = from.x + steering * radius * (to.cosine - headings[0].cosine);
+            z = from.z - steering * radius * (to.sine - headings[0].sine);
+            need = task->margin + full;
+        }
+        if (fabs(x - task->start.at[0]) > task->reach || fabs(z - task->start.at[1]) > task->reach)
             continue;
         double paid = from.cost + length;
         if (is_change)
             paid += GEAR_CHANGE_M;
         if (steering != from.steering)
             paid += STEERING_M;
-        int64_t key = cell_of(&to, gear, room->cell_m);
-        Slot *slot = slot_of(room, key);
-        if (slot->key == key && slot->best <= paid)
+        int64_t cell = cell_of(x, z, numbers[side], gear, room->cell_m);
+        int32_t *slot = slot_of(room, cell);
+        Node *known = *slot == 0 ? NULL : &room->nodes[*slot];
+        if (known != NULL && known->cost <= paid)
             continue;
-        corners_at(to.x, to.z, to.yaw, task->scene.body.at, corners + CORNERS);
-        int64_t hit = first_touch(corners, &task->scene, steering == 0 ? task->margin : task->margin + full);
+        put_footprint(&hull, CORNERS, x, z, to, task->scene.body.at);
+        int64_t hit = first_touch(&hull, &task->scene, need);
         if (hit >= 0) {
             touched[hit]++;
             continue;
         }
         if (room->count == task->max_nodes)
             return false;
-        *slot = (Slot){key, paid};
-        room->nodes[room->count] = (Node){to, paid, length, (int32_t)number, gear, steering, (int8_t)changes};
-        push(room, (Open){paid + GREED * left_of_way(&to, &task->goals, task->radius), room->count});
-        room->count++;
+        if (known != NULL)
+            known->is_beaten = true;
+        Node *added = &room->nodes[room->count];
+        *added = (Node){x, z, to.yaw, paid, length, cell, (int32_t)number, gear, steering, (int8_t)changes, false};
+        push(room, (Open){paid + GREED * left_of_way(added, &task->goals, radius), room->count});
+        *slot = (int32_t)room->count++;
     }
     return true;
 }
@@ -236,18 +242,16 @@ static int64_t look(Room *room, const Task *task, int64_t *touched, double *step
 {
     const double *start = task->start.at;
     double full = bulge(task->radius, TURN, task->scene.body.at);
-    room->nodes[0] = (Node){.place = {start[0], start[1], start[2]}, .parent = -1};
+    room->nodes[0] = (Node){.x = start[0], .z = start[1], .yaw = start[2], .parent = -1};
     room->count = 1;
     push(room, (Open){0.0, 0});
     while (room->open_count > 0) {
         int64_t number = pop(room);
         const Node *node = &room->nodes[number];
-        if (number > 0) {
-            if (node->cost > slot_of(room, cell_of(&node->place, node->gear, room->cell_m))->best)
-                continue;
-            if (reaches(&node->place, &task->goals))
-                return write_steps(room->nodes, number, steps);
-        }
+        if (node->is_beaten)
+            continue;
+        if (number > 0 && reaches(node, &task->goals))
+            return write_steps(room->nodes, number, steps);
         if (!expand(room, task, number, full, touched))
             return GAVE_UP;
     }
@@ -268,7 +272,7 @@ int64_t find_steps(const Task *task, int64_t *touched, double *steps)
     Room room = {.mask = size - 1, .cell_m = CELL_PER_STEP * task->straight_m};
     room.nodes = malloc(sizeof(Node) * (size_t)task->max_nodes);
     room.open = malloc(sizeof(Open) * (size_t)task->max_nodes);
-    room.slots = calloc((size_t)size, sizeof(Slot));
+    room.slots = calloc((size_t)size, sizeof(int32_t));
     bool has_room = room.nodes != NULL && room.open != NULL && room.slots != NULL;
     int64_t found = has_room ? look(&room, task, touched, steps) : NO_MEMORY;
     free(room.nodes);

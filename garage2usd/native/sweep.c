@@ -8,27 +8,28 @@
 
 #define SHORTEST 1e-9
 
-/* Write the four corners of the footprint of a pose; `body` is nose, tail and half the width. */
-void corners_at(double x, double z, double yaw, const double *body, Spot *corners)
+/* Write the four corners of the footprint of a pose, from corner `first` of a hull on; `body` is nose, tail and half the
+ * width. */
+void put_footprint(Hull *hull, int64_t first, double x, double z, Heading heading, const double *body)
 {
-    double sine = sin(yaw), cosine = cos(yaw);
     for (int corner = 0; corner < CORNERS; corner++) {
         double ahead = corner < 2 ? body[0] : -body[1];
         double left = corner == 0 || corner == 3 ? body[2] : -body[2];
-        corners[corner].x = x - sine * ahead - cosine * left;
-        corners[corner].z = z - cosine * ahead + sine * left;
+        hull->corners[first + corner].x = x - heading.sine * ahead - heading.cosine * left;
+        hull->corners[first + corner].z = z - heading.cosine * ahead + heading.sine * left;
     }
+    hull->known = 0;
 }
 
-/* What lies within reach of any of the corners of two footprints. */
-Box box_around(const Spot *corners, double reach)
+/* What lies within reach of any of the corners of a hull. */
+Box box_around(const Hull *hull, double reach)
 {
     Box box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (int corner = 0; corner < BOTH; corner++) {
-        box.left = lesser(box.left, corners[corner].x);
-        box.right = greater(box.right, corners[corner].x);
-        box.low = lesser(box.low, corners[corner].z);
-        box.high = greater(box.high, corners[corner].z);
+        box.left = lesser(box.left, hull->corners[corner].x);
+        box.right = greater(box.right, hull->corners[corner].x);
+        box.low = lesser(box.low, hull->corners[corner].z);
+        box.high = greater(box.high, hull->corners[corner].z);
     }
     return (Box){box.left - reach, box.low - reach, box.right + reach, box.high + reach};
 }
@@ -58,33 +59,52 @@ static Spot between(const Spot *corners, int64_t one, int64_t other)
     return (Spot){corners[one].x - corners[other].x, corners[one].z - corners[other].z};
 }
 
+/* The axis across an edge, if that has a length. */
+static Axis across(const Hull *hull, Spot edge)
+{
+    Axis axis = {.has_length = false};
+    double length = hypot(edge.x, edge.z);
+    if (length < SHORTEST)
+        return axis;
+    axis.has_length = true;
+    axis.along = (Spot){-edge.z / length, edge.x / length};
+    extent(hull->corners, BOTH, axis.along, &axis.low, &axis.high);
+    return axis;
+}
+
+/* One of the axes across the edges of a hull: two of the first footprint's, two of the second's, the corners' ways. */
+static const Axis *own_axis(Hull *hull, int64_t number)
+{
+    for (; hull->known <= number; hull->known++) {
+        int64_t side = hull->known;
+        int64_t corner = side < 2 ? side : side < 4 ? side + 2 : side - 4;
+        hull->axes[side] = across(hull, between(hull->corners, corner, side < 4 ? corner + 1 : corner + CORNERS));
+    }
+    return &hull->axes[number];
+}
+
 /* Least distance, or less, between the hull of two footprints and a convex shape.
  *
- * `corners` are those of both footprints, in the same order. Those of the shape are in order, the last perhaps repeated.
- * Where a gap is as wide as `enough`, no wider one is looked for. */
-double clearance(const Spot *corners, const Scene *scene, int64_t number, double enough)
+ * The footprints' corners are in the same order. Those of the shape are in order, the last perhaps repeated. Where a gap
+ * is as wide as `enough`, no wider one is looked for. */
+double clearance(Hull *hull, const Scene *scene, int64_t number, double enough)
 {
     int64_t count = scene->shapes.rows;
     const Spot *shape = (const Spot *)scene->shapes.at + number * count;
     double widest = -INFINITY;
     for (int64_t side = 0; side < 8 + count; side++) {
-        Spot axis;
-        if (side < 2) /* the edges of the first footprint */
-            axis = between(corners, side, side + 1);
-        else if (side < 4) /* of the second */
-            axis = between(corners, side + 2, side + 3);
+        Axis axis;
+        if (side < 4)
+            axis = *own_axis(hull, side);
         else if (side < 4 + count)
-            axis = between(shape, side - 4, (side - 3) % count);
+            axis = across(hull, between(shape, side - 4, (side - 3) % count));
         else
-            axis = between(corners, side - 4 - count, side - count);
-        double length = hypot(axis.x, axis.z);
-        if (length < SHORTEST)
+            axis = *own_axis(hull, side - count);
+        if (!axis.has_length)
             continue;
-        axis = (Spot){-axis.z / length, axis.x / length};
-        double low, high, shape_low, shape_high;
-        extent(corners, BOTH, axis, &low, &high);
-        extent(shape, count, axis, &shape_low, &shape_high);
-        widest = greater(greater(widest, shape_low - high), low - shape_high);
+        double low, high;
+        extent(shape, count, axis.along, &low, &high);
+        widest = greater(greater(widest, low - axis.high), axis.low - high);
         if (widest >= enough)
             break;
     }
@@ -95,29 +115,30 @@ double clearance(const Spot *corners, const Scene *scene, int64_t number, double
 FROM_PYTHON
 void mark_touched(const Scene *scene, const double *pose, double margin, bool *is_touched)
 {
-    Spot corners[BOTH];
-    corners_at(pose[0], pose[1], pose[2], scene->body.at, corners);
-    corners_at(pose[0], pose[1], pose[2], scene->body.at, corners + CORNERS);
+    Hull hull;
+    Heading heading = heading_of(pose[2]);
+    put_footprint(&hull, 0, pose[0], pose[1], heading, scene->body.at);
+    put_footprint(&hull, CORNERS, pose[0], pose[1], heading, scene->body.at);
     for (int64_t number = 0; number < scene->shapes.layers; number++)
-        is_touched[number] = clearance(corners, scene, number, margin) < margin;
+        is_touched[number] = clearance(&hull, scene, number, margin) < margin;
 }
 
 /* Least distance, or less, to any shape along poses (x, z, yaw); `most` where all is farther. */
 FROM_PYTHON
 double least_along(const Scene *scene, const double *poses, int64_t steps, const double *bulges, double most)
 {
-    Spot corners[BOTH];
+    Hull hull;
     double least = most;
     for (int64_t step = 0; step < steps; step++) {
         for (int end = 0; end < 2; end++) {
             const double *pose = poses + (step + end) * 3;
-            corners_at(pose[0], pose[1], pose[2], scene->body.at, corners + CORNERS * end);
+            put_footprint(&hull, CORNERS * end, pose[0], pose[1], heading_of(pose[2]), scene->body.at);
         }
         double reach = least + bulges[step];
-        Box box = box_around(corners, reach);
+        Box box = box_around(&hull, reach);
         for (int64_t number = 0; number < scene->shapes.layers; number++)
             if (!is_beyond(scene, number, &box))
-                least = lesser(least, clearance(corners, scene, number, reach) - bulges[step]);
+                least = lesser(least, clearance(&hull, scene, number, reach) - bulges[step]);
     }
     return least;
 }
