@@ -11,6 +11,8 @@ from PIL import Image
 from garage2usd.checks import Finding, check_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
+from garage2usd.driving import without_unreachable
+from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.tight import tight_stalls
@@ -279,16 +281,12 @@ def _findings(garage: Garage) -> tuple[Finding, ...] | None:
 
 
 def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
-    """The layout with what is asked of stalls that no car gets into; the compiled proof is loaded only for doubts."""
+    """The layout with what is asked of stalls that no car gets into."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
-        from garage2usd.driving import without_unreachable  # noqa: PLC0415
-
         return without_unreachable(layout, graph, config, progress=progress)
     tight = tight_stalls(graph, layout.stalls) if choice is UnreachableStalls.REFUSE else ()
     if tight:
-        from garage2usd.driving.refusal import refuse_undrivable  # noqa: PLC0415
-
         refuse_undrivable(layout, graph, config, tight, progress=progress)
     return layout
 

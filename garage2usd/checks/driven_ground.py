@@ -33,8 +33,8 @@ _SKIN_M = 0.02
 _CORNERS, _DIRECTIONS = 4, 8
 _SLACK_M2 = 0.05
 """Ground that the convex outline of an object may have over its pieces to stand for them: 1 cm along a car."""
-_COMPILING_S, _STALL_S = 60.0, 5.0
-"""Processor time that is allowed for a proof: for compiling, which is done once, and for each stall."""
+_ONCE_S, _STALL_S = 60.0, 5.0
+"""Processor time that is allowed for a proof: for what is done once, and for each stall."""
 _DIGITS = 4
 """Metres are rounded to so many, so that the single precision of a stage makes no difference."""
 
@@ -55,7 +55,7 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     -----
     A process with limits gets the time for the proof.
     """
-    allow_seconds(_COMPILING_S + _STALL_S * len(subject.parking_stalls))
+    allow_seconds(_ONCE_S + _STALL_S * len(subject.parking_stalls))
     garage = assembled(
         ((stall.name, rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
         ((rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),

@@ -9,6 +9,7 @@ from garage2usd.checks.subject import Subject
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
+from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.layout import Layout, Stall, lay_out
 from garage2usd.planning import dimensioned
@@ -140,8 +141,6 @@ def _laid_out(
     try:
         layout = lay_out(structure, graph, config, unreachable=unreachable or ())
         if unreachable is None and config.plan.unreachable_stalls.are_proven:
-            from garage2usd.driving import without_unreachable  # noqa: PLC0415 - brings compiled code
-
             layout = without_unreachable(layout, graph, config)
     except ConfigError as error:
         if error.field.startswith("bay."):

@@ -1,17 +1,15 @@
 """The rule of driving: the design car gets into each stall and out of it without a touch."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from garage2usd.checks import aisle, clearance, feasibility, stall
 from garage2usd.checks.aisle import edge_name
+from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.checks.subject import Subject
+from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
 from garage2usd.profiles import Length, Profile
-
-if TYPE_CHECKING:
-    from garage2usd.driving import DesignCar, StallProof
 
 __all__ = ["BOOK", "design_car"]
 
@@ -27,9 +25,6 @@ def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
     entrances, exits = ([at for at in subject.portals(kind) if subject.beside[at]] for kind in ("entrance", "exit"))
     if not (entrances and exits and subject.has_whole_graph and subject.things):
         return
-    from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage  # noqa: PLC0415 - brings compiled code
-    from garage2usd.driving import Limits, prove_garage  # noqa: PLC0415
-
     faults = _reported(subject, profile)
     places = {fault.place for fault in faults}
     lanes = {node for edge in subject.edges if edge_name(subject, edge) in places for node in (edge.start, edge.end)}
@@ -52,7 +47,7 @@ def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(proof.stall, at.centre_m, _message(proof), proof.clearance_m, required)
 
 
-def design_car(profile: Profile) -> "DesignCar":
+def design_car(profile: Profile) -> DesignCar:
     """The car of a profile: its axles are where the default car has them, in proportion.
 
     Raises
@@ -60,8 +55,6 @@ def design_car(profile: Profile) -> "DesignCar":
     ConfigError
         If no car of that size turns so tightly.
     """
-    from garage2usd.driving import DesignCar  # noqa: PLC0415
-
     usual = DesignCar()
     length_m = _amount(profile.design_car_length, usual.length_m)
     width_m = _amount(profile.design_car_width, usual.width_m)
@@ -86,7 +79,7 @@ def _reported(subject: Subject, profile: Profile) -> list[Miss]:
     return faults
 
 
-def _message(proof: "StallProof") -> str:
+def _message(proof: StallProof) -> str:
     if not proof.touched:
         return "no lane beside the stall is driven to from an entrance and on to an exit without turning round"
     named = ", ".join(proof.touched[:_NAMED])

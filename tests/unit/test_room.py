@@ -63,7 +63,7 @@ def test_default_garages_need_no_proof(monkeypatch):
     def fail(*_args, **_options):
         raise AssertionError("a garage that is in no doubt was proven")
 
-    monkeypatch.setattr("garage2usd.driving.refusal.refuse_undrivable", fail)
+    monkeypatch.setattr("garage2usd.pipeline.refuse_undrivable", fail)
     for dimensioned in (False, True):
         generate(GarageConfig(seed=2, plan=QUICK, bay={"dimensioned": dimensioned}))
     with pytest.raises(AssertionError, match="no doubt"):
