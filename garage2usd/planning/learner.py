@@ -159,8 +159,8 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
 
 
 def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:
-    """Epsilon and alpha at first, each followed by its factor after an episode."""
-    factors = [(last / first) ** (1 / episodes) for first, last in (epsilon, alpha)]
+    """Epsilon and alpha at first, each followed by its factor after an episode; what is 0 at first stays so."""
+    factors = [(last / first) ** (1 / episodes) if first > 0 else 1.0 for first, last in (epsilon, alpha)]
     return np.array([epsilon[0], factors[0], alpha[0], factors[1]])
 
 

@@ -80,3 +80,10 @@ def test_agent_is_a_setting(agent):
     plan = plan_lanes(G1, plan=PlanConfig(agent=agent, episodes=200), bay=BAY, seed=0)
     assert feasible(plan.structure.cells)
     assert len(plan.learning_curve) == 200
+
+
+def test_an_agent_over_aisles_may_explore_nothing_at_all():
+    settings = PlanConfig(episodes=20, agent="aisles", epsilon_start=0, climb=False)
+    plans = [plan_lanes(large_site(9, 12, 1), plan=settings, bay=BAY, seed=seed) for seed in (0, 0)]
+    assert feasible(plans[0].structure.cells)
+    assert np.array_equal(plans[0].structure.cells, plans[1].structure.cells)
