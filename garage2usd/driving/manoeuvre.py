@@ -5,16 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.driving.car import Pose
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from garage2usd.driving.sweep import Floats
+from garage2usd.driving.sweep import Floats
 
 __all__ = ["Gear", "Manoeuvre", "Move", "Waypoint"]
 
@@ -130,7 +126,7 @@ class Manoeuvre:
         if self.moves:
             yield Waypoint(pose, driven, self.moves[-1].gear, self.moves[-1].curvature_per_m)
 
-    def poses(self, step_m: float) -> "tuple[Floats, NDArray[np.int64]]":
+    def poses(self, step_m: float) -> tuple[Floats, NDArray[np.int64]]:
         """The poses of `waypoints` as an array, for a way that has moves.
 
         Returns
