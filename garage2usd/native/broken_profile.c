@@ -8,8 +8,8 @@
 /* Codes of a column: 0 nothing to come, 1 a portal that touches no lane yet, 2 + edges a free square, edges being the
  * sum of 1 up, 2 left, 4 right that are open, from 10 on a lane, by its piece and within a piece by its type. */
 enum { PORTAL_CODE = 1, FREE_CODE = 2, LANE_CODE = 10 };
-/* Columns share 60 bits of a frontier. Above them: the lanes are complete; they have a loop, or need none; the square up
- * and left of the next one is a lane in a corner that may become a block. */
+/* Columns share 60 bits of a frontier. Above them: the lanes are complete; they have a loop, or need none; the square
+ * up and left of the next one is a lane in a corner that may become a block. */
 #define FINISHED (INT64_C(1) << 60)
 #define LOOPED (INT64_C(1) << 61)
 #define CORNER (INT64_C(1) << 62)
@@ -99,10 +99,10 @@ static int64_t packed(const SquareTable *table, const int64_t *codes, const int6
  * `index` is the square, `key` the frontier before it, `choice` 0 not a lane, 1 a lane of the core, 1 + d a stub of
  * depth d. `room`, of 3 x (2 + columns) numbers, is for codes, pieces and names of pieces.
  *
- * The labels are sound where each lane of the core has two neighbours that are core or portals, and each stub of depth d
- * one neighbour of depth d - 1, no portal, and else neighbours of depth d + 1. Then pruning takes off the stubs and
- * nothing else, so that each layout that keeps R1 has exactly one labelling, and others have none. A lane that joins two
- * of the same piece closes a loop (R2); one that fills a block of two by two is forbidden (R3). */
+ * The labels are sound where each lane of the core has two neighbours that are core or portals, and each stub of depth
+ * d one neighbour of depth d - 1, no portal, and else neighbours of depth d + 1. Then pruning takes off the stubs and
+ * nothing else, so that each layout that keeps R1 has exactly one labelling, and others have none. A lane that joins
+ * two of the same piece closes a loop (R2); one that fills a block of two by two is forbidden (R3). */
 double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice, int64_t *room, int64_t *next_key)
 {
     int64_t cols = table->cols, col = index % cols, depth = choice - 1;

@@ -181,8 +181,8 @@ static void begin(const Enumeration *state, int64_t depth, const SquareTable *ta
  *
  * `board` holds the layout of `state` from call to call, at first that of `ground`. It returns after so many `steps`, a
  * square decided or taken back. `offsets` say where the frontiers before each square start in `keys`, `suffixes` what
- * can follow each. `relaxed` are the hops of the squares over free squares, and `price` is what a hop of a stall costs in
- * the relaxed value. */
+ * can follow each. `relaxed` are the hops of the squares over free squares, and `price` is what a hop of a stall costs
+ * in the relaxed value. */
 FROM_PYTHON
 bool enumerate_layouts(const Enumeration *state, int64_t steps, const SquareTable *table, const Ground *ground,
                        Board *board, const int64_t *offsets, const int64_t *keys, const double *suffixes,

@@ -8,8 +8,8 @@
 
 #define SHORTEST 1e-9
 
-/* Write the four corners of the footprint of a pose, from corner `first` of a hull on; `body` is nose, tail and half the
- * width. */
+/* Write the four corners of the footprint of a pose, from corner `first` of a hull on; `body` is nose, tail and half
+ * the width. */
 void put_footprint(Hull *hull, int64_t first, double x, double z, Heading heading, const double *body)
 {
     for (int corner = 0; corner < CORNERS; corner++) {
@@ -85,8 +85,8 @@ static const Axis *own_axis(Hull *hull, int64_t number)
 
 /* Least distance, or less, between the hull of two footprints and a convex shape.
  *
- * The footprints' corners are in the same order. Those of the shape are in order, the last perhaps repeated. Where a gap
- * is as wide as `enough`, no wider one is looked for. */
+ * The footprints' corners are in the same order. Those of the shape are in order, the last perhaps repeated. Where a
+ * gap is as wide as `enough`, no wider one is looked for. */
 double clearance(Hull *hull, const Scene *scene, int64_t number, double enough)
 {
     int64_t count = scene->shapes.rows;
