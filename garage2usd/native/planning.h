@@ -167,7 +167,10 @@ void keep(Archive *archive, const int64_t *laid, int64_t lanes, double value, co
           int64_t start);
 
 /* A number from 0 to below 1. */
-static inline double uniform(uint64_t *random) { return (double)(next_random(random) >> 11) * (1.0 / 9007199254740992.0); }
+static inline double uniform(uint64_t *random)
+{
+    return (double)(next_random(random) >> 11) * (1.0 / 9007199254740992.0);
+}
 
 /* A whole number from 0 to below `count`. */
 static inline int64_t below(uint64_t *random, int64_t count) { return (int64_t)(uniform(random) * (double)count); }
