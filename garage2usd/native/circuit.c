@@ -1,6 +1,4 @@
 /* Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. */
-#include <string.h>
-
 #include "draft.h"
 
 /* Shares of the moves that are of a side, and that start at what is broken. */
@@ -222,16 +220,6 @@ static void book(Draft *draft)
 {
     for (int figure = STALLS; figure <= UNUSED; figure++)
         draft->tally.at[figure] += draft->change.at[figure];
-}
-
-static void copy_cells(Int8Row *target, const Int8Row *source)
-{
-    memcpy(target->at, source->at, (size_t)source->count);
-}
-
-static void copy_hops(Int32Row *target, const Int32Row *source)
-{
-    memcpy(target->at, source->at, (size_t)source->count * sizeof(int32_t));
 }
 
 /* Make the move of the draft if it gains as much as the threshold. */

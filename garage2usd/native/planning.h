@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "arrays.h"
 
@@ -155,6 +156,16 @@ typedef struct {
 
 static inline int64_t least(int64_t one, int64_t other) { return other < one ? other : one; }
 static inline int64_t most(int64_t one, int64_t other) { return other > one ? other : one; }
+
+static inline void copy_cells(const Int8Row *target, const Int8Row *source)
+{
+    memcpy(target->at, source->at, (size_t)source->count);
+}
+
+static inline void copy_hops(const Int32Row *target, const Int32Row *source)
+{
+    memcpy(target->at, source->at, (size_t)source->count * sizeof(int32_t));
+}
 
 /* The four steps from a square to those beside it, in the order of the bits of `Ground.capacity`: up, down, left,
  * right. */

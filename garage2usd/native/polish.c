@@ -14,18 +14,6 @@ typedef struct {
     const PolishRoom *room;
 } Polish;
 
-static void copy_cells(const Int8Row *target, const Int8Row *source)
-{
-    for (int64_t q = 0; q < source->count; q++)
-        target->at[q] = source->at[q];
-}
-
-static void copy_hops(const Int32Row *target, const Int32Row *source)
-{
-    for (int64_t q = 0; q < source->count; q++)
-        target->at[q] = source->at[q];
-}
-
 /* Whether a square or the other has a lane beside it: without, no flip of them keeps the lanes joined. */
 static bool beside_lane(const Polish *polish, int64_t q, int64_t p)
 {
