@@ -8,15 +8,13 @@ import resource
 import statistics
 import subprocess
 import sys
-import tarfile
 import tempfile
 import tomllib
 from collections import defaultdict
-from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
 
-from waiting import BEFORE
+from waiting import BEFORE, version_before
 
 __all__ = ["datasets", "workers"]
 
@@ -78,12 +76,7 @@ def datasets() -> str:
     figures: dict[str, list[tuple[_Cost, _Cost]]] = defaultdict(list)
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
-        before = place / "before"
-        archive = subprocess.run(
-            ["git", "-C", HERE.parent, "archive", BEFORE], stdout=subprocess.PIPE, check=True
-        ).stdout
-        with tarfile.open(fileobj=BytesIO(archive)) as files:
-            files.extractall(before, filter="data")
+        before = version_before(place)
         guide = (before / GUIDE).read_text()
         for name in ("small.toml", "many.py"):
             (place / name).write_text(_block(guide, name))

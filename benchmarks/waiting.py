@@ -1,6 +1,7 @@
 """How long people wait: first, second and warm builds, checks and starts, beside an earlier version in the same run."""
 # ruff: noqa: S603, S607 - git and Python are run
 
+import importlib.util
 import json
 import os
 import resource
@@ -13,7 +14,7 @@ from collections import defaultdict
 from io import BytesIO
 from pathlib import Path
 
-__all__ = ["waiting"]
+__all__ = ["BEFORE", "version_before", "waiting"]
 
 HERE = Path(__file__).parent
 BEFORE = "3211d42"
@@ -49,16 +50,22 @@ print(json.dumps(seconds))
 """
 
 
+def version_before(folder: Path) -> Path:
+    """Unpack the package of the version before into a folder."""
+    if importlib.util.find_spec("numba") is None:
+        sys.exit(f"{BEFORE} compiles its loops by Numba: pip install numba")
+    root = folder / "before"
+    archive = subprocess.run(["git", "-C", HERE.parent, "archive", BEFORE], stdout=subprocess.PIPE, check=True).stdout
+    with tarfile.open(fileobj=BytesIO(archive)) as files:
+        files.extractall(root, filter="data")
+    return root
+
+
 def waiting() -> str:
     """One row for each wait: processor seconds before and now, and their ratio."""
     figures: dict[str, dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
     with tempfile.TemporaryDirectory() as folder:
-        before = Path(folder) / "before"
-        archive = subprocess.run(
-            ["git", "-C", HERE.parent, "archive", BEFORE], stdout=subprocess.PIPE, check=True
-        ).stdout
-        with tarfile.open(fileobj=BytesIO(archive)) as files:
-            files.extractall(before, filter="data")
+        before = version_before(Path(folder))
         loads = [os.getloadavg()[0]]
         for turn in range(ROUNDS):
             for version, root in (("before", before), ("now", HERE.parent)):
