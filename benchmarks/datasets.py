@@ -1,5 +1,5 @@
 """What a garage of a data set costs, beside one of the loop of the guide, and how much memory a worker takes."""
-# ruff: noqa: S603, S607 - git and Python are run
+# ruff: noqa: S603 - Python is run
 
 import json
 import os
