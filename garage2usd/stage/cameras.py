@@ -5,6 +5,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from pxr import Gf, Sdf
 
@@ -26,6 +27,9 @@ _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
 _STEADY = 1e-9
 """What rounding errors make of no change of speed, in metres or degrees a frame."""
+_UNSEEN_DEG = 0.02
+"""That a camera may be turned off its way: half a pixel of a picture 2000 pixels wide."""
+_FRAMES_APART = 1000.0
 _LOOK_AHEAD_M = 4.0
 _NEAR_M, _FAR_M = 0.1, 2000.0
 _SHELL = ("wall", "portal", "ramp", "sky")
@@ -41,8 +45,8 @@ def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
     Notes
     -----
     It takes the shortest route from the first entrance that leads to an exit to the one nearest to it, at 2.7 m/s, with
-    rounded corners, looking 4 m ahead; its first frame is 0. Frames between which it moves or turns steadily have no
-    samples, as USD interpolates linearly.
+    rounded corners, looking 4 m ahead; its first frame is 0. Frames between which it moves steadily, or turns so
+    but for a fiftieth of a degree, have no samples, as USD interpolates linearly.
     """
     with new_layer(path, default_prim=DRIVE_NAME) as layer:
         camera = _camera(layer, Sdf.Path.absoluteRootPath.AppendChild(DRIVE_NAME))
@@ -116,7 +120,7 @@ def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> 
     for frame in bends(np.array(here)):
         x, z = here[frame]
         layer.SetTimeSample(moves.path, float(frame), Gf.Vec3f(x, EYE_M, z))
-    for frame in bends(np.array(yaws_deg)[:, None]):
+    for frame in _turns(np.array(yaws_deg)):
         layer.SetTimeSample(turns.path, float(frame), round(yaws_deg[frame], 3))
     return frames
 
@@ -127,6 +131,15 @@ def bends(values: NDArray[np.float64]) -> list[int]:
     bends[1:-1] = (np.abs(np.diff(values, 2, axis=0)) > _STEADY).any(axis=1)
     frames: list[int] = np.flatnonzero(bends).tolist()
     return frames
+
+
+def _turns(yaws_deg: NDArray[np.float64]) -> list[int]:
+    """The frames between which the camera turns steadily but for `_UNSEEN_DEG`, by Douglas and Peucker (1973)."""
+    # frames so far apart that the distance from a line is the difference at a frame
+    frames = np.arange(len(yaws_deg)) * _FRAMES_APART
+    line = shapely.LineString(np.stack([frames, yaws_deg], axis=1)).simplify(_UNSEEN_DEG, preserve_topology=False)
+    kept: list[int] = np.rint(shapely.get_coordinates(line)[:, 0] / _FRAMES_APART).astype(int).tolist()
+    return kept
 
 
 def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
