@@ -17,6 +17,8 @@ __all__ = ["OBJECT_LABELS", "label_table"]
 
 OBJECT_LABELS: dict[str, str] = {kind.name: kind.label for kind in KINDS}
 """Semantic class of each kind of object, authored on every instance root."""
+_DECIMALS = 3
+"""Of bounds in metres."""
 _Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
@@ -76,5 +78,5 @@ def _bounds_m(
     objects: ObjectTable, rows: NDArray[np.intp] | slice = slice(None), piece: PieceClass | None = None
 ) -> Iterator[_Bounds]:
     corners = world_bounds_m(objects, rows, piece=None if piece is None else piece.label)
-    low, high = ((np.round(each, 4) + 0.0).tolist() for each in corners)
+    low, high = ((np.round(each, _DECIMALS) + 0.0).tolist() for each in corners)
     return zip(low, high, strict=True)
