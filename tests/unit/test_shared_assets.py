@@ -136,10 +136,10 @@ def test_check_and_view_read_shared_assets_as_ones_of_the_stages_own(tmp_path):
 
 
 def test_garages_that_share_assets_are_small(tmp_path):
-    """Garages of 7 x 9 squares, the default, each learnt on a site of its own."""
+    """Garages of 7 x 9 squares, the default, of the seeds below 100 whose files are largest."""
     config = GarageConfig(stage={"assets": "shared"})
     sizes = []
-    for seed in range(3):
+    for seed in (7, 21, 54, 22):
         folder = tmp_path / str(seed)
         made = build(config, folder / "g.usdc", seed=seed)
         files = [path for path in folder.rglob("*") if path.is_file()]
@@ -148,7 +148,7 @@ def test_garages_that_share_assets_are_small(tmp_path):
         assert sum(path.stat().st_size for path in own_layers) < 100_000
         assert set(files) == {made.report, made.labels, *made.pictures, *own_layers}
         assert len(files) == 6
-        assert sum(path.stat().st_size for path in files) < 260_000
+        assert sum(path.stat().st_size for path in files) <= 250_000
         sizes.append(sum(map(len, contents(tmp_path / "assets").values())))
     # the second and third add what is theirs alone: outlines of stalls, stains, numbers
     assert sizes[2] < 1.3 * sizes[0] < 3_000_000

@@ -18,6 +18,7 @@ from garage2usd.layout import lay_out
 from garage2usd.objects import CLASSES_VERSION, PIECE_LABELS, TilePart
 from garage2usd.pipeline import build
 from garage2usd.reading.labels import CITYSCAPES
+from garage2usd.stage import cameras
 from garage2usd.stage.cameras import write_drive
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
@@ -299,6 +300,19 @@ def test_the_drive_goes_from_an_entrance_to_an_exit_over_lanes(stage, made):
     forward = camera.ComputeLocalToWorldTransform(0).TransformDir((0, 0, -1))
     ahead = np.subtract(places[20], places[0])
     assert np.dot((forward[0], forward[2]), ahead / np.linalg.norm(ahead)) > 0.9
+
+
+def test_the_camera_that_drives_is_nowhere_seen_to_turn_otherwise_than_frame_by_frame(made, tmp_path, monkeypatch):
+    layout, graph = made.garage.layout, made.garage.graph
+    drives = []
+    for name, unseen_deg in (("few", cameras._UNSEEN_DEG), ("all", 0.0)):
+        monkeypatch.setattr(cameras, "_UNSEEN_DEG", unseen_deg)
+        last = cameras.write_drive(tmp_path / f"{name}.usdc", layout, graph)
+        drives.append(Usd.Stage.Open(str(tmp_path / f"{name}.usdc")))
+    few, every = (drive.GetDefaultPrim().GetAttribute("xformOp:rotateY") for drive in drives)
+    assert 10 < few.GetNumTimeSamples() < 0.6 * every.GetNumTimeSamples()
+    off = [abs(few.Get(frame) - every.Get(frame)) for frame in range(last + 1)]
+    assert max(off) <= 0.02 + 2 * 0.0005 + 1e-4  # both are in thousandths
 
 
 def test_every_collider_has_friction(stage):
