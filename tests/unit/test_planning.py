@@ -224,4 +224,4 @@ def test_a_report_has_the_means_of_the_learning_curve(tmp_path, episodes):
     assert len(points) == min(episodes, 500)
     borders = np.cumsum([0] + [episodes // len(points) + (n < episodes % len(points)) for n in range(len(points))])
     means = [curve[start:end].mean() for start, end in pairwise(borders)]
-    assert points == pytest.approx(means, abs=1e-3)
+    assert points == pytest.approx(means, abs=0.05 + 1e-9)  # they have one decimal
