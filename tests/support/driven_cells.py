@@ -25,8 +25,7 @@ def covered(read, garage, proofs, car):
     found = []
     for stall, proof in zip(garage.stalls, proofs, strict=True):
         for way in filter(None, (proof.way_in, proof.way_out)):
-            corners = np.array([car.corners(waypoint.pose) for waypoint in way.waypoints(STEP_M)])
-            grounds = shapely.polygons(corners * (1, -1))
+            grounds = shapely.polygons(_corners(way, car) * (1, -1))
             hit = np.unique(runs.query(grounds, predicate="intersects")[1])
             if not len(hit):
                 continue
@@ -38,6 +37,15 @@ def covered(read, garage, proofs, car):
             touched = shapely.STRtree(squares[is_foreign]).query(grounds, predicate="intersects")[1]
             found += list(middles[is_foreign][np.unique(touched)])
     return np.array(found)
+
+
+def _corners(way, car):
+    """Corners (x, z) of a car's footprint along a way, shape (poses, 4, 2)."""
+    x, z, yaw = way.poses(STEP_M)[0].T[:, :, None]
+    ahead = np.array([car.ahead_m, car.ahead_m, -car.rear_overhang_m, -car.rear_overhang_m])
+    left = np.array([1, -1, -1, 1]) * car.width_m / 2
+    sin, cos = np.sin(yaw), np.cos(yaw)
+    return np.stack([x - sin * ahead - cos * left, z - cos * ahead + sin * left], axis=-1)
 
 
 def _runs(cells):

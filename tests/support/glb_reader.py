@@ -213,15 +213,12 @@ def _smooth_corners(prim, places, turn):
         return np.zeros((0, 6))
     normals = np.array(primvar.ComputeFlattened()) @ turn
     counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
-    found, start = [np.zeros((0, 6))], 0
-    for count in counts:
-        own = places[corners[start : start + count]]
-        facing = np.cross(own, np.roll(own, -1, axis=0)).sum(axis=0)
-        there = normals[start : start + count]
-        bent = there @ facing < 0.999 * np.linalg.norm(facing)
-        found.append(np.hstack([own, there])[bent])
-        start += count
-    return np.concatenate(found)
+    starts = np.cumsum(counts) - counts
+    own, following = places[corners], np.arange(1, len(corners) + 1)
+    following[starts + counts - 1] = starts  # of the last corner of each face
+    facing = np.repeat(np.add.reduceat(np.cross(own, own[following]), starts), counts, axis=0)
+    bent = (normals * facing).sum(axis=1) < 0.999 * np.linalg.norm(facing, axis=1)
+    return np.hstack([own, normals])[bent]
 
 
 def _assert_sound_primitives(glb):
@@ -251,15 +248,12 @@ def _assert_tangents(attributes, corners, points):
     assert np.abs((tangents[:, :3] * normals).sum(axis=1)).max() < UNIT
     # the way from corner to corner along which u, or v upwards, alone grows
     uv = attributes["TEXCOORD_0"][corners].astype(float) * (1, -1)
-    for triangle, place, here in zip(corners, points, uv, strict=True):
-        sides, steps = place[1:] - place[0], here[1:] - here[0]
-        if abs(np.linalg.det(steps)) < 1e-9:
-            continue
-        along_u, along_v = np.linalg.inv(steps) @ sides
-        for vertex in triangle:
-            tangent, side = tangents[vertex, :3], tangents[vertex, 3]
-            assert tangent @ along_u > 0
-            assert side * np.cross(normals[vertex], tangent) @ along_v > 0
+    sides, steps = points[:, 1:] - points[:, :1], uv[:, 1:] - uv[:, :1]
+    spread = np.abs(np.linalg.det(steps)) >= 1e-9
+    along_u, along_v = np.moveaxis(np.linalg.inv(steps[spread]) @ sides[spread], 1, 0)[:, :, None]
+    tangent, side = tangents[corners[spread], :3], tangents[corners[spread], 3]
+    assert ((tangent * along_u).sum(axis=2) > 0).all()
+    assert (side * (np.cross(normals[corners[spread]], tangent) * along_v).sum(axis=2) > 0).all()
 
 
 def stalls_of(report):

@@ -59,6 +59,11 @@ def objects_of(built):
         yield entry["class"], (x0, low, -z1), (x1, high, -z0)
 
 
+def between(middles, low, high):
+    """Which of ascending numbers lie between two."""
+    return slice(np.searchsorted(middles, low, side="right"), np.searchsorted(middles, high, side="left"))
+
+
 def judge(write, made, folder, *, side_m=0.05):
     built, subject, garage, proofs, car = made
     grid = GridConfig(resolution_m=side_m, low_m=LOW_M, high_m=HIGH_M)
@@ -72,13 +77,14 @@ def judge(write, made, folder, *, side_m=0.05):
             inner = read.within((low[0] + SLACK_M, low[2] + SLACK_M), (high[0] - SLACK_M, high[2] - SLACK_M))
             assert (inner == OCCUPIED).all(), (label, low)
         if label not in NOT_SOLID and low[1] <= HIGH_M and high[1] >= LOW_M:
-            near = (x > low[0] - APART_M) & (x < high[0] + APART_M)
-            expected |= near & ((y > low[2] - APART_M) & (y < high[2] + APART_M))[:, None]
+            expected[
+                between(y, low[2] - APART_M, high[2] + APART_M), between(x, low[0] - APART_M, high[0] + APART_M)
+            ] = True
     assert not ((read.cells == OCCUPIED) & ~expected).any()
     inside = np.full(read.cells.shape, fill_value=False)
     for label, low, high in objects_of(built):
         if label in {"floor", "ramp"}:
-            inside |= ((x > low[0]) & (x < high[0])) & ((y > low[2]) & (y < high[2]))[:, None]
+            inside[between(y, low[2], high[2]), between(x, low[0], high[0])] = True
         if label == "floor" or label in PAINTED:  # paint is floor
             assert not (read.within((low[0], low[2]), (high[0], high[2])) == UNKNOWN).any()
     assert inside[read.cells == FREE].all()
