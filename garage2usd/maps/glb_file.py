@@ -19,7 +19,9 @@ from garage2usd.version import VERSION
 
 __all__ = ["GlbFile", "Piece"]
 
-_FLOAT = 5126
+_FLOAT, _SHARE = 5126, 5123
+_MOST = 65535
+"""What stands for 1 in 16 bits: shares of a texture's side are off by at most a hundredth of a pixel of a thousand."""
 _VERTICES, _INDICES = 34962, 34963
 _INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
 """Types of indices, the shortest first; the last number of each would restart a primitive."""
@@ -83,9 +85,14 @@ class GlbFile:
         return self._primitive_of[key]
 
     def _attributes(self, own: Primitive) -> dict[str, int]:
-        arrays = {"NORMAL": own.normals, "TANGENT": own.tangents, "TEXCOORD_0": own.coordinates}
+        arrays = {"NORMAL": own.normals, "TANGENT": own.tangents}
         attributes = {"POSITION": self._numbers.vectors(own.positions, with_bounds=True)}
-        return attributes | {name: self._numbers.vectors(array) for name, array in arrays.items() if array is not None}
+        attributes |= {name: self._numbers.vectors(array) for name, array in arrays.items() if array is not None}
+        if own.coordinates is not None:
+            is_within = bool((own.coordinates >= 0).all() and (own.coordinates <= 1).all())
+            numbered = self._numbers.shares if is_within else self._numbers.vectors
+            attributes["TEXCOORD_0"] = numbered(own.coordinates)
+        return attributes
 
     def add_node(
         self,
@@ -169,6 +176,11 @@ class _Numbers:
         bounds = partial(_bounds, values) if with_bounds else None
         return self._accessor(values.astype("<f4").tobytes(), _FLOAT, len(values), f"VEC{width}", header, bounds)
 
+    def shares(self, values: NDArray[np.float32]) -> int:
+        """Number of the accessor of texture coordinates from 0 to 1, one a vertex, in half the bytes of others."""
+        header, data = {"target": _VERTICES, "byteStride": 4}, np.rint(values * _MOST).astype("<u2").tobytes()
+        return self._accessor(data, _SHARE, len(values), "VEC2", header, None)
+
     def indices(self, triangles: NDArray[np.uint32]) -> int:
         """Number of the accessor of what `triangles` numbers, in as few bytes as are enough."""
         fitting = (number for number, kind in _INDEX_TYPES.items() if triangles.max() < np.iinfo(np.dtype(kind)).max)
@@ -206,6 +218,7 @@ class _Numbers:
                 "bufferView": view,
                 **({"byteOffset": offset} if offset else {}),
                 "componentType": component,
+                **({"normalized": True} if component == _SHARE and kind == "VEC2" else {}),
                 "count": count,
                 "type": kind,
                 **(bounds() if bounds else {}),

@@ -48,7 +48,8 @@ class Glb:
         accessor = self.json["accessors"][number]
         kind, width = TYPES[accessor["componentType"]], WIDTHS[accessor["type"]]
         start, count = accessor.get("byteOffset", 0), accessor["count"] * width
-        return np.frombuffer(self.view(accessor["bufferView"]), kind, count, start).reshape(-1, width)
+        values = np.frombuffer(self.view(accessor["bufferView"]), kind, count, start).reshape(-1, width)
+        return values / np.iinfo(kind).max if accessor.get("normalized") else values
 
     def matrix(self, number):
         """From a node's space to the world, for columns."""
