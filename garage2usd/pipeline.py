@@ -209,6 +209,7 @@ def build(
                 config=garage.config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds=seconds
             ),
         )
+        progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
         files = [*filter(None, [made.assets]), *drawn, labels, report, made.stage]
         place_of = dict(zip(files, publish(files, path.parent), strict=True))

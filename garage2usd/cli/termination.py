@@ -11,24 +11,30 @@ ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasatt
 
 
 class Termination:
-    """The signals in `ENDING` unwind like an exception, so that temporary files go."""
+    """The signals in `ENDING`, and Ctrl-C, unwind like an exception, so that temporary files go."""
 
     def __init__(self) -> None:
         self._asked = 0
 
     def install(self) -> None:
         """Handle the signals, but for those that the caller of this process has it ignore, as `nohup` does."""
-        for number in ENDING:
+        self._asked = 0
+        for number in (*ENDING, signal.SIGINT):
             if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, self)
 
     def __call__(self, number: int, _frame: FrameType | None) -> None:
         """Handle a signal."""
         self._asked = number
-        sys.exit(128 + number)
+        self.insist()
 
     def insist(self) -> None:
-        """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do."""
+        """Unwind now, if whatever was running when the signal came swallowed the exception, as callbacks from C do.
+
+        USD's modules do so, too, while they are imported.
+        """
+        if self._asked == signal.SIGINT:
+            raise KeyboardInterrupt
         if self._asked:
             sys.exit(128 + self._asked)
 

@@ -209,6 +209,16 @@ def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
     assert first.value.code == second.value.code == 128 + signal.SIGTERM
 
 
+def test_a_ctrl_c_that_was_swallowed_is_made_up_for(monkeypatch):
+    termination = Termination()
+    monkeypatch.setattr(bars, "TERMINATION", termination)
+    with bars.Bars(io.StringIO()) as progress:
+        with pytest.raises(KeyboardInterrupt):
+            termination(signal.SIGINT, None)
+        with pytest.raises(KeyboardInterrupt):
+            progress("plan", 2, 3)
+
+
 def test_the_schema_command_prints_the_schema():
     assert json.loads(run("schema").output) == config_schema()
 
