@@ -58,11 +58,11 @@ def main() -> None:
         sys.exit(f"unknown sections {', '.join(sorted(unknown))}: name some of {', '.join(measures)}")
     results = HERE / "results.md"
     kept = dict(re.findall(r"<!-- (\w+) -->\n(.*?)(?=\n\n<!-- |\Z)", results.read_text(), re.DOTALL))
-    sections = {
-        name: measures[name]() if name in asked else kept[name].rstrip() for name in measures if name in {*asked, *kept}
-    }
-    marked = [f"<!-- {name} -->\n{section}" for name, section in sections.items()]
-    results.write_text("\n\n".join([_heading(), *marked]) + "\n")
+    for asked_for in asked:
+        # written one by one, so that an error in one loses none of the others
+        kept[asked_for] = measures[asked_for]()
+        marked = [f"<!-- {name} -->\n{kept[name].rstrip()}" for name in measures if name in kept]
+        results.write_text("\n\n".join([_heading(), *marked]) + "\n")
 
 
 def _heading() -> str:
@@ -122,7 +122,7 @@ _LEARN_SLOWLY = f"""{_SITE}
 from garage2usd.planning.decision import DecisionProcess
 from support.sarsa.slow_sarsa import SlowSarsa, SplitMix64
 plan = PlanConfig(preset="paper", climb=False)
-slow = SlowSarsa(DecisionProcess(site, BayConfig(), plan.resolved()), plan, SplitMix64(1), 10, float)
+slow = SlowSarsa(DecisionProcess(site, BayConfig(), plan.resolved()), plan, SplitMix64(1), 10)
 start = time.perf_counter()
 for _ in range({PYTHON_EPISODES}):
     slow.episode()
