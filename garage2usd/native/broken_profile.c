@@ -61,6 +61,15 @@ static int64_t met(int64_t kind, int64_t depth)
     return depth == own - 1 && (kind & 1) ? kind + 1 : -1;
 }
 
+/* Have a new lane of a depth and one beside it meet; false if such may not be neighbours. */
+static bool meet(int64_t *kind, int64_t *other, int64_t depth)
+{
+    int64_t own = *kind;
+    *kind = met(own, depth_of(*other));
+    *other = met(*other, depth);
+    return *kind >= 0 && *other >= 0;
+}
+
 /* Take the code of each column and the piece of its lane, 0 if it is none, out of a frontier. */
 static void unpack(const SquareTable *table, int64_t key, int64_t *codes, int64_t *pieces)
 {
@@ -136,13 +145,8 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
     }
     if (up_piece > 0) {
         int64_t other = up - LANE_CODE;
-        if (lane) {
-            int64_t own = kind;
-            kind = met(own, depth_of(other));
-            other = met(other, depth);
-            if (kind < 0 || other < 0)
-                return FORBIDDEN;
-        }
+        if (lane && !meet(&kind, &other, depth))
+            return FORBIDDEN;
         if (needs(other) > 0)
             return FORBIDDEN;
         if (!lane) {
@@ -164,13 +168,8 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
         codes[col - 1] = 0;
     } else if (left_piece > 0) {
         int64_t other = left - LANE_CODE;
-        if (lane) {
-            int64_t own = kind;
-            kind = met(own, depth_of(other));
-            other = met(other, depth);
-            if (kind < 0 || other < 0)
-                return FORBIDDEN;
-        }
+        if (lane && !meet(&kind, &other, depth))
+            return FORBIDDEN;
         if (needs(other) > is_free(table, index - 1 + cols))
             return FORBIDDEN;
         codes[col - 1] = LANE_CODE + other;

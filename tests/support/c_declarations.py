@@ -16,7 +16,7 @@ FOLDER = Path(native.__file__).parent
 PACKAGE = Path(garage2usd.__file__).parent
 NUMBERS = {"bool": bool, "int64_t": int, "uint64_t": np.uint64, "double": float, "void": type(None)}
 DTYPES = {"bool": np.bool_, "int8_t": np.int8, "int32_t": np.int32, "int64_t": np.int64, "uint64_t": np.uint64}
-DTYPES |= {"float": np.float32, "double": np.float64, "VALUE": np.float32}
+DTYPES |= {"float": np.float32, "double": np.float64}
 WORDS = {"Row": 2, "Table": 3, "Cube": 4}
 
 
