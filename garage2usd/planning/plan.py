@@ -70,6 +70,11 @@ class Plan:
         object.__setattr__(self, "learning_curve", curve)
         object.__setattr__(self, "gave_way", MappingProxyType(dict(self.gave_way)))
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """What it is made of, as read-only mappings cannot be pickled and arrays forget that they are read-only."""
+        fields = self.structure, self.score, self.archive, self.learning_curve, self.learnt, self.steps
+        return type(self), (*fields, dict(self.gave_way))
+
 
 def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Plan:
     """Take the lanes of a complete structure as they are; `plan` gives the weights of its score.

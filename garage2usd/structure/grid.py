@@ -200,6 +200,10 @@ class Structure:
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """What it is made of, as pickled arrays forget that they are read-only."""
+        return type(self), (self.cells, self.column_widths_mm, self.row_depths_mm)
+
     @classmethod
     def from_arrays(cls, S: ArrayLike, R: ArrayLike, C: ArrayLike) -> "Structure":  # noqa: N803
         """Build a structure from the paper's three matrices.

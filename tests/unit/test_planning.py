@@ -1,4 +1,5 @@
 import json
+import pickle
 from itertools import pairwise
 
 import numpy as np
@@ -6,7 +7,7 @@ import pytest
 
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
 from garage2usd.errors import GenerationError
-from garage2usd.pipeline import build
+from garage2usd.pipeline import build, generate
 from garage2usd.planning import evaluate, given_plan, plan_lanes
 from garage2usd.randomness import Step
 from garage2usd.site import make_site
@@ -225,3 +226,19 @@ def test_a_report_has_the_means_of_the_learning_curve(tmp_path, episodes):
     borders = np.cumsum([0] + [episodes // len(points) + (n < episodes % len(points)) for n in range(len(points))])
     means = [curve[start:end].mean() for start, end in pairwise(borders)]
     assert points == pytest.approx(means, abs=0.05 + 1e-9)  # they have one decimal
+
+
+def test_a_garage_can_be_sent_to_another_process():
+    garage = generate(GarageConfig(seed=4, plan={"episodes": 200}))
+    sent = pickle.loads(pickle.dumps(garage))  # noqa: S301 - our own
+    assert sent.config == garage.config
+    assert sent.site == garage.site
+    assert sent.plan.structure == garage.plan.structure
+    assert sent.plan.gave_way == garage.plan.gave_way
+    assert [entry.score for entry in sent.plan.archive] == [entry.score for entry in garage.plan.archive]
+    assert list(sent.graph.graph.edges(data=True)) == list(garage.graph.graph.edges(data=True))
+    assert list(sent.layout.placements) == list(garage.layout.placements)
+    for array in (sent.plan.structure.cells, sent.plan.structure.row_depths_mm, sent.plan.learning_curve):
+        assert not array.flags.writeable
+    with pytest.raises(TypeError):
+        sent.plan.gave_way["R2"] = "not any more"
