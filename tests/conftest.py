@@ -1,11 +1,17 @@
 """Shared stages, and the rule that in CI a skipped test is a failed one."""
 
 import os
+import pickle
 import signal
 
 import pytest
+from filelock import FileLock
 
 import garage2usd
+from garage2usd.limits import ONE_THREAD
+
+for variable, value in ONE_THREAD.items():
+    os.environ.setdefault(variable, value)  # before USD is loaded; workers inherit it
 
 
 def pytest_addoption(parser):
@@ -29,18 +35,28 @@ def pytest_runtest_makereport(item, call):
 
 @pytest.fixture(scope="session")
 def builds(tmp_path_factory):
-    """Build a sample in a format and perhaps another form than its own, once in each worker."""
+    """Build a sample in a format and perhaps another form than its own, once for all workers."""
     made = {}
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # of all workers
+    folder /= "builds"
+    folder.mkdir(exist_ok=True)
 
     def build(sample, extension, form=None):
         key = sample.stem, extension, form
         if key not in made:
-            folder = tmp_path_factory.mktemp("_".join(filter(None, key)))
-            config = garage2usd.load_config(sample)
-            if form is not None:
-                stage = {**config.stage.model_dump(exclude_unset=True), "form": form}
-                config = garage2usd.GarageConfig(**{**config.model_dump(exclude_unset=True), "stage": stage})
-            made[key] = garage2usd.build(config, folder / f"{sample.stem}.{extension}")
+            place = folder / "_".join(filter(None, key))
+            result = place.with_suffix(".pickle")
+            with FileLock(place.with_suffix(".lock")):
+                if not result.exists():
+                    config = garage2usd.load_config(sample)
+                    if form is not None:
+                        stage = {**config.stage.model_dump(exclude_unset=True), "form": form}
+                        config = garage2usd.GarageConfig(**{**config.model_dump(exclude_unset=True), "stage": stage})
+                    place.mkdir()
+                    result.write_bytes(pickle.dumps(garage2usd.build(config, place / f"{sample.stem}.{extension}")))
+            made[key] = pickle.loads(result.read_bytes())  # noqa: S301 - our own
         return made[key]
 
     return build

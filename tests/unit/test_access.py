@@ -6,9 +6,8 @@ import shapely
 from support.footprints import footprint
 from support.sample_files import each_sample
 
-from garage2usd.config import GarageConfig, load_config
+from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out
-from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
@@ -39,8 +38,8 @@ def ground_of(layout):
 
 
 @each_sample
-def test_every_open_door_has_its_ramp_outside_the_garage(sample):
-    layout = generate(load_config(sample)).layout
+def test_every_open_door_has_its_ramp_outside_the_garage(sample, builds):
+    layout = builds(sample, "usdc").garage.layout
     doors = [place for place in layout.of_kind("portal") if place.spec.is_open]
     ramps, skies = layout.of_kind("ramp"), layout.of_kind("sky")
     assert len(doors) == len(ramps) == len(skies) == len(layout.of_kind("barrier"))

@@ -232,10 +232,8 @@ def test_cars_of_other_stalls_do_not_move_with_the_occupancy():
 
 
 @each_sample
-def test_samples_have_no_overlap(sample):
-    from garage2usd.config import load_config
-
-    layout = generate(load_config(sample)).layout
+def test_samples_have_no_overlap(sample, builds):
+    layout = builds(sample, "usdc").garage.layout
     standing = ("column", "car", "wall", "portal", "obstacle")
     standing += ("speed_bump", "no_parking_sign", "ramp", "barrier")
     assert_disjoint([place for place in layout.placements if place.kind in standing])

@@ -6,19 +6,18 @@ from support.footprints import footprint
 from support.overlaps import HANGING, assert_solid_objects_keep_apart
 from support.sample_files import each_sample
 
-from garage2usd.config import GarageConfig, load_config
+from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out
 from garage2usd.objects.exit_sign import Turn
-from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 from garage2usd.structure.stalls import Edge
 
 
 @each_sample
-def test_nothing_overhead_meets_anything_or_hangs_into_the_way(sample):
-    config = load_config(sample)
-    assert_solid_objects_keep_apart(generate(config).layout, config)
+def test_nothing_overhead_meets_anything_or_hangs_into_the_way(sample, builds):
+    garage = builds(sample, "usdc").garage
+    assert_solid_objects_keep_apart(garage.layout, garage.config)
 
 
 def laid_out(text, sides_m=8.1, *, bay=None, **fittings):

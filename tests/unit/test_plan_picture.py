@@ -16,7 +16,7 @@ from support.footprints import footprint
 from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
-from garage2usd.config import GarageConfig, load_config
+from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
 from garage2usd.layout import StallUse
 from garage2usd.pipeline import build, generate
@@ -39,8 +39,8 @@ MARKS = [
 
 
 @pytest.fixture(scope="module")
-def garage():
-    return generate(load_config(HAND_DRAWN))
+def garage(builds):
+    return builds(HAND_DRAWN, "usdc").garage
 
 
 @pytest.fixture(scope="module", params=["hand_drawn", "large"])

@@ -74,21 +74,9 @@ def longest_stand(rows):
     return starts[longest], ends[longest]
 
 
-@pytest.fixture(scope="module")
-def garages():
-    made = {}
-
-    def garage(sample):
-        if sample not in made:
-            made[sample] = garage2usd.generate(garage2usd.load_config(sample))
-        return made[sample]
-
-    return garage
-
-
 @pytest.mark.parametrize("sample", SAMPLES, ids=lambda path: path.stem)
-def test_every_ninth_stall_is_driven_into_and_out_of_within_the_settings_without_a_touch(sample, garages, tmp_path):
-    garage = garages(sample)
+def test_every_ninth_stall_is_driven_into_and_out_of_within_the_settings_without_a_touch(sample, builds, tmp_path):
+    garage = builds(sample, "usdc").garage
     planner, world = DrivePlanner(subject_of(garage)), OpenWorld(garage)
     inside = shapely.union_all([shapely.Polygon(stall.corners_m()) for stall in garage.layout.stalls]).union(world.road)
     stalls = [stall for stall in garage.layout.stalls if stall.use.takes_cars]
