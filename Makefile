@@ -6,6 +6,8 @@ demo:
 	@.venv/bin/garage2usd build samples/irregular.toml --output out/garage.usdz
 	@echo "Open out/garage.usdz in Blender (File > Import > Universal Scene Description); out/garage_plan.png is its plan."
 
+# where Python is told to keep no compiled files, each command that a test starts would compile all it imports
+test: export PYTHONDONTWRITEBYTECODE =
 test:
 	@./environment.sh test
 	@.venv/bin/ruff check --quiet .

@@ -51,6 +51,27 @@ extra=""
 stamp=".venv/.$goal-$(cat pyproject.toml environment.sh hatch_build.py garage2usd/native/*.[ch] tests/support/browser.py tests/support/gltf_validator.py garage2usd/view/web/package.json | cksum | cut -d' ' -f1)"
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
+    if [ "$goal" = test ]; then
+        # Programs that judge what is made have environments of their own, as their pins stay apart from ours. They are
+        # made while ours is. Most of what they bring is never imported, and so not compiled.
+        judge() {
+            environment=.venv/$1
+            shift
+            [ -x "$environment/bin/python" ] || "$python" -m venv "$environment"
+            "$environment/bin/python" -m pip install --quiet --disable-pip-version-check --no-compile "$@"
+        }
+        # maps and scenarios
+        judge judges "asam-qc-opendrive==1.0.0" "asam-qc-openscenarioxml==1.0.0" "carla==0.9.16" \
+            "eclipse-sumo==1.28.0" "ir-sim==2.12.0" "lanelet2==1.2.3" &
+        judges=$!
+        # what sensors record, which need other versions than the first
+        judge sensor_judges "faster-coco-eval==1.8.0" "mcap-ros2-support==0.6.0" "nuscenes-devkit==1.2.0" \
+            "open3d==0.20.0" "panopticapi-lite==0.2.0" "pycocotools==2.0.11" "pypcd4==1.5.1" &
+        sensor_judges=$!
+        # SimReady assets, by NVIDIA's validator, which brings a usd-core of its own
+        judge simready "simready-foundation-tier-core==2026.8.0" "simready-validate==2026.8.0" &
+        simready=$!
+    fi
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --editable ".$extra"
     if [ "$goal" = test ]; then
         # npm from pip where there is none: it needs no root
@@ -63,22 +84,11 @@ if [ ! -e "$stamp" ]; then
         validator=$(sed -n 's/^VALIDATOR_VERSION = "\(.*\)"$/\1/p' tests/support/gltf_validator.py)
         "$npm" install --silent --no-save --no-package-lock --no-audit --no-fund --prefix .venv/node "three@$three" \
             "gltf-validator@$validator"
-        # programs that judge maps and scenarios, whose pins stay apart from ours
-        [ -x .venv/judges/bin/python ] || "$python" -m venv .venv/judges
-        .venv/judges/bin/python -m pip install --quiet --disable-pip-version-check \
-            "asam-qc-opendrive==1.0.0" "asam-qc-openscenarioxml==1.0.0" "carla==0.9.16" "eclipse-sumo==1.28.0" \
-            "ir-sim==2.12.0" "lanelet2==1.2.3"
-        # those that judge what sensors record, which need other versions than the first
-        [ -x .venv/sensor_judges/bin/python ] || "$python" -m venv .venv/sensor_judges
-        .venv/sensor_judges/bin/python -m pip install --quiet --disable-pip-version-check \
-            "faster-coco-eval==1.8.0" "mcap-ros2-support==0.6.0" "nuscenes-devkit==1.2.0" "open3d==0.20.0" \
-            "panopticapi-lite==0.2.0" "pycocotools==2.0.11" "pypcd4==1.5.1"
-        # NVIDIA's validator of SimReady assets, which brings a usd-core of its own
-        [ -x .venv/simready/bin/python ] || "$python" -m venv .venv/simready
-        .venv/simready/bin/python -m pip install --quiet --disable-pip-version-check \
-            "simready-foundation-tier-core==2026.8.0" "simready-validate==2026.8.0"
         # what the viewer's page is built with
         "$npm" install --silent --no-package-lock --no-audit --no-fund --prefix garage2usd/view/web
+        wait "$judges"
+        wait "$sensor_judges"
+        wait "$simready"
     fi
     touch "$stamp"
 fi
