@@ -79,9 +79,19 @@ def test_shared_assets_and_a_stage_that_refers_to_them_pass_both(tmp_path):
         assert nvidia_findings(path, tmp_path / f"{number}.csv", "--no-variants") == []
 
 
-@pytest.mark.parametrize("sample", [sample for sample in SAMPLES if sample not in IN_FULL], ids=lambda path: path.stem)
-def test_nvidia_validation_of_prototypes_finds_nothing(sample, builds, tmp_path):
-    assert nvidia_findings(builds(sample, "usdc").asset_folder, tmp_path / "findings.csv", "--no-variants") == []
+def test_nvidia_validation_of_prototypes_finds_nothing(builds, tmp_path):
+    """Those of all samples at once, as most are of several."""
+    for sample in SAMPLES:
+        if sample in IN_FULL:
+            continue
+        folder = builds(sample, "usdc").asset_folder
+        for file in filter(Path.is_file, folder.rglob("*")):
+            copy = tmp_path / "assets" / file.relative_to(folder)
+            if copy.exists() and copy.read_bytes() != file.read_bytes():
+                copy = copy.with_stem(f"{copy.stem}_{sample.stem}")  # a lane graph or a drive
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, copy)
+    assert nvidia_findings(tmp_path / "assets", tmp_path / "findings.csv", "--no-variants") == []
 
 
 def test_nvidia_validation_sees_a_broken_prototype(builds, tmp_path):
