@@ -64,10 +64,10 @@ def dataset(
             raise click.UsageError("Give --verify FOLDER alone, without a RECIPE and --output.")
         _verify(verify, workers=workers, scheduler=scheduler)
         return
-    from garage2usd.datasets import load_recipe, make_dataset  # noqa: PLC0415 - keeps --help instant
-
     if recipe is None or output is None:
         raise click.UsageError("Give a RECIPE and --output FOLDER, or --verify FOLDER.")
+    from garage2usd.datasets import load_recipe, make_dataset  # noqa: PLC0415 - keeps --help instant
+
     asked = load_recipe(recipe)
     changed = asked.model_copy(
         update={

@@ -1,14 +1,38 @@
 """Data sets of many garages that differ, made by a recipe on many processes."""
 
+from importlib import import_module
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from garage2usd.errors import MissingExtraError
+
+if TYPE_CHECKING:
+    from garage2usd.datasets.making import DataSet, make_dataset
+    from garage2usd.datasets.recipe import Recipe, load_recipe
+    from garage2usd.datasets.verification import Fault, verify_dataset
 
 if any(find_spec(name) is None for name in ("distributed", "jinja2", "matplotlib", "pyarrow")):
     raise MissingExtraError("dataset", "dataset", "Dask's distributed, Jinja, Matplotlib and PyArrow")
 
-from garage2usd.datasets.making import DataSet, make_dataset
-from garage2usd.datasets.recipe import Recipe, load_recipe
-from garage2usd.datasets.verification import Fault, verify_dataset
-
 __all__ = ["DataSet", "Fault", "Recipe", "load_recipe", "make_dataset", "verify_dataset"]
+
+_HOME = {
+    "DataSet": "making",
+    "Fault": "verification",
+    "Recipe": "recipe",
+    "load_recipe": "recipe",
+    "make_dataset": "making",
+    "verify_dataset": "verification",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name on first use: each worker imports this package, and needs little of it."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'garage2usd.datasets' has no attribute {name!r}")
+    return getattr(import_module(f"garage2usd.datasets.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return __all__

@@ -5,17 +5,16 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.datasets.card import data_card
-from garage2usd.datasets.cluster import Workers, workers
 from garage2usd.datasets.contour import contour_shape
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.drives import check_drives
 from garage2usd.datasets.manifest import ManifestRow, manifest_table, table_bytes, text_of_rows
-from garage2usd.datasets.page import write_page
 from garage2usd.datasets.plans import DrawnPlan, PlanDraw, chunks, plan_table, planned, plans_of
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
@@ -25,6 +24,9 @@ from garage2usd.errors import ConfigError
 from garage2usd.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
 from garage2usd.progress import Progress, silent
 from garage2usd.version import VERSION
+
+if TYPE_CHECKING:
+    from garage2usd.datasets.cluster import Workers
 
 __all__ = ["DataSet", "make_dataset"]
 
@@ -108,6 +110,8 @@ def make_dataset(
 
 
 def _make(recipe: Recipe, folder: Path, worker_count: int | None, scheduler: str | None, progress: Progress) -> DataSet:
+    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - it brings Dask, for which no refusal waits
+
     with workers(count=worker_count, scheduler=scheduler) as pool:
         plans = _plans(recipe, folder, pool, progress)
         shards = shards_of(recipe, plans)
@@ -137,7 +141,7 @@ def _begin(recipe: Recipe, folder: Path, *, resume: bool) -> None:
         raise ConfigError("output", str(folder), "a new or empty folder, or resume, as this recipe was begun there")
 
 
-def _plans(recipe: Recipe, folder: Path, pool: Workers, progress: Progress) -> list[DrawnPlan]:
+def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) -> list[DrawnPlan]:
     """The plan of each garage, drawn or read."""
     file, journal = folder / PLAN_FILE, folder / _JOURNAL
     with suppress(OSError, ValueError, pa.ArrowException):
@@ -172,7 +176,7 @@ def _journalled(journal: Path) -> Iterator[DrawnPlan]:
 
 
 def _made(
-    recipe: Recipe, folder: Path, pool: Workers, shards: Sequence[Shard], progress: Progress
+    recipe: Recipe, folder: Path, pool: "Workers", shards: Sequence[Shard], progress: Progress
 ) -> list[ManifestRow]:
     """The rows of all garages that have a plan; shards that are not there whole are made."""
     total = sum(len(shard.plans) for shard in shards)
@@ -199,7 +203,7 @@ def _made(
 
 
 def _each(
-    recipe: Recipe, folder: Path, pool: Workers, shards: Sequence[Shard]
+    recipe: Recipe, folder: Path, pool: "Workers", shards: Sequence[Shard]
 ) -> Iterator[tuple[Shard, list[ManifestRow]]]:
     return pool.each(make_shard, shards, recipe, folder)
 
@@ -221,6 +225,8 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
 
 def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequence[ManifestRow]) -> None:
     """Write what tells of the whole; the sums last, as they say that it is whole."""
+    from garage2usd.datasets.page import write_page  # noqa: PLC0415 - it brings Matplotlib, for which no refusal waits
+
     store(folder / PLAN_FILE, table_bytes(plan_table(plans)))
     store(folder / TABLE_FILE, table_bytes(manifest_table(rows)))
     store(folder / LINES_FILE, text_of_rows(rows).encode())

@@ -11,7 +11,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.checks import Severity, check_file
-from garage2usd.datasets.cluster import workers
 from garage2usd.datasets.making import LINES_FILE, PLAN_FILE, TABLE_FILE
 from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table, rows_of_text
 from garage2usd.datasets.plans import DrawnPlan, plans_of
@@ -82,6 +81,8 @@ def verify_dataset(
     made = [row for row in rows if not row.error]
     shards = sorted({row.shard for row in made})
     tasks = [_Task(name, tuple(row for row in made if row.shard == name)) for name in shards]
+    from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - it brings Dask, for which no refusal waits
+
     with workers(count=worker_count, scheduler=scheduler) as pool:
         for number, (_, found) in enumerate(pool.each(_of_shard, tasks, folder, recipe), 1):
             faults += found

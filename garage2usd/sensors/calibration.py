@@ -3,8 +3,6 @@
 import json
 from pathlib import Path
 
-from scipy.spatial.transform import Rotation
-
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.lenses import KannalaBrandt, Lens, Pinhole, WoodScape
 
@@ -34,6 +32,8 @@ def woodscape_calibration(camera: Camera, lens: WoodScape) -> dict[str, object]:
 
     For a camera on a column or in the world, to the frame of its mount.
     """
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+
     place = camera.sensor_to_vehicle
     (width, height), (across, down) = lens.size_px, lens.centre_px
     k1, k2, k3, k4 = lens.coefficients_px

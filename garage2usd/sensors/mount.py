@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
-from scipy.spatial.transform import Rotation
 
 from garage2usd.settings import Settings
 
@@ -39,6 +38,8 @@ class Sensor(Settings):
 
         Cameras have OpenCV's axes (+X right, +Y down, +Z forward), LiDARs look along x with y left and z up.
         """
+        from scipy.spatial.transform import Rotation  # noqa: PLC0415 - all who import this module would wait for it
+
         matrix = np.eye(4)
         angles_deg = [self.yaw_deg, self.pitch_deg, self.roll_deg]
         matrix[:3, :3] = Rotation.from_euler("ZYX", angles_deg, degrees=True).as_matrix() @ self._axes()

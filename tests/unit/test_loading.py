@@ -14,6 +14,8 @@ SLOW = ("scipy", "bpy", "gymnasium")
         ("garage2usd.pipeline", SLOW),
         ("garage2usd.checks", SLOW),
         ("garage2usd.cli", (*SLOW, "numpy", "pydantic", "pxr")),
+        ("garage2usd.datasets.cluster", (*SLOW, "matplotlib", "pyarrow", "pxr")),
+        ("garage2usd.datasets.making", (*SLOW, "distributed", "matplotlib")),
     ],
 )
 def test_is_loaded_without(module, slow):
