@@ -150,8 +150,9 @@ def workers(*, count: int | None = None, scheduler: str | None = None) -> Iterat
         ) as cluster,
         Client(cluster) as client,
     ):
-        # which also replaces workers that are lost while they start
         wanted = count or dask.system.CPU_COUNT
+        cluster.scale(wanted)
+        # which also replaces workers that are lost while they start, but looks for the first time after a second
         cluster.adapt(minimum=wanted, maximum=wanted)
         try:
             client.wait_for_workers(1, timeout=_START_S)

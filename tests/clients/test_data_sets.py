@@ -18,12 +18,19 @@ from garage2usd.datasets import Recipe
 
 pytestmark = pytest.mark.client
 COMMAND = [sys.executable, "-m", "garage2usd", "dataset"]
+IMPATIENT = [
+    sys.executable,
+    "-c",
+    "from garage2usd.datasets import cluster; from garage2usd.cli import run; cluster._CONNECT_S = 1.0; run()",
+    "dataset",
+]
+"""Waits a second for a scheduler that is not there, and not ten."""
 EXPORTS = ["xodr", "osm"]
 
 
-def dataset(*arguments, check=True, **options):
+def dataset(*arguments, command=COMMAND, check=True, **options):
     """Run `garage2usd dataset`."""
-    done = subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False, **options)
+    done = subprocess.run([*command, *map(str, arguments)], capture_output=True, text=True, check=False, **options)
     if check:
         assert done.returncode == 0, done.stderr
     return done
@@ -47,7 +54,7 @@ def whole(recipe_file, tmp_path_factory):
 
 @contextlib.contextmanager
 def cluster(folder, count):
-    """A Dask scheduler and workers of their own, as on a cluster: address, and the workers' processes."""
+    """A Dask scheduler and workers without nannies, as on a cluster: address, and the workers' processes."""
     note = folder / "scheduler.json"
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     dask = [sys.executable, "-m", "dask"]
@@ -58,12 +65,12 @@ def cluster(folder, count):
         while not (note.exists() and note.read_text().strip().endswith("}")):
             assert started[0].poll() is None
             time.sleep(0.1)
-        worker = [*dask, "worker", "--scheduler-file", note, "--nthreads", "1", "--no-dashboard"]
+        worker = [*dask, "worker", "--scheduler-file", note, "--no-nanny", "--nthreads", "1", "--no-dashboard"]
         started += [subprocess.Popen([*worker, "--local-directory", folder], **quiet) for _ in range(count)]
         yield json.loads(note.read_text())["address"], started[1:]
     finally:
         for process in started:
-            process.terminate()
+            process.kill()  # asked to end, workers wait for a scheduler that is gone
         for process in started:
             process.wait(30)
 
@@ -75,7 +82,7 @@ def test_two_workers_of_which_one_is_killed_give_the_same_bytes(recipe_file, who
         while not list((folder / "shards").glob(".garage2usd-*")):  # until a shard is being made
             assert run.poll() is None, run.stderr.read().decode()
             time.sleep(0.05)
-        # the nanny's child works; with the nanny gone too, as when a machine is lost, nobody restarts it
+        # it has no nanny, so that nobody restarts it, as when a machine is lost
         os.kill(processes[0].pid, signal.SIGKILL)
         _, said = run.communicate(timeout=300)
         assert run.returncode == 0, said.decode()
@@ -122,7 +129,7 @@ def test_what_is_damaged_is_found_and_repaired(recipe_file, whole, tmp_path):
     flipped(folder / "plans.parquet", 300)
     (folder / "shards" / "test-000000.jsonl").unlink()
     (folder / "shards" / "notes.txt").write_text("mine")
-    found = dataset("--verify", folder, check=False)
+    found = dataset("--verify", folder, "--workers", 1, check=False)
     assert found.returncode == 1
     for name in (
         "manifest.parquet: is not as", f"assets/{asset.name}: is not as", "shards/train-000001.tar: is not as",
@@ -130,7 +137,7 @@ def test_what_is_damaged_is_found_and_repaired(recipe_file, whole, tmp_path):
     ):  # fmt: skip
         assert name in found.stdout
     (folder / "shards" / "notes.txt").unlink()
-    dataset(recipe_file, "-o", folder, "--resume")
+    dataset(recipe_file, "-o", folder, "--workers", 1, "--resume")
     assert tree_of(folder) == whole[1]
 
 
@@ -144,7 +151,7 @@ def test_verifying_compares_rows_plans_and_stages(whole, tmp_path):
     pq.write_table(table.from_pylist(twice, schema=table.schema), folder / "plans.parquet")
     sums = folder / "SHA256SUMS"
     sums.write_text("".join(f"{digest}  {name}\n" for name, digest in tree_of(folder).items() if name != sums.name))
-    found = dataset("--verify", folder, check=False)
+    found = dataset("--verify", folder, "--workers", 1, check=False)
     assert found.returncode == 1
     assert "has another plan in plans.parquet" in found.stdout
     assert "has the plan of" in found.stdout
@@ -163,7 +170,7 @@ def test_a_disk_that_is_full_ends_in_one_error_and_the_run_goes_on_when_there_is
     assert done.returncode == 1
     assert re.fullmatch(r"Error: .*: File too large\n", done.stderr)
     assert not list((folder / "shards").glob("*.tar"))
-    dataset(recipe_file, "-o", folder, "--resume")
+    dataset(recipe_file, "-o", folder, "--workers", 1, "--resume")
     assert tree_of(folder) == whole[1]
 
 
@@ -229,7 +236,9 @@ def test_what_cannot_be_done_is_said_in_one_error(recipe_file, tmp_path, argumen
         (tmp_path / name).mkdir()
         (tmp_path / name / file).write_text("mine")
     before = tree_of(tmp_path)
-    done = dataset(*[recipe_file if word == "RECIPE" else word for word in arguments], check=False, cwd=tmp_path)
+    words = [recipe_file if word == "RECIPE" else word for word in arguments]
+    command = IMPATIENT if "--scheduler" in arguments else COMMAND
+    done = dataset(*words, command=command, check=False, cwd=tmp_path)
     assert done.returncode in {1, 2}
     assert said in done.stderr
     assert "Traceback" not in done.stderr
