@@ -113,14 +113,18 @@ def test_nothing_outside_the_page_is_named_in_it(page):
     assert not re.search(r"20\d\d-\d\d-\d\d", text)
 
 
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        yield playwright.chromium.launch(executable_path=find_browser(), args=["--no-sandbox"])
+
+
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium")
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width_px", [1280, 390])
-def test_a_browser_shows_it_without_a_complaint_or_a_request(page, plans, scheme, width_px):
+def test_a_browser_shows_it_without_a_complaint_or_a_request(browser, page, plans, scheme, width_px):
     complaints, asked = [], []
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=find_browser(), args=["--no-sandbox"])
-        tab = browser.new_page(viewport={"width": width_px, "height": 900}, color_scheme=scheme)
+    with browser.new_page(viewport={"width": width_px, "height": 900}, color_scheme=scheme) as tab:
         tab.on("console", lambda line: complaints.append(line.text))
         tab.on("pageerror", lambda error: complaints.append(str(error)))
         tab.on("request", lambda request: asked.append(request.url))
@@ -136,7 +140,6 @@ def test_a_browser_shows_it_without_a_complaint_or_a_request(page, plans, scheme
         chart = tab.evaluate("getComputedStyle(document.querySelector('.charts svg text')).fill")
         assert chart == ink
         assert contrast(ink, ground) > 7
-        browser.close()
     assert complaints == []
     assert asked == [page.as_uri()]
 
