@@ -55,15 +55,12 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         # its colours are few and each cell has one of them, its opacity is fine where there is little of it
         alpha = np.rint(np.sqrt(np.asarray(picture.getchannel("A")) / 255.0) * _ALPHA_STEPS)
         opaque = np.rint((alpha / _ALPHA_STEPS) ** 2 * 255).astype(np.uint8)
-        colours = np.dstack([pixels[::divisor, ::divisor, :3], opaque])
-        entries, index = np.unique(colours.reshape(-1, _RGBA), axis=0, return_inverse=True)
-        picture = Image.fromarray(index.reshape(opaque.shape).astype(np.uint8))
+        entries, picture = _palette(np.dstack([pixels[::divisor, ::divisor, :3], opaque]))
         picture.putpalette(entries[:, :3].tobytes())
         picture.save(path, format="PNG", optimize=True, transparency=entries[:, 3].tobytes())
     elif path.stem in _DRAWN_IN_FEW_COLOURS:
         colours = np.rint(np.asarray(picture) / _COLOUR_STEP).astype(np.uint8) * np.uint8(_COLOUR_STEP)
-        entries, index = np.unique(colours.reshape(-1, 3), axis=0, return_inverse=True)
-        picture = Image.fromarray(index.reshape(colours.shape[:2]).astype(np.uint8))
+        entries, picture = _palette(colours)
         picture.putpalette(entries.tobytes() + bytes(_PALETTE_BYTES - entries.size))
         picture.save(path, format="PNG", optimize=True)
     elif path.suffix == ".jpg":
@@ -72,6 +69,15 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         picture.save(path, format="JPEG", quality=_JPEG_QUALITY, subsampling=subsampling, optimize=True)
     else:
         picture.save(path, format="PNG", optimize=True)
+
+
+def _palette(colours: Pixels) -> tuple[Pixels, Image.Image]:
+    """The colours that there are, in order, a row each; and which of them each pixel has."""
+    # sorted as whole numbers, which is much faster than as rows
+    places = 256 ** np.arange(colours.shape[2], dtype=np.uint32)[::-1]
+    numbers, index = np.unique((colours * places).sum(axis=2, dtype=np.uint32), return_inverse=True)
+    entries = (numbers[:, None] // places % 256).astype(np.uint8)
+    return entries, Image.fromarray(index.reshape(colours.shape[:2]).astype(np.uint8))
 
 
 def _bytes(value: Field) -> Pixels:
