@@ -24,18 +24,23 @@ def covered(read, garage, proofs, car):
     runs = shapely.STRtree(shapely.box(x[start] - half, y[row] - half, x[end - 1] + half, y[row] + half))
     found = []
     for stall, proof in zip(garage.stalls, proofs, strict=True):
+        own = shapely.union_all(shapely.polygons(garage.standing.only(*stall.own).pieces * (1, -1)))
+        around = own.buffer(read.side)
+        shapely.prepare(around)
         for way in filter(None, (proof.way_in, proof.way_out)):
-            grounds = shapely.polygons(_corners(way, car) * (1, -1))
-            hit = np.unique(runs.query(grounds, predicate="intersects")[1])
+            corners = _corners(way, car) * (1, -1)
+            near = runs.query(shapely.box(*corners.min(axis=(0, 1)), *corners.max(axis=(0, 1))))
+            # what lies around the stall's own things, as most does that is hit, holds no cell of others
+            near = near[~shapely.covers(around, runs.geometries[near])]
+            grounds = shapely.polygons(corners)
+            hit = near[np.unique(shapely.STRtree(runs.geometries[near]).query(grounds, predicate="intersects")[1])]
             if not len(hit):
                 continue
             middles = np.array([(x[column], y[row[run]]) for run in hit for column in range(start[run], end[run])])
             squares = shapely.box(*(middles - half).T, *(middles + half).T)
-            pieces = garage.standing.only(*stall.own).pieces * (1, -1)
-            own = shapely.MultiPolygon([shapely.Polygon(piece) for piece in pieces])
-            is_foreign = shapely.distance(squares, own) > read.side
-            touched = shapely.STRtree(squares[is_foreign]).query(grounds, predicate="intersects")[1]
-            found += list(middles[is_foreign][np.unique(touched)])
+            is_own = shapely.distance(squares, own) <= read.side
+            touched = shapely.STRtree(squares[~is_own]).query(grounds, predicate="intersects")[1]
+            found += list(middles[~is_own][np.unique(touched)])
     return np.array(found)
 
 

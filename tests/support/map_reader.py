@@ -39,14 +39,15 @@ def read_map(path):
     magic, size, most, pixels = data.split(b"\n", 3)
     columns, rows = map(int, size.split())
     assert (magic, most, len(pixels)) == (b"P5", b"255", rows * columns)
-    shade = np.frombuffer(pixels, np.uint8).reshape(rows, columns)
+    shade = np.arange(256)
     if said["mode"] == "raw":
-        cells = np.where(shade <= OCCUPIED, shade.astype(int), UNKNOWN)
+        values = np.where(shade <= OCCUPIED, shade, UNKNOWN)
     else:
         assert said["mode"] == "trinary"
         darkness = 1 - shade / 255
         is_free = darkness < float(said["free_thresh"])
-        cells = np.where(darkness > float(said["occupied_thresh"]), OCCUPIED, np.where(is_free, FREE, UNKNOWN))
+        values = np.where(darkness > float(said["occupied_thresh"]), OCCUPIED, np.where(is_free, FREE, UNKNOWN))
+    cells = values.astype(np.int8)[np.frombuffer(pixels, np.uint8).reshape(rows, columns)]
     x, y, yaw = map(float, said["origin"].strip("[]").split(","))
     assert yaw == 0
     return ReadMap(cells[::-1], (x, y), float(said["resolution"]))

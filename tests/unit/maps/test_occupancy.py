@@ -54,9 +54,11 @@ def driven(built):
 
 def objects_of(built):
     """Class and corners (x, height, y) of the bounds of each object of the table of labels."""
+    found = []
     for entry in labelled_objects(built.stage.with_name(f"{built.stage.stem}_labels.json")):
         (x0, low, z0), (x1, high, z1) = entry["min_m"], entry["max_m"]
-        yield entry["class"], (x0, low, -z1), (x1, high, -z0)
+        found.append((entry["class"], (x0, low, -z1), (x1, high, -z0)))
+    return found
 
 
 def between(middles, low, high):
@@ -66,13 +68,14 @@ def between(middles, low, high):
 
 def judge(write, made, folder, *, side_m=0.05):
     built, subject, garage, proofs, car = made
+    objects = objects_of(built)
     grid = GridConfig(resolution_m=side_m, low_m=LOW_M, high_m=HIGH_M)
     assert write(subject, folder / "map.yaml", grid) == (folder / "map.yaml", folder / "map.pgm")
     read = read_map(folder / "map.yaml")
     assert read.side == side_m
     expected = np.full(read.cells.shape, fill_value=False)
     x, y = read.middles()
-    for label, low, high in objects_of(built):
+    for label, low, high in objects:
         if label in {"wall", "column"}:
             inner = read.within((low[0] + SLACK_M, low[2] + SLACK_M), (high[0] - SLACK_M, high[2] - SLACK_M))
             assert (inner == OCCUPIED).all(), (label, low)
@@ -82,20 +85,20 @@ def judge(write, made, folder, *, side_m=0.05):
             ] = True
     assert not ((read.cells == OCCUPIED) & ~expected).any()
     inside = np.full(read.cells.shape, fill_value=False)
-    for label, low, high in objects_of(built):
+    for label, low, high in objects:
         if label in {"floor", "ramp"}:
             inside[between(y, low[2], high[2]), between(x, low[0], high[0])] = True
         if label == "floor" or label in PAINTED:  # paint is floor
             assert not (read.within((low[0], low[2]), (high[0], high[2])) == UNKNOWN).any()
     assert inside[read.cells == FREE].all()
-    for label, low, high in objects_of(built):
+    for label, low, high in objects:
         if label in {"ramp", "vehicle_door"}:
             middle = read.within(*_middle_of(low, high))
             assert middle.size
             assert (middle == FREE).all(), label
     write(subject, folder / "low.yaml", GridConfig(low_m=0.0))
     low_read = read_map(folder / "low.yaml")
-    for label, low, high in objects_of(built):
+    for label, low, high in objects:
         if label == "speed_bump":
             assert (low_read.within((low[0], low[2]), (high[0], high[2])) == FREE).all()
     if side_m <= 0.05:
