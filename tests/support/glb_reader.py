@@ -5,7 +5,6 @@ import re
 import struct
 import zipfile
 from collections import defaultdict
-from typing import NamedTuple
 
 import numpy as np
 from pxr import Usd, UsdGeom, UsdShade
@@ -33,7 +32,8 @@ class Glb:
         self.json = json.loads(data[20 : 20 + size])
         binary, kind = struct.unpack_from("<II", data, 20 + size)
         assert (kind, 28 + size + binary) == (0x004E4942, len(data))
-        self.buffer = data[28 + size :]
+        self.buffer = memoryview(data)[28 + size :]
+        self._shapes = {}
         self.parents = {child: number for number, node in enumerate(self.nodes) for child in node.get("children", [])}
 
     @property
@@ -73,16 +73,27 @@ class Glb:
     def points(self, number):
         """All positions of a node's mesh in the world."""
         matrix = self.matrix(number)
-        own = np.concatenate([self.array(own["attributes"]["POSITION"]) for own in self.primitives(number)])
-        return own @ matrix[:3, :3].T + matrix[:3, 3]
+        return self._shape(number)[0] @ matrix[:3, :3].T + matrix[:3, 3]
 
     def corners(self, number):
         """Which of these are the corners of each triangle; shape (n, 3)."""
-        found, first = [], 0
-        for own in self.primitives(number):
-            found.append(self.array(own["indices"]).reshape(-1, 3).astype(int) + first)
-            first += self.json["accessors"][own["attributes"]["POSITION"]]["count"]
-        return np.concatenate(found)
+        return self._shape(number)[1]
+
+    def _shape(self, number):
+        """All positions of a node's mesh in its own space, and the corners of its triangles."""
+        mesh = self.nodes[number]["mesh"]
+        if mesh not in self._shapes:
+            points = [self.array(own["attributes"]["POSITION"]) for own in self.primitives(number)]
+            corners = [self.array(own["indices"]).reshape(-1, 3).astype(int) for own in self.primitives(number)]
+            self._shapes[mesh] = _joined(points, corners)
+        return self._shapes[mesh]
+
+
+def _joined(points, corners):
+    """Points of several meshes as one, and the corners of all of their triangles among them."""
+    starts = np.cumsum([0, *map(len, points)])
+    moved = [own + start for own, start in zip(corners, starts[:-1], strict=True)]
+    return np.concatenate(points), np.concatenate(moved)
 
 
 def assert_like_the_stage(data, stage_path, labels):
@@ -102,42 +113,42 @@ def assert_like_the_stage(data, stage_path, labels):
             prototype = str(prim.GetPrimInPrototype().GetPath())
         meshes[prototype].add(node["mesh"])
         prototypes.add(prototype)
-        drawn = seen.of(prim, with_looks=node["mesh"] not in judged)
+        points, triangles = seen.shape(prim, prototype)
         found = glb.points(number)
-        assert np.abs(_bounds(found) - _bounds(drawn.points)).max() < MILLIMETRE, path
-        assert abs(_volume(found[glb.corners(number)]) - drawn.volume) < drawn.volume_error, path
+        assert np.abs(_bounds(found) - _bounds(points)).max() < MILLIMETRE, path
+        _assert_same_volume(found[glb.corners(number)], triangles, np.ptp(points, axis=0).max(), path)
         if node["mesh"] not in judged:
             judged.add(node["mesh"])
-            _assert_same_look(glb, number, drawn)
+            _assert_same_look(glb, number, points, *seen.looks(prim))
     assert all(len(own) == 1 for own in meshes.values())
     assert len(judged) == len(glb.json["meshes"]) <= len(prototypes)
     _assert_sound_primitives(glb)
     if stage_path.suffix == ".usdz":
         with zipfile.ZipFile(stage_path) as package:
             files = [package.read(name) for name in package.namelist() if name.endswith((".png", ".jpg"))]
-        assert sorted(glb.view(image["bufferView"]) for image in glb.json["images"]) == sorted(files)
+        assert sorted(bytes(glb.view(image["bufferView"])) for image in glb.json["images"]) == sorted(files)
 
 
-def _assert_same_look(glb, number, drawn):
+def _assert_same_look(glb, number, points, drawn_materials, drawn_smooth):
     """All points are the same, and so are materials, what is seen from both sides, and what is smooth."""
     found, primitives = glb.points(number), glb.primitives(number)
-    assert _is_among(found, drawn.points)
-    assert _is_among(drawn.points, found)
+    assert _is_among(found, points)
+    assert _is_among(points, found)
     materials = {
         (material["name"], material.get("doubleSided", False))
         for material in (glb.json["materials"][own["material"]] for own in primitives)
     }
-    assert materials == drawn.materials
+    assert materials == drawn_materials
     turn = glb.matrix(number)[:3, :3]
     smooth = [
         np.hstack([glb.array(own["attributes"]["POSITION"]) @ turn.T, glb.array(own["attributes"]["NORMAL"]) @ turn.T])
         for own in primitives
         if "NORMAL" in own["attributes"]
     ]
-    if len(drawn.smooth):
+    if len(drawn_smooth):
         assert smooth
         here = np.concatenate(smooth) + np.hstack([glb.matrix(number)[:3, 3], np.zeros(3)])
-        assert _is_among(drawn.smooth * WEIGHTS, here * WEIGHTS)
+        assert _is_among(drawn_smooth * WEIGHTS, here * WEIGHTS)
 
 
 def _is_among(some, others):
@@ -149,18 +160,23 @@ def _bounds(points):
     return np.stack([points.min(axis=0), points.max(axis=0)])
 
 
-def _volume(corners):
-    """Signed volume within triangles, shape (n, 3, 3), seen from their middle."""
-    corners = corners - corners.reshape(-1, 3).mean(axis=0)
-    return np.linalg.det(corners).sum() / 6
+def _assert_same_volume(found, drawn, size_m, path):
+    """Triangles, shape (n, 3, 3), enclose the volume of others, as exactly as single precision allows."""
+    normals = _normals(drawn)
+    # single precision over the area of the surface; both are taken from one middle, which need not be the same
+    area, open_m2 = np.linalg.norm(normals, axis=1).sum(), np.linalg.norm(normals.sum(axis=0))
+    error = 1e-4 * (area * size_m + 1e-6) + open_m2 * size_m
+    assert abs(_volume(found, _normals(found)) - _volume(drawn, normals)) < error, path
 
 
-class _Seen(NamedTuple):
-    points: np.ndarray
-    volume: float
-    volume_error: float
-    materials: set
-    smooth: np.ndarray
+def _normals(triangles):
+    """Normals of triangles, twice as long as the area."""
+    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+
+
+def _volume(triangles, normals):
+    """Signed volume within triangles, seen from their middle."""
+    return ((triangles[:, 0] - triangles.mean(axis=(0, 1))) * normals).sum() / 6
 
 
 class _Drawn:
@@ -169,50 +185,64 @@ class _Drawn:
     def __init__(self):
         self.cache, self.known = UsdGeom.XformCache(), {}
 
-    def of(self, root, *, with_looks):
-        points, triangles, materials, smooth = [], [], set(), [np.zeros((0, 6))]
+    def _meshes(self, root):
         below = iter(Usd.PrimRange(root, Usd.TraverseInstanceProxies()))
         for prim in below:
             if prim != root and prim.HasAPI("SemanticsLabelsAPI", "class"):
                 below.PruneChildren()
             elif prim.IsA(UsdGeom.Mesh) and UsdGeom.Imageable(prim).ComputePurpose() in {"default", "render"}:
-                own, fans = self._mesh(prim)
-                matrix = np.array(self.cache.GetLocalToWorldTransform(prim))
-                places = own @ matrix[:3, :3] + matrix[3, :3]
-                points.append(places[np.unique(fans)])
-                triangles.append(places[fans])
-                if with_looks:
-                    material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPrim().GetName()
-                    materials.add((material, bool(UsdGeom.Mesh(prim).GetDoubleSidedAttr().Get())))
-                    smooth.append(_smooth_corners(prim, places, matrix[:3, :3]))
-        points, triangles = np.concatenate(points), np.concatenate(triangles)
-        size = np.ptp(points, axis=0)
-        # single precision over the area of the surface; both are taken from one middle, which need not be the same
-        area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
-        open_m2 = np.linalg.norm(np.cross(*np.moveaxis(np.diff(triangles, axis=1), 1, 0)).sum(axis=0))
-        error = 1e-4 * (area.sum() * size.max() + 1e-6) + open_m2 * size.max()
-        return _Seen(points, _volume(triangles), error, materials, np.concatenate(smooth))
+                yield prim
 
-    def _mesh(self, prim):
-        source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
-        if source.GetPath() not in self.known:
-            mesh = UsdGeom.Mesh(source)
-            counts, corners = (
-                np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr())
-            )
-            faces = np.split(corners, np.cumsum(counts)[:-1])
-            fans = np.array([(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)])
-            self.known[source.GetPath()] = np.array(mesh.GetPointsAttr().Get(), dtype=float), fans
-        return self.known[source.GetPath()]
+    def _matrix(self, prim):
+        """From a prim's space to the world, for rows."""
+        return np.array(self.cache.GetLocalToWorldTransform(prim))
+
+    def shape(self, root, prototype):
+        """World places of the corners of its meshes, and the triangles; all of a prototype have the same within it."""
+        key = prototype, UsdGeom.Imageable(root).ComputePurpose()
+        if key not in self.known:
+            to_root, points, corners = np.linalg.inv(self._matrix(root)), [], []
+            for prim in self._meshes(root):
+                own, triangles = _triangles_of(prim)
+                matrix = self._matrix(prim) @ to_root
+                used, own_corners = np.unique(triangles, return_inverse=True)
+                points.append(own[used] @ matrix[:3, :3] + matrix[3, :3])
+                corners.append(own_corners.reshape(-1, 3))
+            self.known[key] = _joined(points, corners)
+        points, corners = self.known[key]
+        matrix = self._matrix(root)
+        places = points @ matrix[:3, :3] + matrix[3, :3]
+        return places, places[corners]
+
+    def looks(self, root):
+        """Materials with whether both sides are seen, and world places and normals of the smooth corners."""
+        materials, smooth = set(), [np.zeros((0, 6))]
+        for prim in self._meshes(root):
+            material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPrim().GetName()
+            materials.add((material, bool(UsdGeom.Mesh(prim).GetDoubleSidedAttr().Get())))
+            smooth.append(_smooth_corners(prim, self._matrix(prim)))
+        return materials, np.concatenate(smooth)
 
 
-def _smooth_corners(prim, places, turn):
+def _triangles_of(prim):
+    """Points of a mesh, and the corners of the triangles that its faces are fans of."""
+    mesh = UsdGeom.Mesh(prim)
+    counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
+    fans = counts - 2
+    first = np.repeat(np.cumsum(counts) - counts, fans)
+    following = np.arange(1, fans.sum() + 1) - np.repeat(np.cumsum(fans) - fans, fans)
+    triangles = corners[np.stack([first, first + following, first + following + 1], axis=1)]
+    return np.array(mesh.GetPointsAttr().Get(), dtype=float), triangles
+
+
+def _smooth_corners(prim, matrix):
     """World place and normal of the corners of faces whose normal is not the face's; shape (n, 6)."""
     mesh = UsdGeom.Mesh(prim)
     primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
     if not primvar or primvar.GetInterpolation() != "faceVarying":
         return np.zeros((0, 6))
-    normals = np.array(primvar.ComputeFlattened()) @ turn
+    normals = np.array(primvar.ComputeFlattened()) @ matrix[:3, :3]
+    places = np.array(mesh.GetPointsAttr().Get(), dtype=float) @ matrix[:3, :3] + matrix[3, :3]
     counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
     starts = np.cumsum(counts) - counts
     own, following = places[corners], np.arange(1, len(corners) + 1)
