@@ -6,17 +6,16 @@ import sys
 from pathlib import Path
 
 import irsim
+import numpy as np
 import yaml
 from PIL import Image
 
 RANGE_M = 30.0
+WHITE = 255
 
 
 def in_reach(map_file, place):
-    """The part of a map that the LiDAR reaches: its picture, its side in metres and where its lower left corner lies.
-
-    ir-sim joins all occupied cells into one shape, which for the largest map takes a minute.
-    """
+    """The part of a map that the LiDAR reaches: its picture, its side in metres and where its lower left corner is."""
     said = yaml.safe_load(map_file.read_text())
     side, origin = said["resolution"], said["origin"][:2]
     with Image.open(map_file.parent / said["image"]) as image:
@@ -26,7 +25,19 @@ def in_reach(map_file, place):
         left, right = max(column - reach, 0), min(column + reach, columns)
         low, high = max(row - reach, 0), min(row + reach, rows)
         part = image.crop((left, rows - high, right, rows - low))
-    return part, side, [origin[0] + left * side, origin[1] + low * side]
+    return hollow(part), side, [origin[0] + left * side, origin[1] + low * side]
+
+
+def hollow(picture):
+    """A map without the occupied cells that have such on all four sides, at which no ray from a free cell ends.
+
+    ir-sim joins all occupied cells into one shape, of which most of the time is spent on these.
+    """
+    shades = np.array(picture)
+    is_black = np.pad(shades == 0, 1)
+    sides = is_black[:-2, 1:-1], is_black[2:, 1:-1], is_black[1:-1, :-2], is_black[1:-1, 2:]
+    shades[np.logical_and.reduce([is_black[1:-1, 1:-1], *sides])] = WHITE
+    return Image.fromarray(shades)
 
 
 def main(map_file, output, place):
