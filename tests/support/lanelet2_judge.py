@@ -1,19 +1,16 @@
 """What is wrong with a Lanelet2 map of a stage, as Lanelet2 itself reads it."""
 
-import xml.etree.ElementTree as ET
 from collections import defaultdict
 from itertools import pairwise
-from pathlib import Path
+from xml.parsers import expat
 
 import networkx as nx
 import numpy as np
 import shapely
-from pxr import Usd
 
-from support.label_tables import labelled_objects
 from support.map_judges import lanelet2_map
 from support.rays import Rays
-from support.stage_lanes import read_stage, taken_stalls
+from support.stage_lanes import judged_stage
 
 NEAR_M = 1e-3
 GROOVE_M = 0.012
@@ -44,11 +41,9 @@ class Lanelet2Judge:
     """
 
     def __init__(self, stage, path, folder, *, origin=ORIGIN, limit_km_h=10.0):
-        self.lanes, self.map = read_stage(stage), lanelet2_map(path, folder, *origin)
+        self.judged, self.map = judged_stage(stage), lanelet2_map(path, folder, *origin)
+        self.stage, self.lanes, self.labelled = self.judged.stage, self.judged.lanes, self.judged.labelled
         self.path, self.limit_km_h = path, limit_km_h
-        self.stage = Usd.Stage.Open(str(stage))
-        stage = Path(stage)
-        self.labelled = list(labelled_objects(stage.with_name(f"{stage.stem}_labels.json")))
         self.lanelets = {lanelet["id"]: lanelet for lanelet in self.map["lanelets"]}
         self.middles = {number: _middle(lanelet) for number, lanelet in self.lanelets.items()}
         self.grounds = {number: _ground(lanelet) for number, lanelet in self.lanelets.items()}
@@ -70,8 +65,8 @@ class Lanelet2Judge:
     def _said(self):
         yield from self.map["errors"]
         yield from self.map["faults"]
-        header = ET.parse(self.path).getroot()
-        said, facts = header.find("MetaInfo").attrib, self.stage.GetDefaultPrim().GetCustomData()
+        header, said = _header(self.path)
+        facts = self.stage.GetDefaultPrim().GetCustomData()
         if header.get("generator") != f"garage2usd {facts['version']}" or said["map_version"] != facts["version"]:
             yield "the header does not say what made it"
         if said["seed"] != str(facts["seed"]):
@@ -192,7 +187,7 @@ class Lanelet2Judge:
         }
 
     def _stalls(self):
-        taken, parking = taken_stalls(self.stage, self.labelled, self.lanes), self._parking()
+        taken, parking = self.judged.taken, self._parking()
         areas = [area for area in self.map["areas"] if area["tags"]["subtype"] == "parking"]
         hatched = [one for one in self.map["polygons"] if one["tags"]["type"] == "hatched_road_markings"]
         for found, expected in ((areas, parking), (hatched, self.lanes.stalls.keys() - parking.keys())):
@@ -343,6 +338,22 @@ class Lanelet2Judge:
             across = {number for number, line in self.middles.items() if line.crosses(_outline(thing))}
             if not named[name] or (thing["class"] == "speed_bump" and named[name] != across):
                 yield f"lanelets {sorted(named[name])} have a rule for {name}, {sorted(across)} lead over it"
+
+
+def _header(path):
+    """Attributes of the root of a map and of its first element; of what follows only that it is sound XML."""
+    found = {}
+
+    def start(name, attributes):
+        found[name] = attributes
+        if len(found) == 2:
+            parser.StartElementHandler = None
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = start
+    with path.open("rb") as file:
+        parser.ParseFile(file)
+    return found["osm"], found["MetaInfo"]
 
 
 def _outline(thing):

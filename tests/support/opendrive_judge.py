@@ -5,13 +5,12 @@ from pathlib import Path
 import networkx as nx
 import numpy as np
 import shapely
-from pxr import Usd, UsdGeom
+from pxr import UsdGeom
 
-from support.label_tables import labelled_objects
 from support.map_judges import carla_map, sumo_spaces
 from support.opendrive_reader import OpenDrive, data_of
 from support.rays import Rays
-from support.stage_lanes import read_stage, taken_stalls
+from support.stage_lanes import judged_stage
 
 NEAR_M = 1e-3
 ON_RAMP_M = 0.1
@@ -37,10 +36,9 @@ class MapJudge:
     """
 
     def __init__(self, stage, path, folder):
-        self.stage_path, self.path, self.folder = Path(stage), Path(path), folder
-        self.lanes, self.map = read_stage(stage), OpenDrive(path)
-        self.stage = Usd.Stage.Open(str(stage))
-        self.labelled = list(labelled_objects(self.stage_path.with_name(f"{self.stage_path.stem}_labels.json")))
+        self.path, self.folder, self.map = Path(path), folder, OpenDrive(path)
+        self.judged = judged_stage(stage)
+        self.stage, self.lanes, self.labelled = self.judged.stage, self.judged.lanes, self.judged.labelled
 
     def complaints(self):
         return [*self.of_objects(), *self.of_carla(), *self.of_sumo()]
@@ -151,7 +149,8 @@ class MapJudge:
             yield "a number is given twice"
 
     def _stalls(self):
-        taken, seen = taken_stalls(self.stage, self.labelled, self.lanes), set()
+        taken, seen = self.judged.taken, set()
+        lines = {}
         for _, thing, corners in self.map.objects("parkingSpace", "none"):
             name, data = thing.get("name"), data_of(thing)
             stall = self.lanes.stalls[name]
@@ -173,9 +172,10 @@ class MapJudge:
             if road is None and "accessJunction" not in data:
                 yield f"{name} opens onto nothing"
             if road is not None:
-                runs = np.linspace(0, float(road.get("length")), 200)
-                line = np.array([self.map.place(road, run, 0)[0] for run in runs]) * (1, -1)
-                if not (np.abs(line - middle) <= half).all(axis=1).any():
+                if road not in lines:
+                    runs = np.linspace(0, float(road.get("length")), 200)
+                    lines[road] = np.array([self.map.place(road, run, 0)[0] for run in runs]) * (1, -1)
+                if not (np.abs(lines[road] - middle) <= half).all(axis=1).any():
                     yield f"{name} does not open onto road {road.get('id')}"
         if seen != set(self.lanes.stalls):
             yield f"{len(set(self.lanes.stalls) - seen)} stalls are missing"

@@ -1,11 +1,15 @@
 """Lanes and stalls of a stage, read with pxr alone from the curves that docs/stage.md tells of."""
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from pathlib import Path
 
 import networkx as nx
 import numpy as np
 import shapely
 from pxr import Usd, UsdGeom
+
+from support.label_tables import labelled_objects
 
 
 @dataclass
@@ -36,8 +40,39 @@ def _curves(stage, name):
     return lines, lambda attribute: list(curves.GetPrim().GetAttribute(f"garage:{attribute}").Get())
 
 
+class JudgedStage:
+    """What maps of a stage are compared with: its lanes, its prims and the objects in the table of labels beside it."""
+
+    def __init__(self, path):
+        self.stage = Usd.Stage.Open(str(path))
+        self.lanes = lanes_of(self.stage)
+        self.labelled = labelled_objects(path.with_name(f"{path.stem}_labels.json"))
+
+    @cached_property
+    def taken(self):
+        """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr."""
+        cars = [thing["path"] for thing in self.labelled if thing["class"] == "car"]
+        places = UsdGeom.XformCache()
+        at = [places.GetLocalToWorldTransform(self.stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
+        tree = shapely.STRtree([shapely.Point(place[0], place[2]) for place in at])
+        return {
+            name
+            for name, stall in self.lanes.stalls.items()
+            if len(tree.query(shapely.Polygon(stall["corners"]), predicate="contains"))
+        }
+
+
+@lru_cache(maxsize=5)
+def judged_stage(path):
+    """A stage that stays as it is, which is read once for many maps of it."""
+    return JudgedStage(Path(path))
+
+
 def read_stage(path):
-    stage = Usd.Stage.Open(str(path))
+    return lanes_of(Usd.Stage.Open(str(path)))
+
+
+def lanes_of(stage):
     nodes, of_node = _curves(stage, "Nodes")
     _, of_edge = _curves(stage, "Edges")
     outlines, of_stall = _curves(stage, "Stalls")
@@ -50,16 +85,3 @@ def read_stage(path):
     }
     middles = np.array([line.mean(axis=0) for line in nodes])
     return StageLanes(middles, np.array(of_node("lane:widths")), of_node("lane:kind"), edges, stalls)
-
-
-def taken_stalls(stage, labelled, lanes):
-    """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr."""
-    cars = [thing["path"] for thing in labelled if thing["class"] == "car"]
-    places = UsdGeom.XformCache()
-    at = [places.GetLocalToWorldTransform(stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
-    tree = shapely.STRtree([shapely.Point(place[0], place[2]) for place in at])
-    return {
-        name
-        for name, stall in lanes.stalls.items()
-        if len(tree.query(shapely.Polygon(stall["corners"]), predicate="contains"))
-    }
