@@ -1,10 +1,12 @@
 """Composed stages: the C# readers against ``pxr``, every prim, value, target and prototype."""
 
+import json
+
 import pytest
 from pxr import Tf, Usd, UsdUtils
 from support.sample_files import SAMPLES, each_sample
 from support.small_garage import SETTINGS
-from support.unity.agreement import STAGES, installed, same, written
+from support.unity.agreement import STAGES, as_pxr_says, installed, same, written
 from support.unity.small_stages import SMALL_STAGES
 
 from garage2usd import GarageConfig, build
@@ -71,10 +73,10 @@ def test_stages_of_installed_packages(usd_dump, package):
 def test_sample(usd_dump, builds, sample):
     """The crate is what ``pxr`` says; text and package are the crate to the last bit, so one comparison serves all."""
     stages = {extension: builds(sample, extension).stage for extension in ("usda", "usdc", "usdz")}
-    found = {extension: usd_dump.ask("stage", stage) for extension, stage in stages.items()}
-    assert found["usda"] == found["usdc"]
-    assert found["usdz"] == found["usdc"]
-    assert same(usd_dump, stages["usdc"]) == []
+    text, crate, package = (usd_dump.answer("stage", stage) for stage in stages.values())
+    assert text == crate
+    assert package == crate
+    assert as_pxr_says(json.loads(crate), stages["usdc"]) == []
 
 
 @pytest.mark.parametrize(("extension", "form"), [("usdc", "flat"), ("usda", "nested")])

@@ -18,7 +18,11 @@ def installed(package: str, endings: tuple[str, ...]) -> list[Path]:
 
 def same(reader, path, *root) -> list[str]:
     """Both say the same of a stage, of a root folder where one is given; gives the warnings."""
-    found = reader.ask("stage", path, *root)
+    return as_pxr_says(reader.ask("stage", path, *root), path)
+
+
+def as_pxr_says(found, path) -> list[str]:
+    """A dump of a stage is what ``pxr`` says of it; gives the warnings."""
     assert "refused" not in found, found
     warnings = found.pop("warnings")
     wanted = stages_of_pxr.stage_dump(Usd.Stage.Open(str(path)))

@@ -42,6 +42,10 @@ class Reader:
 
     def ask(self, command: str, *arguments: object, cpu_limit_s: float | None = None) -> dict:
         """The answer to a command; ends the process where that takes more processor time than the limit."""
+        return json.loads(self.answer(command, *arguments, cpu_limit_s=cpu_limit_s))
+
+    def answer(self, command: str, *arguments: object, cpu_limit_s: float | None = None) -> str:
+        """The answer as JSON."""
         if self.process is None:
             self.process = subprocess.Popen(
                 ["mono", str(self.program), "batch"],
@@ -57,7 +61,7 @@ class Reader:
         answer = self.process.stdout.readline()
         answered.set()
         assert answer, f"the reader died of {command} {arguments}"
-        return json.loads(answer)
+        return answer
 
     def _watch(self, answered: threading.Event, limit_s: float) -> None:
         # by processor time, as a busy machine is no fault of the reader's

@@ -43,7 +43,7 @@ def numbers(value) -> list:
     if isinstance(value, Gf.Quatd | Gf.Quatf | Gf.Quath):
         return [value.real, *value.imaginary]
     if isinstance(value, Gf.Matrix2d | Gf.Matrix3d | Gf.Matrix4d):
-        return [x for row in value for x in row]
+        return np.array(value).ravel().tolist()
     if isinstance(value, Sdf.TimeCode):
         return [value.GetValue()]
     if hasattr(value, "__len__"):
