@@ -76,7 +76,7 @@ def test_the_ray_of_every_pixel_is_shown_in_its_middle(lens):
     rays = lens.rays(middles)
     seen = np.isfinite(rays).all(axis=1)
     assert seen.mean() > 0.7
-    assert np.linalg.norm(rays[seen], axis=1) == pytest.approx(1.0, abs=1e-12)
+    assert np.abs(np.linalg.norm(rays[seen], axis=1) - 1.0).max() <= 1e-12
     assert np.abs(lens.project(rays[seen] * 7.0) - middles[seen]).max() < 1e-8
     assert lens.within(middles).all()
     assert not lens.within([[-0.1, 5.0], [5.0, lens.size_px[1]], [math.nan, 5.0]]).any()
