@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 from garage2usd.config import BayConfig
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.structure.stalls import square_capacity
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Structure
+from garage2usd.structure.stalls import CapacityTable, capacity_table, served_capacity
 
 __all__ = [
     "Action",
@@ -105,6 +105,11 @@ class DecisionProcess:
             for row, line in enumerate(self.site.cells.tolist())
             for col, cell in enumerate(line)
         }
+
+    @cached_property
+    def capacity(self) -> CapacityTable:
+        """What each square of the site would hold."""
+        return capacity_table(self.site, self.bay)
 
     @property
     def entrances(self) -> tuple[Square, ...]:
@@ -231,7 +236,7 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
         - _turning_penalty(parameters, state, action)
         - _wheeling_penalty(parameters, state, following)
         + _loop_reward(parameters, state, following)
-        + (stalls(process, following) - stalls(process, state))
+        + _more_stalls(process, state, following)
     )
 
 
@@ -245,15 +250,26 @@ def terminal(process: DecisionProcess, state: State) -> bool:
 
 def structure_of(process: DecisionProcess, state: State) -> Structure:
     """The site with the lanes that are coloured in a state: the array that the process generates."""
-    cells = process.site.cells.copy()
-    for square, cell in process.cells.items():
-        cells[square] = Cell.LANE if square in state.lanes else cell
-    return process.site.with_cells(cells)
+    return process.site.with_cells(_coloured(process, state))
 
 
 def stalls(process: DecisionProcess, state: State) -> int:
     """N_S of the lanes that are coloured in a state."""
-    return int(square_capacity(structure_of(process, state), process.bay).sum())
+    return int(served_capacity(_coloured(process, state), process.capacity).sum())
+
+
+def _coloured(process: DecisionProcess, state: State) -> CellArray:
+    """The matrix S of a state."""
+    cells = process.site.cells.copy()
+    cells[cells == Cell.LANE] = Cell.FREE
+    for square in state.lanes:
+        cells[square] = Cell.LANE
+    return cells
+
+
+def _more_stalls(process: DecisionProcess, state: State, following: State) -> int:
+    """N_S(S_{t+1}) - N_S(S_t), which only a new lane can change."""
+    return 0 if following.lanes == state.lanes else stalls(process, following) - stalls(process, state)
 
 
 def _turning_penalty(parameters: SarsaParameters, state: State, action: Action) -> float:

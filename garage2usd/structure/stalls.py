@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from garage2usd.config.site import BayConfig
 from garage2usd.structure.border import bordered
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, Structure
 
-__all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "square_capacity", "stall_rows"]
+__all__ = ["CapacityTable", "Edge", "StallRow", "capacity_table", "served_capacity", "square_capacity", "stall_rows"]
 
 _MM_PER_M = 1000
 
@@ -106,14 +106,18 @@ def capacity_table(structure: Structure, bay: BayConfig) -> CapacityTable:
 
 def square_capacity(structure: Structure, bay: BayConfig) -> NDArray[np.int64]:
     """Number of stalls on each square as it is served now; int64, shape (rows, cols), 0 where not free."""
-    along_x, along_z = _served(structure, capacity_table(structure, bay))
-    return np.maximum(along_x, along_z)
+    return served_capacity(structure.cells, capacity_table(structure, bay))
+
+
+def served_capacity(cells: CellArray, table: CapacityTable) -> NDArray[np.int64]:
+    """`square_capacity` of a matrix S whose squares hold what the table says."""
+    return np.maximum(*_served(cells, table))
 
 
 def stall_rows(structure: Structure, bay: BayConfig) -> tuple[StallRow, ...]:
     """The rows of stalls of a structure, in reading order; up and down win a tie over left and right."""
     table = capacity_table(structure, bay)
-    along_x, along_z = _served(structure, table)
+    along_x, along_z = _served(structure.cells, table)
     lane = _open_edges(structure.cells == Cell.LANE)
     rows: list[StallRow] = []
     for row, col in np.argwhere(np.maximum(along_x, along_z) > 0).tolist():
@@ -132,15 +136,18 @@ def _open_edges(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
     return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
 
 
-def _served(structure: Structure, table: CapacityTable) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _served(cells: CellArray, table: CapacityTable) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Stalls along X and along Z on each free square, with the lanes as they are."""
-    up, down, left, right = _open_edges(structure.cells == Cell.LANE)
-    free = structure.cells == Cell.FREE
-
-    def served(one: Mask, other: Mask, single: NDArray[np.int64], double: NDArray[np.int64]) -> NDArray[np.int64]:
-        return np.where(free, np.where(one & other, double, np.where(one | other, single, 0)), 0)
-
+    up, down, left, right = _open_edges(cells == Cell.LANE)
+    free = cells == Cell.FREE
     return (
-        served(up, down, table.along_x, table.along_x_double),
-        served(left, right, table.along_z, table.along_z_double),
+        _held(free, up, down, table.along_x, table.along_x_double),
+        _held(free, left, right, table.along_z, table.along_z_double),
     )
+
+
+def _held(
+    free: Mask, one: Mask, other: Mask, single: NDArray[np.int64], double: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Stalls on the free squares of which one of two opposite edges is open, or both."""
+    return np.where(free, np.where(one & other, double, np.where(one | other, single, 0)), 0)

@@ -1,6 +1,7 @@
 """Whether a compiled `learn` follows the decision process: the same numbers as slow Sarsa, on any site."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from hypothesis import Phase, given, settings
@@ -96,7 +97,50 @@ def cases(draw):
     )
 
 
-def following(*, examples, phases=(Phase.explicit, Phase.generate)):
+class Course(NamedTuple):
+    """What slow Sarsa does of a case.
+
+    Attributes
+    ----------
+    curve
+        Sum of the rewards of each episode.
+    states
+        Before the first episode and after each: the actions taken so far, the state of the random numbers, epsilon, and
+        for how many episodes the plan has stayed the same.
+    archive
+        Value, lanes, actions and start of each entry.
+    values
+        Those of all actions of each state that it met, in order.
+    """
+
+    curve: list
+    states: list
+    archive: list
+    values: list
+
+
+def course_of(case):
+    """Learn in plain Python."""
+    process = DecisionProcess(case.site, BAY, case.plan.resolved())
+    slow = SlowSarsa(process, case.plan, SplitMix64(case.seed), case.plan.archive_size)
+    states = [_state_of(slow)]
+    for _ in range(case.episodes):
+        slow.episode()
+        states.append(_state_of(slow))
+    archive = [(entry.value, entry.lanes, entry.tape, entry.start) for entry in slow.archive]
+    return Course(slow.curve, states, archive, sorted(slow.q.values()))
+
+
+def _state_of(slow):
+    return slow.steps, slow.random.state, slow.epsilon, slow.unchanged
+
+
+def check(case):
+    """Learn in both ways, and compare."""
+    compare(case, course_of(case))
+
+
+def following(*, examples, phases=(Phase.explicit, Phase.generate), check=check):
     """The property that `learn` follows the decision process."""
 
     @settings(max_examples=examples, deadline=None, derandomize=True, database=None, phases=phases)
@@ -107,13 +151,19 @@ def following(*, examples, phases=(Phase.explicit, Phase.generate)):
     return learn_follows_the_decision_process
 
 
-def check(case):
-    """Learn in both ways; compare what each episode leaves behind, and at last what was learnt and kept."""
+def cases_of(examples):
+    """The cases over which the property goes."""
+    found = []
+    following(examples=examples, check=found.append)()
+    return found
+
+
+def compare(case, course):
+    """Learn compiled; compare with slow Sarsa what episodes leave behind, and at last what was learnt and kept."""
     ground, parameters = ground_of(case.site, bay=BAY, plan=case.plan), case.plan.resolved()
-    process = DecisionProcess(case.site, BAY, parameters)
-    slow = SlowSarsa(process, case.plan, SplitMix64(case.seed), case.plan.archive_size)
     board, random = new_board(ground), np.array([case.seed], np.uint64)
-    archive = new_archive(case.plan.archive_size, padded=len(ground.cells), steps=process.horizon)
+    horizon = DecisionProcess(case.site, BAY, parameters).horizon
+    archive = new_archive(case.plan.archive_size, padded=len(ground.cells), steps=horizon)
     room = sarsa.new_room(ground, archive)
     memory = sarsa.new_memory(parameters, bits=case.table_bits)
     curve, steps, episode = np.zeros(case.episodes), 0, 0
@@ -121,19 +171,15 @@ def check(case):
         last = min(episode + case.batch, case.episodes)
         done, more = sarsa.learn(ground, board, parameters, memory, archive, room, random, curve, episode, last)
         steps += more
-        for _ in range(episode, done):
-            slow.episode()
-        assert curve[:done].tolist() == slow.curve
-        assert steps == slow.steps
-        assert random[0] == slow.random.state
-        assert memory.course.tolist() == [slow.epsilon, slow.unchanged]
+        assert curve[:done].tolist() == course.curve[:done]
+        assert (steps, random[0], *memory.course.tolist()) == course.states[done]
         if done < last:
             memory = sarsa.grown(memory)
         episode = done
-    assert kept(archive, ground) == [(entry.value, entry.lanes, entry.tape, entry.start) for entry in slow.archive]
+    assert kept(archive, ground) == course.archive
     used = memory.keys != 0
-    assert used.sum() == memory.used[0] == len(slow.q)
-    assert sorted(memory.q[used].tolist()) == sorted(slow.q.values())
+    assert used.sum() == memory.used[0] == len(course.values)
+    assert sorted(memory.q[used].tolist()) == course.values
     assert not memory.q[~used].any()
 
 
