@@ -23,7 +23,7 @@ LIBRARY = NATIVE / "loops.so"
 
 _LANGUAGE = ("-std=c11", "-Wall", "-Wextra")
 # a product and a sum are rounded one by one, so that plans are the same on every machine
-_ARITHMETIC = ("-O2", "-ffp-contract=off", "-fno-math-errno")
+_ARITHMETIC = ("-O3", "-ffp-contract=off", "-fno-math-errno")
 _LIBRARY = ("-fPIC", "-shared", "-fvisibility=hidden")
 _SMALLEST = b"#include <math.h>\n#include <stdint.h>\ndouble of(double x) { return log(x); }\n"
 
