@@ -39,26 +39,32 @@ class Shape:
     """
 
     def __init__(self, spec):
-        self.pieces = []
+        points, edges, size = [], [], 0
         for part in asset_of(spec).parts:
             after = np.arange(len(part.face_indices)) + 1
             ends = np.cumsum(part.face_counts)
             after[ends - 1] = ends - part.face_counts
-            edges = np.stack([part.face_indices, part.face_indices[after]], axis=1)
-            size = len(part.points)
-            count, label = connected_components(coo_array((np.ones(len(edges)), edges.T), (size, size)), directed=False)
-            points = part.points.astype(float)
-            self.pieces += [points[edges[label[edges[:, 0]] == index]] for index in range(count)]
-        self.low_m, self.high_m = (
-            np.array([getattr(lines[..., 1], end)() for lines in self.pieces]) for end in ("min", "max")
-        )
+            edges.append(size + np.stack([part.face_indices, part.face_indices[after]], axis=1))
+            points.append(part.points.astype(float))
+            size += len(part.points)
+        points, edges = np.concatenate(points), np.concatenate(edges)
+        count, label = connected_components(coo_array((np.ones(len(edges)), edges.T), (size, size)), directed=False)
+        numbers = np.arange(count)
+        owner = label[edges[:, 0]]
+        order = np.argsort(owner, kind="stable")
+        self.pieces = np.split(points[edges[order]], np.searchsorted(owner[order], numbers[1:]))
+        order = np.argsort(label, kind="stable")
+        self._points, self._owners = points[order], label[order]
+        starts = np.searchsorted(self._owners, numbers)
+        self.low_m, self.high_m = (end.reduceat(self._points[:, 1], starts) for end in (np.minimum, np.maximum))
         self._sections = {}
 
     @cached_property
     def _outlines(self):
         """The corners (x, z) of each piece seen from above, one after the other, and where each starts."""
-        corners = [hull(lines[..., [0, 2]].reshape(-1, 2)) for lines in self.pieces]
-        return np.concatenate(corners), np.cumsum([0, *map(len, corners[:-1])])
+        hulls = shapely.convex_hull(shapely.multipoints(self._points[:, [0, 2]], indices=self._owners))
+        corners, owners = shapely.get_coordinates(hulls, return_index=True)
+        return corners, np.searchsorted(owners, np.arange(len(hulls)))
 
     def boxes(self, positions, yaws):
         """Boxes of the pieces of objects at those places; float64, shape (objects, P, 2, 3)."""
@@ -111,20 +117,21 @@ class Solids:
         table = layout.placements
         rows = table.rows_of(*kinds)
         self.placements = table.at(rows)
-        self.shapes = [shape_of(table.specs[index]) for index in table.spec[rows]]
-        self.piece_boxes = [None] * len(rows)
         specs, group = np.unique(table.spec[rows], return_inverse=True)
-        for number, index in enumerate(specs.tolist()):
+        shapes = [shape_of(table.specs[index]) for index in specs.tolist()]
+        self.shapes = [shapes[number] for number in group.tolist()]
+        self.piece_boxes = [None] * len(rows)
+        self.boxes = np.empty((len(rows), 2, 3))
+        for number, shape in enumerate(shapes):
             members = np.flatnonzero(group == number)
-            boxes = shape_of(table.specs[index]).boxes(table.position_m[rows[members]], table.yaw_rad[rows[members]])
+            boxes = shape.boxes(table.position_m[rows[members]], table.yaw_rad[rows[members]])
+            self.boxes[members] = np.stack([boxes[:, :, 0].min(axis=1), boxes[:, :, 1].max(axis=1)], axis=1)
             for member, its in zip(members.tolist(), boxes, strict=True):
                 self.piece_boxes[member] = its
-        self.boxes = np.array([(its[:, 0].min(axis=0), its[:, 1].max(axis=0)) for its in self.piece_boxes])
 
     def near(self):
         """Pairs of objects whose boxes meet; int64, shape (n, 2)."""
-        low, high = self.boxes[:, 0], self.boxes[:, 1]
-        flat = shapely.box(low[:, 0], low[:, 2], high[:, 0], high[:, 2])
+        flat = flat_boxes(self.boxes)
         pairs = shapely.STRtree(flat).query(flat).T
         pairs = pairs[pairs[:, 0] < pairs[:, 1]]
         return pairs[meet(self.boxes[pairs[:, 0]], self.boxes[pairs[:, 1]])]
@@ -155,6 +162,12 @@ class Solids:
         x, y, z = place.position_m
         cos, sin = np.cos(place.yaw_rad), np.sin(place.yaw_rad)
         return self.shapes[index].section(piece, height_m - y) @ np.array([[cos, -sin], [sin, cos]]) + (x, z)
+
+
+def flat_boxes(boxes):
+    """Boxes, shape (n, 2, 3), as rectangles on the floor."""
+    (left, top), (right, bottom) = boxes[:, 0, ::2].T, boxes[:, 1, ::2].T
+    return shapely.box(left, top, right, bottom)
 
 
 def meet(first, second):
@@ -206,15 +219,13 @@ def assert_solid_objects_keep_apart(layout, config):
         low, high = solids.boxes[hanging, 0, 1], solids.boxes[hanging, 1, 1]
         assert low.min() >= config.fittings.clear_height_m - TOUCH_M, solids.placements[hanging[low.argmin()]]
         assert high.max() <= layout.ceiling_height_m + TOUCH_M, solids.placements[hanging[high.argmax()]]
-    standing = np.flatnonzero(np.isin(kinds, STANDING))
-    owners = np.repeat(standing, [len(solids.piece_boxes[index]) for index in standing])
-    boxes = np.concatenate([solids.piece_boxes[index] for index in standing])
-    in_the_way = boxes[:, 0, 1] < config.fittings.clear_height_m - TOUCH_M
-    (left, top), (right, bottom) = boxes[in_the_way][:, 0, ::2].T, boxes[in_the_way][:, 1, ::2].T
     ways = carriageways(layout.structure, config.bay.carriageway_setback_m - TOUCH_M)
     tree = shapely.STRtree(shapely.box(*ways.T))
-    met, way = tree.query(shapely.box(left, top, right, bottom))
-    width = np.minimum(right[met], ways[way, 2]) - np.maximum(left[met], ways[way, 0])
-    depth = np.minimum(bottom[met], ways[way, 3]) - np.maximum(top[met], ways[way, 1])
-    blocking = met[(np.minimum(width, depth) > 2 * TOUCH_M)]
-    assert not {solids.placements[index].name for index in owners[in_the_way][blocking]}
+    standing = np.flatnonzero(np.isin(kinds, STANDING))
+    # no piece is over a carriageway where the box of the whole object is not
+    for index in standing[np.unique(tree.query(flat_boxes(solids.boxes[standing]))[0])].tolist():
+        boxes = solids.piece_boxes[index]
+        boxes = boxes[boxes[:, 0, 1] < config.fittings.clear_height_m - TOUCH_M]
+        piece, way = tree.query(flat_boxes(boxes))
+        low, high = np.maximum(boxes[piece, 0, ::2], ways[way, :2]), np.minimum(boxes[piece, 1, ::2], ways[way, 2:])
+        assert not ((high - low).min(axis=1, initial=np.inf) > 2 * TOUCH_M).any(), solids.placements[index].name
