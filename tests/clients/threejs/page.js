@@ -73,8 +73,10 @@ function render(THREE, scene, group) {
   group.traverse((item) => {
     if (item.isLight) item.visible = false;
     for (const texture of texturesOf(item)) {
-      if (!sources.has(texture.image)) sources.set(texture.image, texture.source);
-      texture.source = sources.get(texture.image);
+      // each texture has an image element of its own, of one file for many: the file is what goes to the renderer once
+      const { src } = texture.image;
+      if (!sources.has(src)) sources.set(src, texture.source);
+      texture.source = sources.get(src);
     }
   });
   const photograph = photographer(THREE, scene);
