@@ -167,27 +167,40 @@ E====.#
 }
 
 
-KEPT = {"unreachable_stalls": "keep"}
+@pytest.fixture(scope="module")
+def kept():
+    """The narrow garage with the stalls that no car gets into."""
+    return drawn(**NARROW, plan={"unreachable_stalls": "keep"})
 
 
-def test_a_lane_too_narrow_for_its_stalls_is_refused_with_the_stalls_unless_told_otherwise():
-    failed = {proof.stall for proof in proofs_of(drawn(**NARROW, plan=KEPT)) if not proof.is_proven}
+@pytest.fixture(scope="module")
+def failures(kept):
+    """Proofs that failed in the narrow garage."""
+    failed = [proof for proof in proofs_of(kept) if not proof.is_proven]
+    assert failed
+    return failed
+
+
+@pytest.fixture(scope="module")
+def dropped():
+    """The narrow garage without the stalls that no car gets into."""
+    return drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+
+
+def test_a_lane_too_narrow_for_its_stalls_is_refused_with_the_stalls_unless_told_otherwise(failures):
     with pytest.raises(ConfigError) as caught:
         drawn(**NARROW)
     assert caught.value.field == "bay.row_depths_m"
     named = set(re.findall(r"Stall_r\d+_c\d+_\d+", str(caught.value)))
     assert named
-    assert named <= failed
+    assert named <= {proof.stall for proof in failures}
     assert "their aisles are 2.50 m clear" in str(caught.value)
 
 
-def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
-    narrow = drawn(**NARROW, plan=KEPT)
-    failed = [proof for proof in proofs_of(narrow) if not proof.is_proven]
-    stalls = {stall.name: stall for stall in narrow.layout.stalls}
-    assert failed
-    assert {stalls[proof.stall].access_square[0] for proof in failed} == {3}
-    for proof in failed:
+def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way(kept, failures):
+    stalls = {stall.name: stall for stall in kept.layout.stalls}
+    assert {stalls[proof.stall].access_square[0] for proof in failures} == {3}
+    for proof in failures:
         assert (proof.nose, proof.way_in, proof.way_out, proof.is_single_cause) == (None, None, None, True)
         row, col = stalls[proof.stall].square
         beside = {f"Column_r{row + down:02d}_c{col + right:02d}" for down in (0, 1) for right in (0, 1)}
@@ -195,11 +208,10 @@ def test_a_lane_too_narrow_for_its_stalls_is_named_with_what_is_in_the_way():
         assert set(proof.touched) <= beside | cars
 
 
-def test_stalls_without_ways_are_marked_and_hold_nothing():
-    kept, marked = drawn(**NARROW, plan=KEPT), drawn(**NARROW, plan={"unreachable_stalls": "mark"})
-    failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
+def test_stalls_without_ways_are_marked_and_hold_nothing(kept, failures):
+    marked = drawn(**NARROW, plan={"unreachable_stalls": "mark"})
     unreachable = [stall for stall in marked.layout.stalls if stall.use is StallUse.UNREACHABLE]
-    assert failed <= {stall.name for stall in unreachable}
+    assert {proof.stall for proof in failures} <= {stall.name for stall in unreachable}
     assert len(marked.layout.stalls) == len(kept.layout.stalls)
     assert all(proof.is_proven for proof in proofs_of(marked))
     held = {(place.stall, place.kind) for place in marked.layout.placements}
@@ -208,11 +220,8 @@ def test_stalls_without_ways_are_marked_and_hold_nothing():
         assert not stall.number
 
 
-def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
-    kept, dropped = drawn(**NARROW, plan=KEPT), drawn(**NARROW, plan={"unreachable_stalls": "drop"})
-    failed = {proof.stall for proof in proofs_of(kept) if not proof.is_proven}
-    assert failed
-    assert failed <= dropped.layout.unreachable
+def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed(kept, failures, dropped):
+    assert {proof.stall for proof in failures} <= dropped.layout.unreachable
     names = {stall.name for stall in kept.layout.stalls}
     assert {stall.name for stall in dropped.layout.stalls} == names - dropped.layout.unreachable
     assert all(proof.is_proven for proof in proofs_of(dropped))
@@ -222,11 +231,10 @@ def test_stalls_without_ways_are_left_out_and_the_floor_there_is_closed():
     assert len(dropped.layout.of_kind("stall")) == len(dropped.layout.stalls)
 
 
-def test_a_garage_without_any_stall_that_cars_get_into_is_refused():
-    names = {stall.name for stall in drawn(**NARROW, plan=KEPT).layout.stalls}
-    narrow = drawn(**NARROW, plan={"unreachable_stalls": "drop"})
+def test_a_garage_without_any_stall_that_cars_get_into_is_refused(kept, dropped):
+    names = {stall.name for stall in kept.layout.stalls}
     with pytest.raises(ConfigError, match=r"plan.unreachable_stalls: got 'drop'; allowed: a plan that leaves a stall"):
-        lay_out(narrow.layout.structure, narrow.graph, narrow.config, unreachable=names)
+        lay_out(dropped.layout.structure, dropped.graph, dropped.config, unreachable=names)
 
 
 @pytest.mark.parametrize("choice", ["mark", "drop"])
