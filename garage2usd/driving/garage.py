@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 
+import numpy as np
 import shapely
 
 from garage2usd.driving.car import DesignCar, Point, Pose
@@ -289,8 +290,10 @@ class _Prover:
 
 def absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:
     """A car in the middle of each stall that holds none."""
-    return Obstacles.of(
-        (stall.absent, shapely.Polygon(car.corners(car.centred(stall.centre_m, stall.yaw_rad))))
+    named = [
+        (stall.absent, car.corners(car.centred(stall.centre_m, stall.yaw_rad)))
         for stall in stalls
         if stall.absent is not None
-    )
+    ]
+    grounds = shapely.polygons(np.array([corners for _, corners in named]).reshape(-1, 4, 2))
+    return Obstacles.of((name, ground) for (name, _), ground in zip(named, grounds, strict=True))

@@ -73,6 +73,7 @@ class Router:
     ) -> None:
         self._road, self._steerings = road, tuple(steerings)
         self._car, self._limits = car or DesignCar(), limits or Limits()
+        self._standing = lru_cache(maxsize=2)(self._stood)
         self._roadmap = lru_cache(maxsize=2)(self._mapped)
 
     def portals(self, use: SquareUse) -> tuple[Portal, ...]:
@@ -147,7 +148,7 @@ class Router:
                         return led
         return None
 
-    def _standing(self, is_full: bool) -> Obstacles:  # noqa: FBT001
+    def _stood(self, is_full: bool) -> Obstacles:  # noqa: FBT001
         standing = self._road.standing
         return standing.joined(absent_cars(self._road.garage.stalls, self._car)) if is_full else standing
 

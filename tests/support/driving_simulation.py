@@ -71,14 +71,18 @@ def _step(state, speed, steer, seconds):
 
 def outlines(track):
     """The car's rectangle in each pose, as an array of polygons."""
+    return shapely.polygons(corners(track))
+
+
+def corners(track):
+    """The corners (x, z) of the car's rectangle in each pose; float64, shape (poses, 4, 2)."""
     track = np.atleast_2d(track)
     ahead = np.array([LENGTH_M - REAR_M, LENGTH_M - REAR_M, -REAR_M, -REAR_M])
     right = np.array([-1, 1, 1, -1]) * WIDTH_M / 2
     x, z, yaw = track.T[:, :, None]
-    corners = np.stack(
+    return np.stack(
         [x - np.sin(yaw) * ahead + np.cos(yaw) * right, z - np.cos(yaw) * ahead - np.sin(yaw) * right], axis=2
     )
-    return shapely.polygons(corners)
 
 
 @cache

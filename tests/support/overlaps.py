@@ -62,7 +62,7 @@ class Shape:
     @cached_property
     def _outlines(self):
         """The corners (x, z) of each piece seen from above, one after the other, and where each starts."""
-        hulls = shapely.convex_hull(shapely.multipoints(self._points[:, [0, 2]], indices=self._owners))
+        hulls = shapely.convex_hull(shapely.linestrings(self._points[:, [0, 2]], indices=self._owners))
         corners, owners = shapely.get_coordinates(hulls, return_index=True)
         return corners, np.searchsorted(owners, np.arange(len(hulls)))
 

@@ -7,7 +7,7 @@ import shapely
 from shapely import affinity
 
 from garage2usd.stage.prototypes import asset_of
-from support.driving_simulation import LOCK_RAD, WHEELBASE_M, World, outlines
+from support.driving_simulation import LOCK_RAD, WHEELBASE_M, World, corners
 
 FOOT_M = 0.5
 MOVED_M = 0.02
@@ -26,8 +26,9 @@ class OpenWorld(World):
 
     def swept(self, rows, stall):
         """What the ground touches that a car sweeps between each two rows, but for the stall's own things."""
-        bodies = outlines(np.stack([rows["x_m"], rows["z_m"], rows["yaw_rad"]], axis=1))
-        hulls = shapely.convex_hull(shapely.union(bodies[:-1], bodies[1:]))
+        bodies = corners(np.stack([rows["x_m"], rows["z_m"], rows["yaw_rad"]], axis=1))
+        both = np.concatenate([bodies[:-1], bodies[1:]], axis=1)
+        hulls = shapely.convex_hull(shapely.linestrings(both))
         found = self.tree.query(hulls, predicate="intersects")[1]
         things = {id(thing): thing for thing in (self.items[item][0] for item in set(found.tolist()))}.values()
         return {

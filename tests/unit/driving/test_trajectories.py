@@ -1,7 +1,5 @@
 """Whole trajectories, judged from their rows and the stage's meshes by computations of the tests' own."""
 
-import csv
-import io
 import json
 import math
 from itertools import pairwise
@@ -46,8 +44,8 @@ def rows_of(motion, tmp_path):
     """The rows of the file that is written."""
     file = tmp_path / "trajectory.csv"
     write_trajectory_csv(file, motion.sampled(0.05))
-    table = list(csv.DictReader(io.StringIO(file.read_text())))
-    return {name: np.array([float(row[name]) for row in table]) for name in table[0]}
+    names = file.read_text().partition("\n")[0].split(",")
+    return dict(zip(names, np.loadtxt(file, delimiter=",", skiprows=1, unpack=True), strict=True))
 
 
 def at(rows, number):
