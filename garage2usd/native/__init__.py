@@ -139,4 +139,7 @@ def _dtype(hint: Any) -> np.dtype[Any]:  # noqa: ANN401 - an annotation
 def _address(dtype: np.dtype[Any], array: np.ndarray[Any, Any]) -> int:
     if array.dtype != dtype or not array.flags.c_contiguous:
         raise TypeError(f"an array of {array.dtype}, strides {array.strides}, where C takes {dtype} side by side")
+    # a third of the time of NumPy's own answer, but only for what has bytes that may be written
+    if array.size and array.flags.writeable:
+        return ctypes.addressof(ctypes.c_char.from_buffer(array.data))
     return array.ctypes.data
