@@ -21,10 +21,16 @@ def stage_file(tmp_path_factory):
     return build(GarageConfig(**SETTINGS), tmp_path_factory.mktemp("small") / "small.usda").stage
 
 
+@pytest.fixture(scope="module")
+def opened(stage_file):
+    """Keeps the contents of the files, so that they are read once."""
+    return Usd.Stage.Open(str(stage_file))
+
+
 @pytest.fixture
-def stage(stage_file):
+def stage(opened):
     """The good stage; edits go to a session layer of its own."""
-    stage = Usd.Stage.Open(str(stage_file))
+    stage = Usd.Stage.Open(opened.GetRootLayer())
     stage.SetEditTarget(stage.GetSessionLayer())
     return stage
 

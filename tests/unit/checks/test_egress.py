@@ -32,9 +32,16 @@ def made(request, tmp_path_factory):
     return build(config, tmp_path_factory.mktemp(request.param) / "g.usda")
 
 
+@pytest.fixture(scope="module")
+def opened(made):
+    """Keeps the file's contents, so that it is read once."""
+    return Usd.Stage.Open(str(made.stage))
+
+
 @pytest.fixture
-def stage(made):
-    stage = Usd.Stage.Open(str(made.stage))
+def stage(opened):
+    """The stage as it was built; edits go to a session layer of its own."""
+    stage = Usd.Stage.Open(opened.GetRootLayer())
     stage.SetEditTarget(stage.GetSessionLayer())
     return stage
 
