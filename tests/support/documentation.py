@@ -25,7 +25,7 @@ from garage2usd.datasets.drives import check_drives
 from garage2usd.profiles import read_profile
 from garage2usd.sensors.rig import rig_from_mapping
 
-REPOSITORY = Path(__file__).parents[2]  # it is a program too, which finds no other helper
+REPOSITORY = Path(__file__).parents[2]  # test_wheel.py loads this module alone, without other helpers
 
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "docs").rglob("*.md"))]
@@ -155,6 +155,8 @@ class Reader:
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
             small = ["--scale", "0.05", "--every-m", "40"] if "--rig" in arguments else ["--size", "32x18"]
             arguments = [*arguments, *small, "--samples", "1"]
+        elif arguments[0] == "dataset" and "--workers" not in arguments:
+            arguments = [*arguments, "--workers", "1"]  # not one a core, each of which loads all, for three garages
         with contextlib.chdir(self.folder):
             run = CliRunner().invoke(main, arguments)
         assert run.exit_code == code, f"{place}\n{run.output}{run.exception!r}"
@@ -214,8 +216,3 @@ def follow_page(page, folder):
         reader.start_with_a_garage()
     for block in to_run:
         reader.follow(block)
-
-
-if __name__ == "__main__":
-    follow_page(Path(sys.argv[1]), Path(sys.argv[2]))
-    sys.stdout.write(f"{Path(garage2usd.__file__).parent}\n")

@@ -7,7 +7,6 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from support.documentation import README
 from support.sample_files import REPOSITORY
 
 DATA_FILES = (
@@ -21,6 +20,17 @@ DATA_FILES = (
     "stage/*.npz",
     "view/page/*",
 )
+
+
+# no file, which each worker of a data set would load again
+FOLLOW_THE_README = """
+import sys
+from pathlib import Path
+sys.path.append(sys.argv[1])
+import documentation
+documentation.follow_page(documentation.README, Path.cwd())
+print(Path(documentation.garage2usd.__file__).parent)
+"""
 
 
 def pip(*arguments):
@@ -94,13 +104,7 @@ def test_commands_run_where_there_is_no_checkout(installed, tmp_path):
 
 
 def test_the_readme_can_be_followed_with_the_wheel_alone(installed, tmp_path):
-    run = installed(
-        sys.executable,
-        str(REPOSITORY / "tests" / "support" / "documentation.py"),
-        str(README),
-        str(tmp_path),
-        folder=tmp_path,
-    )
+    run = installed(sys.executable, "-c", FOLLOW_THE_README, REPOSITORY / "tests" / "support", folder=tmp_path)
     assert run.returncode == 0, run.stderr
     assert Path(run.stdout.splitlines()[-1]).is_relative_to(installed.packages)
     assert (tmp_path / "garage.usdz").exists()
