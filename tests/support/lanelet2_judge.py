@@ -258,10 +258,11 @@ class Lanelet2Judge:
         ]
         if not all(lot.is_valid for lot in lots):
             yield "a parking lot crosses itself"
+        wide = [lot.buffer(NEAR_M) for lot in lots]
         on = self._lanelets_on_nodes()
         for name, stall in self._parking().items():
             ground = shapely.Polygon(stall["corners"] * (1, -1))
-            own = [lot for lot in lots if lot.buffer(NEAR_M).contains(ground)]
+            own = [lot for lot, around in zip(lots, wide, strict=True) if around.contains(ground)]
             if not own:
                 yield f"{name} is in no parking lot"
             elif not any(own[0].intersection(self.grounds[number]).area > 1.0 for number in on[stall["access"]]):
