@@ -1,5 +1,6 @@
 """Shared stages, and the rule that in CI a skipped test is a failed one."""
 
+import gc
 import os
 import pickle
 import signal
@@ -22,6 +23,12 @@ def pytest_configure():
     # a shell that runs the tests in the background has SIGINT ignored, which children that tests interrupt inherit
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_finish():
+    # what is loaded by now stays, so the collector need not look through it again and again
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(wrapper=True)
