@@ -7,7 +7,6 @@ garage2usd is imported. Each line on the file descriptor that the job names is a
 """
 
 import ctypes
-import hashlib
 import importlib
 import json
 import os
@@ -28,6 +27,8 @@ _POINT_FILTER_PX = 0.01
 _BOUNCES = 6
 _TRANSPARENT_BOUNCES = 64
 _OPAQUE = 0.5
+_LENS = "lens"
+"""Property of the camera that says which lens it has."""
 _RAYS = Path(__file__).with_name("rays.osl")
 _SAMPLE = re.compile(r"Sample (\d+)/\d+")
 
@@ -142,36 +143,32 @@ def _draw(scene: bpy.types.Scene, path: Path) -> None:
 
 def aim(scene: bpy.types.Scene, frame: dict[str, Any], to_blender: Matrix) -> None:
     """Take the camera of a frame."""
-    lens = frame["lens"]
     if scene.camera is None:
         scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
         scene.collection.objects.link(scene.camera)
     scene.camera.matrix_world = to_blender @ Matrix(frame["camera_to_world"])
-    data = _camera(frame)
-    if scene.camera.data != data:  # it costs a second to read the scene anew
-        scene.camera.data = data
-    data.clip_start, data.clip_end = lens["clip_m"]
+    _take_lens(scene.camera.data, frame["lens"], *frame["size_px"])
     scene.render.resolution_x, scene.render.resolution_y = frame["size_px"]
     scene.render.resolution_percentage = 100
 
 
-def _camera(frame: dict[str, Any]) -> bpy.types.Camera:
-    """The camera of a lens, which is made when it is first needed."""
-    lens, (width, height) = frame["lens"], frame["size_px"]
-    name = hashlib.sha256(json.dumps([lens, width, height]).encode()).hexdigest()[:32]
-    if name in bpy.data.cameras:
-        return bpy.data.cameras[name]
-    camera = bpy.data.cameras.new(name)
+def _take_lens(camera: bpy.types.Camera, lens: dict[str, Any], width: int, height: int) -> None:
+    """Give the camera a lens; for another camera the scene would be read anew, which takes a second."""
+    name = json.dumps([lens, width, height])
+    if camera.get(_LENS) == name:
+        return
+    camera[_LENS] = name
     camera.sensor_fit = "HORIZONTAL"
+    camera.clip_start, camera.clip_end = lens["clip_m"]
+    camera.shift_x, camera.shift_y = lens.get("shift", (0.0, 0.0))
     if lens["kind"] == "perspective":
+        camera.type = "PERSP"
         camera.sensor_width = lens["aperture_mm"]
         camera.lens = lens["focal_mm"]
-        camera.shift_x, camera.shift_y = lens["shift"]
     elif lens["kind"] == "orthographic":
         camera.type, camera.ortho_scale = "ORTHO", lens["width_m"]
     else:
         _look_along_rays(camera, lens, width, height)
-    return camera
 
 
 def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int, height: int) -> None:
@@ -196,10 +193,9 @@ def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int,
         f"#define {name} {value:.9e}\n" if isinstance(value, float) else f"#define {name} {value}\n"
         for name, value in macros.items()
     )
-    text = bpy.data.texts.new(f"{camera.name}.osl")
+    text = bpy.data.texts.new("rays.osl")
     text.write(head + _RAYS.read_text(encoding="utf-8"))
-    importlib.import_module("addon_utils").enable("cycles")  # which bpy brings into reach
-    osl = importlib.import_module("cycles.osl")
+    osl = importlib.import_module("cycles.osl")  # which bpy brings into reach
     said: list[str] = []
     is_compiled, _, bytecode, digest = osl.update_internal_script(lambda _kind, message: said.append(message), text)
     if not is_compiled:
