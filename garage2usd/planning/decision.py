@@ -5,6 +5,7 @@ A car drives over a site from an entrance, one square at a time, and every free 
 `garage2usd.planning.sarsa` runs the same process compiled, and the tests hold it to these functions, with which it
 shares no code. Equations are counted in the order in which the paper prints them, because its labels repeat.
 """
+# Over 300 lines: the whole decision process is told in one place, equation by equation.
 
 from dataclasses import dataclass, replace
 from enum import Enum, IntEnum

@@ -1,15 +1,20 @@
-"""Run by a test in a process of its own: load a stage's colliders into newton and write down what they are and where.
+"""Run by tests in a process of its own: load stages' colliders into newton and say what they are and where.
 
-Newton's schemas must be registered before anything else reads a stage.
+Takes the path of a stage a line, and answers with JSON in a line. Newton's schemas must be registered before anything
+else reads a stage.
 """
 
 import json
+import os
 import sys
 
-import newton
+answers = os.fdopen(os.dup(sys.stdout.fileno()), "w")
+os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # where newton greets
+
+import newton  # noqa: E402 - it greets as it is imported
 
 
-def main(stage, output):
+def colliders(stage):
     builder = newton.ModelBuilder(up_axis=newton.Axis.Y)
     builder.add_usd(stage, load_visual_shapes=False, load_static_visual_shapes=False)
     shapes = []
@@ -26,8 +31,9 @@ def main(stage, output):
             entry["scale"] = [float(value) for value in builder.shape_scale[index]]
             entry["low"], entry["high"] = source.vertices.min(axis=0).tolist(), source.vertices.max(axis=0).tolist()
         shapes.append(entry)
-    with open(output, "w") as file:
-        json.dump({"version": newton.__version__, "bodies": builder.body_count, "shapes": shapes}, file)
+    return {"version": newton.__version__, "bodies": builder.body_count, "shapes": shapes}
 
 
-main(sys.argv[-2], sys.argv[-1])
+for line in sys.stdin:
+    json.dump(colliders(line.rstrip("\n")), answers)
+    print(file=answers, flush=True)

@@ -1,13 +1,8 @@
 """Newton, a physics engine, finds every collider of a stage: of the right kind, size and place."""
 
-import importlib.util
-import json
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from support.newton_reader import needs_newton, running_newton
 from support.places import MILLIMETRE, assert_same_places
 from support.sample_files import REPOSITORY, SAMPLES
 
@@ -15,13 +10,7 @@ from garage2usd.assets import Collider
 from garage2usd.layout.placement import to_world
 from garage2usd.stage.prototypes import asset_of
 
-pytestmark = [
-    pytest.mark.client,
-    pytest.mark.skipif(
-        any(importlib.util.find_spec(name) is None for name in ("newton", "newton_usd_schemas")),
-        reason="newton is not installed",
-    ),
-]
+pytestmark = [pytest.mark.client, needs_newton]
 
 SHAPES = {Collider.MESH: "MESH", Collider.BOX: "BOX", Collider.CONVEX_HULL: "CONVEX_MESH"}
 # newton turns a box to fit its points, which on a square slab is off by up to 15 mm
@@ -30,18 +19,10 @@ BOX_TOLERANCE_M = 0.02
 HULL_POINTS, HULL_TOLERANCE_M = 64, 0.05
 
 
-def load_in_newton(stage, folder):
-    output = folder / "dump.json"
-    script = Path(__file__).with_name("newton_dump.py")
-    run = subprocess.run(
-        [sys.executable, str(script), str(stage), str(output)],
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    return json.loads(output.read_text())
+@pytest.fixture(scope="module")
+def load_in_newton():
+    with running_newton() as load:
+        yield load
 
 
 def colliders(layout):
@@ -106,9 +87,9 @@ def assert_same_sizes(shapes, expected):
     ],
     ids=lambda value: getattr(value, "stem", value),
 )
-def test_newton_agrees_with_the_layout(sample, form, builds, tmp_path):
+def test_newton_agrees_with_the_layout(sample, form, builds, load_in_newton):
     build = builds(sample, "usdc", form)
-    scene = load_in_newton(build.stage, tmp_path)
+    scene = load_in_newton(build.stage)
     expected = list(colliders(build.garage.layout))
     assert expected
     assert scene["bodies"] == 0

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.newton_reader import needs_newton, running_newton
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -25,26 +26,24 @@ def both(request, tmp_path_factory):
     return one("own"), one("shared")
 
 
-def dump(script, made, folder):
-    output = folder / f"{made.garage.config.stage.assets}.json"
-    command = [sys.executable, str(Path(__file__).with_name(script)), str(made.stage), str(output)]
-    subprocess.run(command, check=True, capture_output=True, timeout=600)
-    return json.loads(output.read_text())
-
-
-@pytest.mark.skipif(
-    any(importlib.util.find_spec(name) is None for name in ("newton", "newton_usd_schemas")),
-    reason="newton is not installed",
-)
-def test_newton_finds_the_same_colliders(both, tmp_path):
-    own, shared = (dump("newton_dump.py", made, tmp_path) for made in both)
+@needs_newton
+def test_newton_finds_the_same_colliders(both):
+    with running_newton() as load:
+        own, shared = (load(made.stage) for made in both)
     assert own["shapes"]
     assert shared == own
 
 
+def blender_dump(made, folder):
+    output = folder / f"{made.garage.config.stage.assets}.json"
+    command = [sys.executable, str(Path(__file__).with_name("blender_dump.py")), str(made.stage), str(output)]
+    subprocess.run(command, check=True, capture_output=True, timeout=600)
+    return json.loads(output.read_text())
+
+
 @pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
 def test_blender_finds_the_same_objects_and_reads_all_images(both, tmp_path):
-    own, shared = (dump("blender_dump.py", made, tmp_path) for made in both)
+    own, shared = (blender_dump(made, tmp_path) for made in both)
     assert own["drawn"]
     assert all(image["read"] for image in shared["images"])
     # in which order depends on Blender's threads
