@@ -25,12 +25,6 @@ def pytest_configure():
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_auto_num_workers():
-    # one more than there are cores, as tests often wait for a browser or for a process that they killed
-    return os.cpu_count() + 1
-
-
 def pytest_collection_finish():
     # what is loaded by now stays, so the collector need not look through it again and again
     gc.collect()
