@@ -5,8 +5,9 @@
 >>> stalls = build.garage.layout.stalls
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from garage2usd.public_names import on_first_use
 
 if TYPE_CHECKING:
     from garage2usd.config import GarageConfig, load_config
@@ -47,13 +48,7 @@ _HOME = {
     "generate": "pipeline",
     "load_config": "config",
 }
-
-
-def __getattr__(name: str) -> object:
-    """Load a public name on first use, so that importing the package stays instant."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'garage2usd' has no attribute {name!r}")
-    return getattr(import_module(f"garage2usd.{_HOME[name]}"), name)
+__getattr__ = on_first_use(__name__, _HOME)
 
 
 def __dir__() -> list[str]:

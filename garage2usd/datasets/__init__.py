@@ -1,10 +1,10 @@
 """Data sets of many garages that differ, made by a recipe on many processes."""
 
-from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from garage2usd.errors import MissingExtraError
+from garage2usd.public_names import on_first_use
 
 if TYPE_CHECKING:
     from garage2usd.datasets.making import DataSet, make_dataset
@@ -24,13 +24,8 @@ _HOME = {
     "make_dataset": "making",
     "verify_dataset": "verification",
 }
-
-
-def __getattr__(name: str) -> object:
-    """Load a public name on first use: each worker imports this package, and needs little of it."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'garage2usd.datasets' has no attribute {name!r}")
-    return getattr(import_module(f"garage2usd.datasets.{_HOME[name]}"), name)
+# each worker imports this package, and needs little of it
+__getattr__ = on_first_use(__name__, _HOME)
 
 
 def __dir__() -> list[str]:
