@@ -3,10 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.driving.sweep import Floats, Scene
-from garage2usd.native import in_c
+from garage2usd.native import Int64s, in_c
 
 __all__ = ["HEADINGS", "Task", "search"]
 
@@ -49,7 +48,7 @@ class Task(NamedTuple):
     max_nodes: int
 
 
-def search(task: Task, touched: NDArray[np.int64]) -> tuple[int, Floats]:
+def search(task: Task, touched: Int64s) -> tuple[int, Floats]:
     """Look for a way of little cost from a pose to a goal.
 
     Parameters
@@ -78,5 +77,5 @@ def search(task: Task, touched: NDArray[np.int64]) -> tuple[int, Floats]:
 
 
 @in_c
-def _find_steps(task: Task, touched: NDArray[np.int64], steps: Floats) -> int:
+def _find_steps(task: Task, touched: Int64s, steps: Floats) -> int:
     raise NotImplementedError

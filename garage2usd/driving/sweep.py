@@ -3,13 +3,12 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Bools, Float64s, Int64s, in_c
 
 __all__ = ["Floats", "Scene", "bulge", "least_clearance", "touched_shapes"]
 
-Floats = NDArray[np.float64]
+Floats = Float64s
 
 
 class Scene(NamedTuple):
@@ -36,7 +35,7 @@ def bulge(radius: float, turn: float, body: Floats) -> float:
     raise NotImplementedError
 
 
-def touched_shapes(scene: Scene, pose: Floats, margin: float) -> NDArray[np.int64]:
+def touched_shapes(scene: Scene, pose: Floats, margin: float) -> Int64s:
     """Numbers of the shapes that a car that stands at a pose (x, z, yaw) comes nearer to than a margin."""
     is_touched = np.zeros(len(scene.shapes), np.bool_)
     _mark_touched(scene, pose, margin, is_touched)
@@ -44,7 +43,7 @@ def touched_shapes(scene: Scene, pose: Floats, margin: float) -> NDArray[np.int6
 
 
 @in_c
-def _mark_touched(scene: Scene, pose: Floats, margin: float, is_touched: NDArray[np.bool_]) -> None:
+def _mark_touched(scene: Scene, pose: Floats, margin: float, is_touched: Bools) -> None:
     raise NotImplementedError
 
 

@@ -11,11 +11,35 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar, cast
+from typing import Annotated, Any, ParamSpec, TypeVar, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["LIBRARY", "in_c", "load", "packed", "using"]
+__all__ = [
+    "LIBRARY",
+    "Bools",
+    "Float32s",
+    "Float64s",
+    "Int8s",
+    "Int32s",
+    "Int64s",
+    "UInt64s",
+    "in_c",
+    "load",
+    "numbers_of",
+    "packed",
+    "using",
+]
+
+# Arrays for C carry the type of their numbers as a note of our own: `NDArray` differs inside from NumPy to NumPy.
+Bools = Annotated[NDArray[np.bool_], np.dtype(np.bool_)]
+Int8s = Annotated[NDArray[np.int8], np.dtype(np.int8)]
+Int32s = Annotated[NDArray[np.int32], np.dtype(np.int32)]
+Int64s = Annotated[NDArray[np.int64], np.dtype(np.int64)]
+UInt64s = Annotated[NDArray[np.uint64], np.dtype(np.uint64)]
+Float32s = Annotated[NDArray[np.float32], np.dtype(np.float32)]
+Float64s = Annotated[NDArray[np.float64], np.dtype(np.float64)]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -62,14 +86,16 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
     """Have a function be the C function of the same name, less an underscore; its own body is never run.
 
     Named tuples go to C by the address of their fields, which `planning.h` declares in the same order, arrays by the
-    address of their first number, and numbers as they are. Arguments are given by position.
+    address of their first number, and numbers as they are. Arrays are annotated as `Int64s` and the like. Arguments are
+    given by position.
 
     Raises
     ------
     TypeError
-        When called, if an array is not of the annotated type, or its numbers do not lie side by side.
+        If an annotation is none of these; when called, if an array is not of the annotated type, or its numbers do not
+        lie side by side.
     """
-    hints = typing.get_type_hints(function)
+    hints = typing.get_type_hints(function, include_extras=True)
     returns = hints.pop("return")
     packers = [_packer(hint) for hint in hints.values()]
 
@@ -88,12 +114,20 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
     return call
 
 
+def numbers_of(hint: Any) -> np.dtype[Any] | None:  # noqa: ANN401 - an annotation
+    """The type of the numbers of an array that is annotated as `Int64s` and the like; None for what is no array."""
+    return next((one for one in typing.get_args(hint)[1:] if isinstance(one, np.dtype)), None)
+
+
 def _packer(hint: Any) -> tuple[Callable[[Any], Any], Any]:  # noqa: ANN401 - an annotation
     """How an argument is handed to C by its annotation, and its type there."""
     if hint in _NUMBERS:
         return _NUMBERS[hint]
-    if typing.get_origin(hint) is np.ndarray:
-        return functools.partial(_address, _dtype(hint)), ctypes.c_void_p
+    dtype = numbers_of(hint)
+    if dtype is not None:
+        return functools.partial(_address, dtype), ctypes.c_void_p
+    if not hasattr(hint, "_fields"):
+        raise TypeError(f"C takes numbers, named tuples, and arrays annotated as Int64s and the like; not {hint}")
     return functools.partial(packed, hint), ctypes.c_char_p
 
 
@@ -127,13 +161,8 @@ def _words(kind: type, value: Any) -> Words:  # noqa: ANN401 - a named tuple
 @functools.cache
 def _fields(kind: type) -> list[tuple[Any, np.dtype[Any] | None]]:
     """The annotations of a named tuple, and of arrays the types of their numbers."""
-    hints = typing.get_type_hints(kind).values()
-    return [(hint, _dtype(hint) if typing.get_origin(hint) is np.ndarray else None) for hint in hints]
-
-
-def _dtype(hint: Any) -> np.dtype[Any]:  # noqa: ANN401 - an annotation
-    """The type of the numbers of an annotated array."""
-    return np.dtype(typing.get_args(typing.get_args(hint)[1])[0])
+    hints = typing.get_type_hints(kind, include_extras=True).values()
+    return [(hint, numbers_of(hint)) for hint in hints]
 
 
 def _address(dtype: np.dtype[Any], array: np.ndarray[Any, Any]) -> int:

@@ -4,10 +4,9 @@ from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.native import in_c
+from garage2usd.native import Float64s, Int8s, Int64s, UInt64s, in_c
 from garage2usd.planning.archive import Archive
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
@@ -51,11 +50,11 @@ class Runs(NamedTuple):
         from a portal, or one of some spread over the site.
     """
 
-    first: NDArray[np.int64]
-    length: NDArray[np.int64]
-    ahead: NDArray[np.int64]
-    turned: NDArray[np.int64]
-    spines: NDArray[np.int64]
+    first: Int64s
+    length: Int64s
+    ahead: Int64s
+    turned: Int64s
+    spines: Int64s
 
 
 def runs_of(ground: Ground) -> Runs:
@@ -95,7 +94,7 @@ def runs_of(ground: Ground) -> Runs:
     return runs._replace(spines=_ladders(ground, runs) if ground.rules.asks_loop else _single_spines(ground, runs))
 
 
-def _ladders(ground: Ground, runs: Runs) -> NDArray[np.int64]:
+def _ladders(ground: Ground, runs: Runs) -> Int64s:
     """Sets of spines that join the aisles at both ends and so often between that no stretch is too long.
 
     Beside rails at the ends of the whole site there are sets with one at each side of the contour.
@@ -129,12 +128,12 @@ def _of_direction(runs: Runs, direction: int) -> slice:
     return slice(0 if direction == 0 else int(runs.turned[0]), int(runs.turned[direction]))
 
 
-def _places(ground: Ground, squares: NDArray[np.int64], direction: int) -> NDArray[np.int64]:
+def _places(ground: Ground, squares: Int64s, direction: int) -> Int64s:
     """Columns of squares where aisles run along rows (0), their rows where they run along columns (1)."""
     return squares % ground.stride if direction == 0 else squares // ground.stride
 
 
-def _sides(ground: Ground, runs: Runs, direction: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _sides(ground: Ground, runs: Runs, direction: int) -> tuple[Int64s, Int64s]:
     """Lines at which several runs of a direction begin, and at which several end: the sides of the contour."""
     along = _of_direction(runs, direction)
     first = _places(ground, runs.first[along], direction)
@@ -163,7 +162,7 @@ def _rails(knots: list[int], *, stretch: int, more: int) -> list[int]:
     return sorted(rails)
 
 
-def _single_spines(ground: Ground, runs: Runs) -> NDArray[np.int64]:
+def _single_spines(ground: Ground, runs: Runs) -> Int64s:
     """Each a run that leads straight away from a portal, or one of some spread over the site."""
     first, length, turned = runs.first.tolist(), runs.length.tolist(), runs.turned.tolist()
     spines = np.full((2, len(ground.portals) + _SPREAD_SPINES), -1)
@@ -205,14 +204,14 @@ class Room(NamedTuple):
         int64: the lanes of a plan.
     """
 
-    states: NDArray[np.int64]
-    options: NDArray[np.int64]
-    rewards: NDArray[np.float64]
-    tape: NDArray[np.int8]
-    profiles: NDArray[np.int64]
-    counts: NDArray[np.int64]
-    ahead: NDArray[np.int64]
-    laid: NDArray[np.int64]
+    states: Int64s
+    options: Int64s
+    rewards: Float64s
+    tape: Int8s
+    profiles: Int64s
+    counts: Int64s
+    ahead: Int64s
+    laid: Int64s
 
 
 def new_room(ground: Ground, runs: Runs) -> Room:
@@ -230,7 +229,7 @@ def new_room(ground: Ground, runs: Runs) -> Room:
     )
 
 
-def new_values() -> NDArray[np.float64]:
+def new_values() -> Float64s:
     """Values of the options by state when nothing is learnt yet: hopes that make the agent try each."""
     return np.full((_STATES, OPTIONS), _OPTIMISTIC)
 
@@ -241,12 +240,12 @@ def learn_aisles(
     board: Board,
     runs: Runs,
     parameters: SarsaParameters,
-    values: NDArray[np.float64],
+    values: Float64s,
     archive: Archive,
     room: Room,
-    random: NDArray[np.uint64],
-    curve: NDArray[np.float64],
-    schedule: NDArray[np.float64],
+    random: UInt64s,
+    curve: Float64s,
+    schedule: Float64s,
     first: int,
     last: int,
     enough: int,

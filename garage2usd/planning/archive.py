@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Bools, Float64s, Int8s, Int64s, UInt64s, in_c
 from garage2usd.planning.ground import Ground, Lanes
 
 __all__ = ["Archive", "new_archive", "next_random", "ranked_lanes"]
@@ -31,13 +30,13 @@ class Archive(NamedTuple):
         int64, shape (2,): entries in use, and the one of least value once all are.
     """
 
-    values: NDArray[np.float64]
-    keys: NDArray[np.uint64]
-    lanes: NDArray[np.bool_]
-    tapes: NDArray[np.int8]
-    starts: NDArray[np.int64]
-    lengths: NDArray[np.int64]
-    in_use: NDArray[np.int64]
+    values: Float64s
+    keys: UInt64s
+    lanes: Bools
+    tapes: Int8s
+    starts: Int64s
+    lengths: Int64s
+    in_use: Int64s
 
 
 def new_archive(size: int, *, padded: int, steps: int) -> Archive:
@@ -60,6 +59,6 @@ def ranked_lanes(archive: Archive, ground: Ground) -> tuple[tuple[float, Lanes],
 
 
 @in_c
-def next_random(random: NDArray[np.uint64]) -> np.uint64:
+def next_random(random: UInt64s) -> np.uint64:
     """Draw by splitmix64 (Steele, Lea and Flood 2014): the same numbers on every machine."""
     raise NotImplementedError

@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Int8s, Int32s, Int64s, in_c
 from garage2usd.planning.ground import Ground
 
 __all__ = ["FAR", "FAULTS", "NO_VALUE", "Board", "measure", "new_board", "value_now"]
@@ -41,13 +40,13 @@ class Board(NamedTuple):
         infeasible lanes.
     """
 
-    cells: NDArray[np.int8]
-    edges: NDArray[np.int8]
-    hops: NDArray[np.int32]
-    near: NDArray[np.int32]
-    state: NDArray[np.int32]
-    queue: NDArray[np.int64]
-    tally: NDArray[np.int64]
+    cells: Int8s
+    edges: Int8s
+    hops: Int32s
+    near: Int32s
+    state: Int32s
+    queue: Int64s
+    tally: Int64s
 
 
 def new_board(ground: Ground) -> Board:

@@ -6,9 +6,8 @@ In C, `broken_profile.c`.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Bools, Float64s, Int8s, Int64s, in_c
 
 __all__ = ["FORBIDDEN", "SquareTable", "are_complete", "choices_of", "column_bits", "first_frontier", "new_room"]
 
@@ -43,9 +42,9 @@ class SquareTable(NamedTuple):
     cols: int
     bits: int
     depth: int
-    kinds: NDArray[np.int8]
-    portals: NDArray[np.int64]
-    worth: NDArray[np.float64]
+    kinds: Int8s
+    portals: Int64s
+    worth: Float64s
     asks_loop: bool
 
 
@@ -66,12 +65,12 @@ def first_frontier(table: SquareTable) -> int:
     return 0 if table.asks_loop else _LOOPED
 
 
-def new_room(table: SquareTable) -> NDArray[np.int64]:
+def new_room(table: SquareTable) -> Int64s:
     """Room for a step: for codes, pieces and names of pieces."""
     return np.zeros((3, table.cols + 2), np.int64)
 
 
-def are_complete(table: SquareTable, keys: NDArray[np.int64]) -> NDArray[np.bool_]:
+def are_complete(table: SquareTable, keys: Int64s) -> Bools:
     """Which frontiers below the last square are those of feasible layouts."""
     complete = np.zeros(len(keys), np.bool_)
     _mark_complete(table, keys, len(keys), complete)
@@ -79,5 +78,5 @@ def are_complete(table: SquareTable, keys: NDArray[np.int64]) -> NDArray[np.bool
 
 
 @in_c
-def _mark_complete(table: SquareTable, keys: NDArray[np.int64], count: int, complete: NDArray[np.bool_]) -> None:
+def _mark_complete(table: SquareTable, keys: Int64s, count: int, complete: Bools) -> None:
     raise NotImplementedError

@@ -4,9 +4,8 @@ In C, `circuit.c`, `labels.c` and `moves.c`.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Float64s, UInt64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.draft import Draft
 from garage2usd.planning.ground import Ground
@@ -22,7 +21,7 @@ def anneal_labels(
     draft: Draft,
     sizes: Sizes,
     room: Room,
-    random: NDArray[np.uint64],
+    random: UInt64s,
     trials: int,
     heats: tuple[float, float],
     prices: tuple[float, float, float, float],
@@ -65,10 +64,10 @@ def _anneal_labels(
     draft: Draft,
     sizes: Sizes,
     room: Room,
-    random: NDArray[np.uint64],
+    random: UInt64s,
     trials: int,
-    heats: NDArray[np.float64],
-    prices: NDArray[np.float64],
+    heats: Float64s,
+    prices: Float64s,
     refresh: int,
 ) -> float:
     """`anneal_labels`."""

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from garage2usd.native import Int8s, Int32s, Int64s
 from garage2usd.planning.ground import Ground
 
 __all__ = ["Draft", "new_draft"]
@@ -47,23 +47,23 @@ class Draft(NamedTuple):
         int64, shape (6,): what a move adds to them.
     """
 
-    label: NDArray[np.int8]
-    stamp: NDArray[np.int64]
-    marks: NDArray[np.int64]
-    moved: NDArray[np.int64]
-    around: NDArray[np.int64]
-    queue: NDArray[np.int64]
-    faulty: NDArray[np.int64]
-    fresh: NDArray[np.int8]
-    old: NDArray[np.int8]
-    old_hops: NDArray[np.int32]
-    cells: NDArray[np.int8]
-    hops: NDArray[np.int32]
-    lines: NDArray[np.int64]
-    size: NDArray[np.int64]
-    lengths: NDArray[np.int64]
-    tally: NDArray[np.int64]
-    change: NDArray[np.int64]
+    label: Int8s
+    stamp: Int64s
+    marks: Int64s
+    moved: Int64s
+    around: Int64s
+    queue: Int64s
+    faulty: Int64s
+    fresh: Int8s
+    old: Int8s
+    old_hops: Int32s
+    cells: Int8s
+    hops: Int32s
+    lines: Int64s
+    size: Int64s
+    lengths: Int64s
+    tally: Int64s
+    change: Int64s
 
 
 def new_draft(ground: Ground) -> Draft:

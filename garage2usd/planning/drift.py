@@ -1,9 +1,6 @@
 """Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. In C, `drift.c`."""
 
-import numpy as np
-from numpy.typing import NDArray
-
-from garage2usd.native import in_c
+from garage2usd.native import Int8s, UInt64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
 
@@ -14,8 +11,8 @@ __all__ = ["drift"]
 def drift(
     ground: Ground,
     board: Board,
-    best_cells: NDArray[np.int8],
-    random: NDArray[np.uint64],
+    best_cells: Int8s,
+    random: UInt64s,
     flips: int,
     hottest: float,
     coldest: float,

@@ -6,9 +6,8 @@ In C, `frontier.c`.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Float64s, Int8s, Int64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.broken_profile import SquareTable, choices_of, first_frontier, new_room
 from garage2usd.planning.ground import Ground
@@ -16,9 +15,7 @@ from garage2usd.planning.ground import Ground
 __all__ = ["Enumeration", "advance", "enumerate_layouts", "new_enumeration", "suffix_values"]
 
 
-def advance(
-    table: SquareTable, index: int, keys: NDArray[np.int64], values: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def advance(table: SquareTable, index: int, keys: Int64s, values: Float64s) -> tuple[Int64s, Float64s]:
     """All frontiers after a square, each with its best value so far; keys ascend."""
     most = choices_of(table) * len(keys)
     next_keys, next_values = np.empty(most, np.int64), np.empty(most)
@@ -33,24 +30,24 @@ def advance(
 def _step_frontiers(
     table: SquareTable,
     index: int,
-    keys: NDArray[np.int64],
-    values: NDArray[np.float64],
+    keys: Int64s,
+    values: Float64s,
     count: int,
-    room: NDArray[np.int64],
-    next_keys: NDArray[np.int64],
-    next_values: NDArray[np.float64],
+    room: Int64s,
+    next_keys: Int64s,
+    next_values: Float64s,
 ) -> int:
     raise NotImplementedError
 
 
 @in_c
 def _merge_frontiers(
-    order: NDArray[np.int64],
+    order: Int64s,
     count: int,
-    keys: NDArray[np.int64],
-    values: NDArray[np.float64],
-    unique_keys: NDArray[np.int64],
-    unique_values: NDArray[np.float64],
+    keys: Int64s,
+    values: Float64s,
+    unique_keys: Int64s,
+    unique_values: Float64s,
 ) -> int:
     raise NotImplementedError
 
@@ -58,10 +55,10 @@ def _merge_frontiers(
 def suffix_values(
     table: SquareTable,
     index: int,
-    keys: NDArray[np.int64],
-    next_keys: NDArray[np.int64],
-    next_suffix: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    keys: Int64s,
+    next_keys: Int64s,
+    next_suffix: Float64s,
+) -> Float64s:
     """The most that square `index` and all after it add to each frontier before it."""
     suffix = np.empty(len(keys))
     _follow_frontiers(table, index, keys, len(keys), next_keys, next_suffix, len(next_keys), new_room(table), suffix)
@@ -72,13 +69,13 @@ def suffix_values(
 def _follow_frontiers(
     table: SquareTable,
     index: int,
-    keys: NDArray[np.int64],
+    keys: Int64s,
     count: int,
-    next_keys: NDArray[np.int64],
-    next_suffix: NDArray[np.float64],
+    next_keys: Int64s,
+    next_suffix: Float64s,
     next_count: int,
-    room: NDArray[np.int64],
-    suffix: NDArray[np.float64],
+    room: Int64s,
+    suffix: Float64s,
 ) -> None:
     raise NotImplementedError
 
@@ -106,18 +103,18 @@ class Enumeration(NamedTuple):
         int64, shape (2,): how many squares of the layout begun are decided, -1 at the end; layouts scored.
     """
 
-    ways: NDArray[np.int64]
-    next_keys: NDArray[np.int64]
-    next_values: NDArray[np.float64]
-    bounds: NDArray[np.float64]
-    children: NDArray[np.int64]
-    tried: NDArray[np.int64]
-    keys: NDArray[np.int64]
-    values: NDArray[np.float64]
-    room: NDArray[np.int64]
-    best_cells: NDArray[np.int8]
-    best: NDArray[np.float64]
-    counts: NDArray[np.int64]
+    ways: Int64s
+    next_keys: Int64s
+    next_values: Float64s
+    bounds: Float64s
+    children: Int64s
+    tried: Int64s
+    keys: Int64s
+    values: Float64s
+    room: Int64s
+    best_cells: Int8s
+    best: Float64s
+    counts: Int64s
 
 
 def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumeration:
@@ -148,10 +145,10 @@ def enumerate_layouts(
     table: SquareTable,
     ground: Ground,
     board: Board,
-    offsets: NDArray[np.int64],
-    keys: NDArray[np.int64],
-    suffixes: NDArray[np.float64],
-    relaxed: NDArray[np.int64],
+    offsets: Int64s,
+    keys: Int64s,
+    suffixes: Float64s,
+    relaxed: Int64s,
     price: float,
 ) -> bool:
     """Score the layouts whose relaxed value is above the best met so far; whether all of them are scored.

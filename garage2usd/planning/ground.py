@@ -3,10 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
+from garage2usd.native import Bools, Float64s, Int8s, Int32s, Int64s
 from garage2usd.planning.circulation import CirculationRules, rules_of
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM
 from garage2usd.structure.grid import Cell, CellArray, Structure
@@ -17,7 +17,7 @@ __all__ = ["PADDING", "Ground", "Lanes", "capacity_by_edges", "cells_of", "groun
 PADDING = 4
 """Squares outside on each side of a site, as many as the widest window sees beyond one of its squares."""
 
-Lanes = NDArray[np.bool_]
+Lanes = Bools
 """bool, shape (squares,): which of `Ground.squares` are lanes."""
 
 
@@ -50,13 +50,13 @@ class Ground(NamedTuple):
     """
 
     stride: int
-    cells: NDArray[np.int8]
-    capacity: NDArray[np.int32]
-    sides_mm: NDArray[np.int64]
-    squares: NDArray[np.int64]
-    entrances: NDArray[np.int64]
-    portals: NDArray[np.int64]
-    weights: NDArray[np.float64]
+    cells: Int8s
+    capacity: Int32s
+    sides_mm: Int64s
+    squares: Int64s
+    entrances: Int64s
+    portals: Int64s
+    weights: Float64s
     dead_end_cost: float
     dead_end_limit_mm: int
     rules: CirculationRules
@@ -102,12 +102,12 @@ def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
     return padded.reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING].copy()
 
 
-def _padded_capacity(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+def _padded_capacity(site: Structure, bay: BayConfig) -> Int32s:
     held = np.pad(capacity_by_edges(site, bay), [(PADDING, PADDING), (PADDING, PADDING), (0, 0)])
     return held.reshape(-1, held.shape[-1])
 
 
-def capacity_by_edges(site: Structure, bay: BayConfig) -> NDArray[np.int32]:
+def capacity_by_edges(site: Structure, bay: BayConfig) -> Int32s:
     """Stalls on each square, int32, shape (rows, cols, 16), by its edges open to lanes as in `Ground.capacity`."""
     table = capacity_table(site, bay)
     layers = []

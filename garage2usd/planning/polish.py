@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Int8s, Int32s, Int64s, UInt64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes
@@ -29,11 +28,11 @@ class Room(NamedTuple):
         flip changes.
     """
 
-    cells: NDArray[np.int8]
-    kept_mm: NDArray[np.int64]
-    order: NDArray[np.int64]
-    known: NDArray[np.int64]
-    hops: NDArray[np.int32]
+    cells: Int8s
+    kept_mm: Int64s
+    order: Int64s
+    known: Int64s
+    hops: Int32s
 
 
 def new_room(ground: Ground, sizes: Sizes) -> Room:
@@ -53,7 +52,7 @@ def improve(
     board: Board,
     sizes: Sizes,
     room: Room,
-    random: NDArray[np.uint64],
+    random: UInt64s,
     passes: int,
     flips: int,
     hottest: float,

@@ -3,10 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config.plan import SarsaParameters
-from garage2usd.native import in_c
+from garage2usd.native import Bools, Float32s, Float64s, Int8s, Int64s, UInt64s, in_c
 from garage2usd.planning.archive import Archive
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
@@ -35,11 +34,11 @@ class Memory(NamedTuple):
         uint64, shape (1,): hash of the last episode's plan.
     """
 
-    keys: NDArray[np.uint64]
-    q: NDArray[np.float32]
-    used: NDArray[np.int64]
-    course: NDArray[np.float64]
-    last: NDArray[np.uint64]
+    keys: UInt64s
+    q: Float32s
+    used: Int64s
+    course: Float64s
+    last: UInt64s
 
 
 def new_memory(parameters: SarsaParameters, *, bits: int) -> Memory:
@@ -68,10 +67,10 @@ class Room(NamedTuple):
         int64: the lanes laid so far.
     """
 
-    moves: NDArray[np.int64]
-    allowed: NDArray[np.bool_]
-    tape: NDArray[np.int8]
-    laid: NDArray[np.int64]
+    moves: Int64s
+    allowed: Bools
+    tape: Int8s
+    laid: Int64s
 
 
 def new_room(ground: Ground, archive: Archive) -> Room:
@@ -113,8 +112,8 @@ def learn(
     memory: Memory,
     archive: Archive,
     room: Room,
-    random: NDArray[np.uint64],
-    curve: NDArray[np.float64],
+    random: UInt64s,
+    curve: Float64s,
     first: int,
     last: int,
 ) -> tuple[int, int]:
@@ -143,11 +142,11 @@ def _learn(
     memory: Memory,
     archive: Archive,
     room: Room,
-    random: NDArray[np.uint64],
-    curve: NDArray[np.float64],
+    random: UInt64s,
+    curve: Float64s,
     first: int,
     last: int,
-    taken: NDArray[np.int64],
+    taken: Int64s,
 ) -> int:
     """`learn`, where `taken` takes the number of actions."""
     raise NotImplementedError

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
+from garage2usd.native import Bools, Float64s, Int32s, Int64s
 from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
 from garage2usd.planning.ground import Ground, capacity_by_edges
 from garage2usd.structure.grid import Cell, Structure
@@ -55,22 +55,22 @@ class Sizes(NamedTuple):
         int64, shape (3,): what another side of a line would add to stalls, time and unused squares.
     """
 
-    is_chosen: NDArray[np.bool_]
-    free_mm: NDArray[np.int64]
+    is_chosen: Bools
+    free_mm: Int64s
     aisle_mm: int
-    sides_mm: NDArray[np.int64]
-    held: NDArray[np.int32]
-    line_of: NDArray[np.int64]
-    kept_mm: NDArray[np.int64]
-    actual_mm: NDArray[np.int64]
-    place: NDArray[np.int64]
-    driven: NDArray[np.int64]
-    least_mm: NDArray[np.int64]
-    is_floor: NDArray[np.bool_]
-    area_m2: NDArray[np.float64]
-    hint: NDArray[np.float64]
-    price: NDArray[np.float64]
-    change: NDArray[np.int64]
+    sides_mm: Int64s
+    held: Int32s
+    line_of: Int64s
+    kept_mm: Int64s
+    actual_mm: Int64s
+    place: Int64s
+    driven: Int64s
+    least_mm: Int64s
+    is_floor: Bools
+    area_m2: Float64s
+    hint: Float64s
+    price: Float64s
+    change: Int64s
 
 
 def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
@@ -109,7 +109,7 @@ def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
     )
 
 
-def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> NDArray[np.int64]:
+def _door_sides(ground: Ground, bay: BayConfig, lines: int) -> Int64s:
     """Least sides of the lines that end in a portal on the border of the site's squares."""
     least = np.zeros((2, lines), np.int64)
     door = round(bay.portal_side_m * _MM_PER_M)

@@ -3,9 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from garage2usd.native import in_c
+from garage2usd.native import Int8s, Int32s, Int64s, in_c
 
 __all__ = ["STRETCH", "Survey", "survey"]
 
@@ -35,10 +34,10 @@ class Survey(NamedTuple):
 
 
 def survey(
-    squares: NDArray[np.int64],
+    squares: Int64s,
     stride: int,
-    cells: NDArray[np.int8],
-    state: NDArray[np.int32],
+    cells: Int8s,
+    state: Int32s,
     dead_end_squares: int,
     stretch_squares: int,
 ) -> Survey:
@@ -72,15 +71,15 @@ def survey(
 
 @in_c
 def _survey(
-    squares: NDArray[np.int64],
+    squares: Int64s,
     count: int,
     stride: int,
-    cells: NDArray[np.int8],
-    state: NDArray[np.int32],
-    queue: NDArray[np.int64],
+    cells: Int8s,
+    state: Int32s,
+    queue: Int64s,
     dead_end_squares: int,
     stretch_squares: int,
-    found: NDArray[np.int64],
+    found: Int64s,
 ) -> None:
     """`survey` of the first `count` squares, with room for as many in `queue`; `found` takes the figures."""
     raise NotImplementedError

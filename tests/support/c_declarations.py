@@ -64,13 +64,14 @@ def python_functions():
             ):
                 declared = getattr(importlib.import_module(module), node.name).__wrapped__
                 assert node.name.lstrip("_") not in found, f"{node.name} is declared twice"
-                found[node.name.lstrip("_")] = typing.get_type_hints(declared)
+                found[node.name.lstrip("_")] = typing.get_type_hints(declared, include_extras=True)
     return found
 
 
 def dtype_of(hint):
     """The type of the numbers of an annotated array, or None."""
-    return typing.get_args(typing.get_args(hint)[1])[0] if typing.get_origin(hint) is np.ndarray else None
+    dtype = native.numbers_of(hint)
+    return None if dtype is None else dtype.type
 
 
 def same_type(hint, c_type, structs):
@@ -86,7 +87,7 @@ def same_type(hint, c_type, structs):
 
 def different_fields(kind, struct, structs):
     """Fields in which a named tuple and its struct differ."""
-    hints, fields = typing.get_type_hints(kind), structs[struct]
+    hints, fields = typing.get_type_hints(kind, include_extras=True), structs[struct]
     if list(hints) != [name for _, name in fields]:
         return [f"{kind.__name__} has {list(hints)}, {struct} {[name for _, name in fields]}"]
     return [

@@ -1,9 +1,6 @@
 """Functions in C that only C calls, within reach of tests."""
 
-import numpy as np
-from numpy.typing import NDArray
-
-from garage2usd.native import in_c
+from garage2usd.native import Int8s, Int32s, Int64s, in_c
 from garage2usd.planning.board import Board
 from garage2usd.planning.ground import Ground
 from garage2usd.planning.sizes import Sizes
@@ -23,7 +20,7 @@ def lay(ground: Ground, board: Board, square: int) -> None:
 
 
 @in_c
-def dead_ends(ground: Ground, cells: NDArray[np.int8]) -> int:
+def dead_ends(ground: Ground, cells: Int8s) -> int:
     """Dead-end aisles over the ground's limit, from the tip to the next junction or portal."""
 
 
@@ -56,8 +53,8 @@ def settle(ground: Ground, board: Board, sizes: Sizes, passes: int) -> None:
 def flip_within(
     ground: Ground,
     board: Board,
-    known: NDArray[np.int64],
-    hops: NDArray[np.int32],
+    known: Int64s,
+    hops: Int32s,
     q: int,
     p: int,
     enough: float,

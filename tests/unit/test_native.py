@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from support.c_declarations import c_functions, c_structs, python_functions, same_type, size_of
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.driving.search import Task
 from garage2usd.driving.sweep import Scene
-from garage2usd.native import load, packed
+from garage2usd.native import in_c, load, packed
 from garage2usd.planning import aisles, polish, sarsa
 from garage2usd.planning.archive import new_archive, next_random
 from garage2usd.planning.board import new_board
@@ -60,6 +61,14 @@ def test_arrays_of_other_numbers_or_with_gaps_are_refused():
     for array in (np.zeros(1, np.int64), np.zeros((2, 2), np.uint64).T):
         with pytest.raises(TypeError, match="uint64"):
             next_random(array)
+
+
+def test_an_annotation_that_c_does_not_know_is_refused():
+    def counts(numbers: NDArray[np.int64]) -> int:
+        """Lacks the note of what numbers are in it."""
+
+    with pytest.raises(TypeError, match="annotated as Int64s"):
+        in_c(counts)
 
 
 def test_a_missing_library_says_what_to_do(tmp_path):
