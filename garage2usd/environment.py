@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import of_extra
 from garage2usd.planning.decision import (
     Action,
     DecisionProcess,
@@ -28,12 +28,10 @@ from garage2usd.site import make_site
 from garage2usd.site.room import check_room
 from garage2usd.structure.grid import Cell, Structure
 
-try:
+with of_extra("garage2usd.environment"):
     import gymnasium
     from gymnasium import spaces
     from gymnasium.error import InvalidAction, ResetNeeded
-except ModuleNotFoundError as error:
-    raise MissingExtraError("garage2usd.environment", "gymnasium", "Gymnasium") from error
 
 __all__ = ["ENVIRONMENT_ID", "LanesEnvironment"]
 

@@ -1,14 +1,14 @@
 """A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property, partial
-from importlib import import_module
 from pathlib import Path
 
 from garage2usd.checks import Subject
 from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.errors import ConfigError
+from garage2usd.extras import require
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.network import Network
@@ -27,11 +27,11 @@ from garage2usd.reading.report import read_report
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
 
-__all__ = ["EXPORT_SUFFIXES", "check_exports", "export"]
+__all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO = ".json", ".glb", ".osm", ".xodr", ".xosc"
-_OF_EXTRA = {_LANELET2: "lanelet2", _SCENARIO: "openscenario"}
-"""Modules of `garage2usd.maps` that cannot be imported without the extra `maps`, by what they write."""
+_OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
+"""What needs a module of an extra, and which, by what its files end in."""
 _Write = Callable[["_Source", Path, MapsConfig], Sequence[Path]]
 
 
@@ -226,10 +226,21 @@ def check_exports(outputs: Sequence[str | Path]) -> tuple[Path, ...]:
             raise ConfigError("output", str(place), "each file once")
         check_name(place)
         check_writable(place.parent)
-    for suffix, module in _OF_EXTRA.items():
-        if any(place.suffix == suffix for place in places):
-            import_module(f"garage2usd.maps.{module}")  # raises here, and not after a build, if its extra is missing
+    check_formats(place.suffix for place in places)
     return tuple(_with_maps(places))
+
+
+def check_formats(suffixes: Iterable[str]) -> None:
+    """Find out whether what writes files that end so is installed, each format by itself.
+
+    Raises
+    ------
+    MissingExtraError
+        If not.
+    """
+    wanted = {*suffixes}
+    asked = [needed for suffix, needed in _OF_EXTRA.items() if suffix in wanted]
+    require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked])
 
 
 def _with_maps(places: Sequence[Path]) -> Iterator[Path]:

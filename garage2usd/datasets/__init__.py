@@ -1,9 +1,8 @@
 """Data sets of many garages that differ, made by a recipe on many processes."""
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import require
 from garage2usd.public_names import on_first_use
 
 if TYPE_CHECKING:
@@ -11,8 +10,7 @@ if TYPE_CHECKING:
     from garage2usd.datasets.recipe import Recipe, load_recipe
     from garage2usd.datasets.verification import Fault, verify_dataset
 
-if any(find_spec(name) is None for name in ("distributed", "jinja2", "matplotlib", "pyarrow")):
-    raise MissingExtraError("dataset", "dataset", "Dask's distributed, Jinja, Matplotlib and PyArrow")
+require("a data set", ("distributed", "jinja2", "matplotlib", "pyarrow"))
 
 __all__ = ["DataSet", "Fault", "Recipe", "load_recipe", "make_dataset", "verify_dataset"]
 

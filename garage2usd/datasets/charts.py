@@ -8,16 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import of_extra
 
-try:
+with of_extra("the page of a data set"):
     import matplotlib as mpl
     from matplotlib.axes import Axes
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
-except ModuleNotFoundError as error:
-    raise MissingExtraError("the page of a data set", "dataset", "matplotlib") from error
 
 __all__ = ["bars", "histogram", "split_colours"]
 

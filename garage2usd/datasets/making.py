@@ -21,6 +21,7 @@ from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard,
 from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
 from garage2usd.datasets.variety import PlanFigures
 from garage2usd.errors import ConfigError
+from garage2usd.exports import check_formats
 from garage2usd.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
 from garage2usd.progress import Progress, silent
 from garage2usd.version import VERSION
@@ -94,7 +95,7 @@ def make_dataset(
     ConfigError
         If the folder holds something else, no garage is possible by the recipe, or the scheduler cannot be used.
     MissingExtraError
-        If what records drives is not installed.
+        If what records drives or writes maps is not installed.
     OutputError
         If files cannot be written, as where the disk is full; what was made until then stays for `resume`.
     """
@@ -102,6 +103,7 @@ def make_dataset(
     recipe.check()
     if recipe.make.drives:
         check_drives(recipe.make.drives)
+    check_formats(f".{name}" for name in recipe.make.exports)
     check_writable(folder)
     _begin(recipe, folder, resume=resume)
     with only_run(folder):

@@ -11,17 +11,15 @@ from garage2usd.datasets.charts import bars, histogram, split_colours
 from garage2usd.datasets.contour import ContourShape
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import of_extra
 from garage2usd.structure.symmetry import cropped_cells
 from garage2usd.view.drawing import Colour
 from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail
 from garage2usd.view.svg import to_svg
 
-try:
+with of_extra("the page of a data set"):
     from jinja2 import Environment, StrictUndefined
     from markupsafe import Markup
-except ModuleNotFoundError as error:
-    raise MissingExtraError("the page of a data set", "dataset", "Jinja2") from error
 
 __all__ = ["write_page"]
 

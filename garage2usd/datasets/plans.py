@@ -11,7 +11,7 @@ from pydantic import Field
 from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import Level, garage_difficulty, stall_difficulties
 from garage2usd.datasets.recipe import Distinct, Recipe
-from garage2usd.errors import ConfigError, Garage2UsdError
+from garage2usd.errors import ConfigError, Garage2UsdError, MissingExtraError
 from garage2usd.pipeline import generate, generate_plan
 from garage2usd.planning import Plan, evaluate
 from garage2usd.reading.report import LearningFigures
@@ -94,7 +94,7 @@ def _planned(recipe: Recipe, number: int, attempt: int) -> DrawnPlan:
         config, alternatives = recipe.drawn(seed)
         plan = generate_plan(config)
         level = _level(config, plan) if recipe.difficulty else None
-    except OSError:  # of the machine, and not of this garage
+    except (OSError, MissingExtraError):  # of the machine, and not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
         return DrawnPlan(number=number, attempt=attempt, seed=seed, error=said(error))

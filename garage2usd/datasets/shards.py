@@ -14,6 +14,7 @@ from garage2usd.datasets.manifest import ManifestRow, rows_of_text, text_of_rows
 from garage2usd.datasets.plans import DrawnPlan, proportional, said
 from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
 from garage2usd.datasets.scene import make_scene
+from garage2usd.errors import MissingExtraError
 from garage2usd.output import HIDDEN_PREFIX, store, writing
 from garage2usd.randomness import Step, generator
 
@@ -106,7 +107,7 @@ def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
 def _row(recipe: Recipe, drawn: DrawnPlan, staging: Path, shard: Shard, assets: Path | None) -> ManifestRow:
     try:
         return make_scene(recipe, drawn, staging, split=shard.split, shard=shard.name, assets=assets)
-    except OSError:  # of the machine, and not of this garage
+    except (OSError, MissingExtraError):  # of the machine, and not of this garage
         raise
     except Exception as error:  # noqa: BLE001 - one garage that fails does not end ten thousand
         for path in staging.glob(f"{drawn.number:08}.*"):

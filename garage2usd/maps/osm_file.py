@@ -7,14 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import of_extra
 from garage2usd.maps.frame import projection
 from garage2usd.maps.xml_text import number_text, tag_text, write_lines
 
-try:
+with of_extra("a Lanelet2 map"):
     from pyproj import Transformer
-except ModuleNotFoundError as error:
-    raise MissingExtraError("Lanelet2", "maps", "pyproj") from error
 
 __all__ = ["Member", "OsmFile", "Place"]
 

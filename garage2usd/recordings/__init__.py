@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError
+from garage2usd.extras import BLENDER, RAYS, require
 from garage2usd.output import check_writable, publish, unfinished_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import open_stage
@@ -16,7 +17,6 @@ from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
-from garage2usd.render.blender_process import check_blender
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import write_mask
 from garage2usd.render.slot_labels import SlotLabels, check_slots
@@ -207,11 +207,18 @@ def check_recording(
     if slots is not None:
         check_slots(slots, kinds, has_birds_eye=birds_eye is not None)
     check_sequences(sequences, rig, kinds, formats)
-    if rig.cameras:
-        check_blender()
-    if rig.lidars or sequences:
-        import garage2usd.recordings.sweeps  # noqa: F401, PLC0415 - of an extra
+    require(f"the rig {rig.name}", _modules_for(rig, sequences))
     return kinds, formats
+
+
+def _modules_for(rig: Rig, sequences: Collection[Sequence]) -> Iterator[str]:
+    """What a rig needs of extras; rays also find the own car in pictures, and the boxes that sequences tell."""
+    if rig.cameras:
+        yield from BLENDER
+    if rig.lidars or sequences or any(camera.mount == "vehicle" for camera in rig.cameras):
+        yield from RAYS
+    if Sequence.ROS2 in sequences:
+        yield "rosbags"
 
 
 def _write_calibrations(rig: Rig, finished: Path) -> list[Path]:

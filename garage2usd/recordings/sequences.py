@@ -40,8 +40,6 @@ def check_sequences(
     ------
     ConfigError
         If a rig or what is recorded of it does not suit them.
-    MissingExtraError
-        If what writes them is not installed.
     """
     if not asked:
         return
@@ -56,8 +54,6 @@ def check_sequences(
         away = [sensor.name for sensor in rig.sensors if sensor.mount != "vehicle"]
         if away:
             raise ConfigError("rig", away[0], "sensors on the vehicle, for nuScenes")
-    if Sequence.ROS2 in asked:
-        import garage2usd.sensors.ros_bag  # noqa: F401, PLC0415 - raises here, and not after hours, without its extra
 
 
 def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "Sweeps") -> Path:

@@ -5,11 +5,11 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from garage2usd.errors import MissingExtraError, RenderError
+from garage2usd.errors import RenderError
+from garage2usd.extras import BLENDER, require
 
 __all__ = ["check_blender", "run_blender"]
 
@@ -26,8 +26,7 @@ def check_blender() -> None:
     MissingExtraError
         If not, or if what reads its pictures is not.
     """
-    if find_spec("bpy") is None or find_spec("OpenEXR") is None:
-        raise MissingExtraError("render", "blender", "Blender's Python module, made for Python 3.11")
+    require("render", BLENDER)
 
 
 def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None]) -> None:

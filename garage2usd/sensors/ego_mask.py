@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config.vehicles import CAR_BODIES, CarBody
-from garage2usd.errors import MissingExtraError
+from garage2usd.extras import RAYS, require
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE
 from garage2usd.stage.driving_car import driven_asset
@@ -41,11 +41,9 @@ def ego_mask(camera: Camera, car: CarBody) -> NDArray[np.bool_]:
     MissingExtraError
         If what casts rays is not installed.
     """
-    try:
-        import embreex  # type: ignore[import-not-found,unused-ignore] # noqa: F401, PLC0415 - else trimesh is slow
-        import trimesh  # noqa: PLC0415 - of an extra
-    except ModuleNotFoundError as error:
-        raise MissingExtraError("render --rig", "sensors", "trimesh and embreex, which cast rays") from error
+    require("the mask of a camera's own car", RAYS)
+    import trimesh  # noqa: PLC0415 - of an extra
+
     triangles = ego_triangles_m(car)
     numbers = np.arange(3 * len(triangles)).reshape(-1, 3)
     mesh: Any = trimesh.Trimesh(triangles.reshape(-1, 3), numbers, process=False, validate=False)

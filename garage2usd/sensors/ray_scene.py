@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from pxr import Ar, Usd, UsdGeom
 
-from garage2usd.errors import MissingExtraError, StageError
+from garage2usd.errors import StageError
+from garage2usd.extras import of_extra
 from garage2usd.objects.sky import KIND as SKY
 from garage2usd.reading.labels import Labels, owner_of
 from garage2usd.reading.looks import MeshLooks
@@ -20,11 +21,9 @@ from garage2usd.reading.objects import PlacedObject, once_for_each_look
 from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.walk import placed_objects
 
-try:
-    import embreex as _embreex  # noqa: F401 - without it trimesh casts rays itself, a thousand times as slowly
+with of_extra("LiDAR"):
+    import embreex as _embreex  # noqa: F401 - by which trimesh casts rays
     import trimesh
-except ModuleNotFoundError as error:
-    raise MissingExtraError("LiDAR", "sensors", "trimesh and embreex, which cast rays") from error
 
 __all__ = ["RayHits", "RayScene", "read_ray_scene"]
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from garage2usd.errors import ConfigError, MissingExtraError
+from garage2usd.errors import ConfigError
+from garage2usd.extras import of_extra
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.lenses import KannalaBrandt, Pinhole
 from garage2usd.sensors.mount import Sensor
@@ -17,12 +18,10 @@ from garage2usd.sensors.point_cloud import PointCloud
 from garage2usd.sensors.point_cloud_files import POINT_ROW, point_rows, read_npz
 from garage2usd.sensors.recording import Recording, Shot
 
-try:
+with of_extra("a ROS 2 bag"):
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
-except ModuleNotFoundError as error:
-    raise MissingExtraError("a ROS 2 bag", "sensors", "rosbags") from error
 
 __all__ = ["write_ros_bag"]
 

@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import shutil
+import sys
 
 import numpy as np
 import pytest
@@ -14,7 +15,6 @@ from support.sample_files import REPOSITORY
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.reading.labels import read_labels
-from garage2usd.render import blender_process
 from garage2usd.render.cameras import find_views
 from garage2usd.render.drawn_prims import read_drawn_prims
 from garage2usd.render.pictures import visible_instances
@@ -188,7 +188,7 @@ def test_boxes_hold_all_pixels_of_an_instance():
 
 
 def test_without_blender_one_line_names_the_extra(build, tmp_path, monkeypatch):
-    monkeypatch.setattr(blender_process, "find_spec", lambda _name: None)
+    monkeypatch.setitem(sys.modules, "bpy", None)
     result = run(build.stage, "-o", tmp_path / "out")
     assert result.exit_code == 1
     (line,) = result.output.strip().splitlines()
