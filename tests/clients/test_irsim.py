@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from support.map_judges import JUDGES, has
 from support.sample_files import each_sample
 
 from garage2usd.checks import read_subject
@@ -15,10 +16,10 @@ from garage2usd.config.maps import GridConfig
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupancy import write_grid
 
-IRSIM_PYTHON = Path(os.environ.get("IRSIM_PYTHON", Path(__file__).parents[2] / ".venv" / "judges" / "bin" / "python"))
+IRSIM_PYTHON = Path(os.environ.get("IRSIM_PYTHON", JUDGES / "bin" / "python"))
 pytestmark = [
     pytest.mark.client,
-    pytest.mark.skipif(not IRSIM_PYTHON.is_file(), reason="no environment with ir-sim"),
+    pytest.mark.skipif(not ("IRSIM_PYTHON" in os.environ or has("irsim")), reason="no environment with ir-sim"),
 ]
 RANGE_M, RAYS = 30.0, 361
 NEAR_M = 0.15

@@ -11,8 +11,15 @@ import pyproj
 
 JUDGES = Path(os.environ.get("GARAGE2USD_JUDGES", Path(__file__).parents[2] / ".venv/judges"))
 CLIENTS = Path(__file__).parents[1] / "clients"
-HAS_JUDGES = all((JUDGES / "bin" / name).exists() for name in ("python", "qc_opendrive", "netconvert"))
-HAS_LANELET2 = any(JUDGES.glob("lib/python*/site-packages/lanelet2"))
+
+
+def has(package):
+    """Whether the environment has a package, which some Pythons have no build of."""
+    return any(JUDGES.glob(f"lib/python*/site-packages/{package}"))
+
+
+HAS_JUDGES = all((JUDGES / "bin" / name).exists() for name in ("qc_opendrive", "netconvert")) and has("carla")
+HAS_LANELET2 = has("lanelet2")
 
 
 def _run(*command, folder, **environment):
