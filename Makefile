@@ -1,4 +1,4 @@
-# Two commands for a fresh Debian or Ubuntu with Python 3.11 or newer: `make demo` and `make test`.
+# Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`.
 .PHONY: demo test
 
 demo:

@@ -8,14 +8,16 @@ packages=""
 need() { packages="$packages $1"; }
 
 python=""
-for candidate in python3.11 python3 python3.12 python3.13; do
-    if command -v "$candidate" >/dev/null && "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
+# those that USD is there for; Blender is there for the first alone
+for candidate in python3.11 python3 python3.12 python3.13 python3.14; do
+    if command -v "$candidate" >/dev/null &&
+        "$candidate" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 15))' 2>/dev/null; then
         python=$candidate
         break
     fi
 done
 if [ -z "$python" ]; then
-    echo "garage2usd needs Python 3.11 or newer (Debian 12, Ubuntu 24.04 or later have it as python3)" >&2
+    echo "garage2usd needs Python 3.11 to 3.14 (Debian 12, Ubuntu 24.04 or later have it as python3)" >&2
     exit 1
 fi
 # Debian leaves pip out of venv unless the package for this very version is there
@@ -52,13 +54,24 @@ stamp=".venv/.$goal-$(cat pyproject.toml environment.sh hatch_build.py garage2us
 if [ ! -e "$stamp" ]; then
     [ -x .venv/bin/python ] || "$python" -m venv .venv
     if [ "$goal" = test ]; then
+        version=$(.venv/bin/python -c 'import sys; print(f"{sys.version_info[0]}.{sys.version_info[1]}")')
+        [ "$version" = 3.11 ] || echo "without Blender, which is for Python 3.11; its tests skip" >&2
         # Programs that judge what is made have environments of their own, as their pins stay apart from ours. They are
         # made while ours is. Most of what they bring is never imported, and so not compiled.
         judge() {
             environment=.venv/$1
             shift
             [ -x "$environment/bin/python" ] || "$python" -m venv "$environment"
-            "$environment/bin/python" -m pip install --quiet --disable-pip-version-check --no-compile "$@"
+            bring() {
+                "$environment/bin/python" -m pip install --quiet --disable-pip-version-check --no-compile "$@"
+            }
+            if [ "$version" = 3.11 ]; then
+                bring "$@"
+                return
+            fi
+            for program; do
+                bring "$program" 2>/dev/null || echo "without $program, which pip does not install for Python $version; its tests skip" >&2
+            done
         }
         # maps and scenarios
         judge judges "asam-qc-opendrive==1.0.0" "asam-qc-openscenarioxml==1.0.0" "carla==0.9.16" \
