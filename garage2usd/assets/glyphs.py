@@ -86,12 +86,15 @@ _STROKES |= {
     ),
     "F": (((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, 1.0)), ((_LEFT, _MIDDLE), (0.46, _MIDDLE))),
     "G": ((*_OPEN_RING, (_RIGHT, 0.54), (0.28, 0.54)),),
+    " ": (),
     "H": (_POST, ((_RIGHT, 0.0), (_RIGHT, 1.0)), ((_LEFT, _MIDDLE), (_RIGHT, _MIDDLE))),
+    "I": (((0.28, 0.0), (0.28, 1.0)),),
     "J": (((_RIGHT, 0.0), *_BOTTOM_ARC, (_LEFT + _CUT, _BOTTOM), (_LEFT, _BOTTOM - _CUT), (_LEFT, 0.66)),),
     "K": (_POST, ((0.50, -0.05), (_LEFT, 0.60)), ((0.20, 0.40), (0.50, 1.05))),
     "L": (((_LEFT, 0.0), (_LEFT, _BOTTOM), (GLYPH_WIDTH, _BOTTOM)),),
     "M": (((_LEFT, 1.0), (_LEFT, 0.12), (0.28, 0.52), (_RIGHT, 0.12), (_RIGHT, 1.0)),),
     "N": (((_LEFT, 1.0), (_LEFT, 0.12), (_RIGHT, 0.88), (_RIGHT, 0.0)),),
+    "O": (_loop(_TOP, _BOTTOM),),
     "P": (_POST, _BOW),
     "Q": (_loop(_TOP, _BOTTOM), ((0.28, 0.66), (0.52, 1.05))),
     "R": (_POST, _BOW, ((0.26, 0.56), (0.48, 1.05))),
@@ -123,7 +126,7 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     Parameters
     ----------
     text
-        Digits and capital letters, without I and O, which are read as digits.
+        Digits, capital letters and spaces.
     height_m
         Of each character.
     """

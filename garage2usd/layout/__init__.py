@@ -31,7 +31,8 @@ from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.stall_table import StallTable
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
-from garage2usd.layout.zones import Zones, stall_numbers, with_numbers, zone_plates
+from garage2usd.layout.zone_plates import zone_plates
+from garage2usd.layout.zones import Zones, stall_numbers, with_numbers
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
@@ -225,10 +226,10 @@ def lay_out(
         yield walls
         yield barriers(walls, fittings)
         yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)
-        yield core_placements(structure, cores, ceiling)
+        yield (blocks := core_placements(structure, cores, ceiling))
         yield pillars
-        yield zone_plates(pillars, bay.column_size_m, structure, zones) if zones else ()
-        yield mounted_objects(grid, pillars, walls, stalls, cores, [*closing, *signs], config)
+        yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
+        yield mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
 
     return Layout(
         structure,

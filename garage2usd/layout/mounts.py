@@ -1,4 +1,4 @@
-"""Where things hang on walls and columns: on faces that neither a stall nor a carriageway nor a door needs."""
+"""Where things hang on walls, columns and cores: on faces that neither a stall nor a carriageway nor a door needs."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
@@ -16,38 +16,41 @@ from garage2usd.layout.placement import Placement, Stall, cos_sin, edge_yaw_rad,
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.objects.wall import WallSpec
-from garage2usd.structure.grid import Cell
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["mounted_objects"]
 
 _APPROACH_M = 0.6
 """What is kept free in front, so that people get there."""
-_LINE_M = 0.03
-"""How far something may reach into a stall: over half of the half of the line that lies in it."""
 _OVERHANG_M = 0.05
-"""How much wider than a column something on it may be, in all."""
+"""How much wider than a column's side something on it may be, in all: on both sides alike, or on one."""
 _SLACK_M = 1.0
 """How much nearer than asked something hangs, as only the middles of stalls and lanes are measured."""
 _PITCH_M = 1.0
 """Of the places along a wall."""
 _APART = 0.5
 """How far objects of a kind hang from each other where they can, as a share of their reach."""
+_LEAST_APART_M = 3.0
+"""The same wherever they hang: two side by side, or on one column, serve no more than one does."""
 _TOUCH_M = 1e-3
 
 
 class _Face(NamedTuple):
-    """A place on a column or a wall: the foot of its middle, the way that it looks, its width, its name.
+    """A place on a column, a wall or a block: the foot of its middle, the way that it looks, its width, its name.
 
-    Of a free one also whether it is beside a lane, and the ground that what hangs there takes.
+    At the edge of a column hangs only what is wider than its side, which is the least width then. Of a free place also
+    whether it is beside a lane, and the ground that what hangs there takes.
     """
 
     place: Point
     yaw_rad: float
     width_m: float
     name: str
+    wider_than_m: float = 0.0
     is_on_lane: bool = False
     foot: shapely.Polygon | None = None
 
@@ -56,17 +59,18 @@ def mounted_objects(
     grid: TileGrid,
     pillars: Iterable[Placement],
     walls: Iterable[Placement],
+    blocks: Iterable[Placement],
     stalls: Sequence[Stall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
     config: GarageConfig,
 ) -> list[Placement]:
-    """Everything that is mounted on columns and walls, each kind so that every place has enough of it within reach.
+    """Everything that hangs on columns, walls and cores, each kind so that every place has enough of it within reach.
 
     Parameters
     ----------
-    grid, pillars, walls, stalls, cores
-        The garage. Things hang beside lanes only where no other face serves.
+    grid, pillars, walls, blocks, stalls, cores
+        The garage; blocks are its obstacles and stair cores. Things hang beside lanes only where no other face serves.
     standing
         What else stands on squares without stalls.
     config
@@ -78,11 +82,11 @@ def mounted_objects(
     is not yet served, the one that serves most of the places in need is taken. A place without a free face in reach
     stays unserved.
     """
-    pillars, walls = tuple(pillars), tuple(walls)
-    faces = [*_column_faces(pillars), *_wall_faces(walls)]
+    pillars, walls, blocks = tuple(pillars), tuple(walls), tuple(blocks)
+    faces = [*_column_faces(pillars), *_wall_faces(walls), *_block_faces(blocks)]
     driven = [_carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
-    parked = shapely.buffer(grounds_of([stall.corners_m() for stall in stalls]), -_LINE_M, join_style="mitre")
-    taken = [_core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *standing))
+    parked = shapely.buffer(grounds_of([stall.corners_m() for stall in stalls]), -_TOUCH_M / 2, join_style="mitre")
+    taken = [_core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *blocks, *standing))
     used = np.concatenate([parked, grounds_of(taken)])
     lanes = [tile.middle_m for tile in grid if tile.cell is Cell.LANE]
     places = np.array([stall.centre_m for stall in stalls] + lanes)
@@ -101,13 +105,15 @@ def mounted_objects(
 
 
 def _column_faces(pillars: Iterable[Placement]) -> Iterator[_Face]:
-    """The four faces of every column."""
+    """The four faces of every column, each in its middle and at both ends of what may hang over its edges."""
     for pillar, spec in of_spec(pillars, ColumnSpec):
         for edge in Edge:
             yaw = edge_yaw_rad(edge)
-            place = to_world((0.0, spec.size_m / 2), (pillar.position_m[0], pillar.position_m[2]), yaw)
             name = f"{pillar.name}_{edge.name.capitalize()}"
-            yield _Face(rounded(place), yaw, spec.size_m + _OVERHANG_M, name)
+            for across, end in ((0.0, ""), (-_OVERHANG_M / 2, "_Left"), (_OVERHANG_M / 2, "_Right")):
+                place = to_world((across, spec.size_m / 2), (pillar.position_m[0], pillar.position_m[2]), yaw)
+                least_m = spec.size_m if end else 0.0
+                yield _Face(rounded(place), yaw, spec.size_m + _OVERHANG_M, f"{name}{end}", least_m)
 
 
 def _wall_faces(walls: Iterable[Placement]) -> Iterator[_Face]:
@@ -115,11 +121,7 @@ def _wall_faces(walls: Iterable[Placement]) -> Iterator[_Face]:
     ends: set[tuple[Point, float]] = set()
     for wall, spec in of_spec(walls, WallSpec):
         yaw, length = wall.yaw_rad, spec.length_m
-        count = max(int(length / _PITCH_M), 1)
-        for number in range(count):
-            across = (number - (count - 1) / 2) * _PITCH_M
-            room = length - 2 * abs(across)
-            yield _Face(rounded(wall.to_world((across, 0.0))), yaw, room, f"{wall.name}_{number + 1}")
+        yield from _along((wall.position_m[0], wall.position_m[2]), yaw, length, wall.name)
         for across in (-length / 2, length / 2):
             end = rounded(wall.to_world((across, 0.0)))
             if (end, yaw) in ends:
@@ -127,12 +129,34 @@ def _wall_faces(walls: Iterable[Placement]) -> Iterator[_Face]:
             ends.add((end, yaw))
 
 
+def _block_faces(blocks: Iterable[Placement]) -> Iterator[_Face]:
+    """Places along every side of an obstacle or a stair core, a pitch apart."""
+    for block, spec in of_spec(blocks, ObstacleSpec):
+        x, _, z = block.position_m
+        is_along_x = cos_sin(block.yaw_rad)[1] == 0
+        width, depth = (spec.width_m, spec.depth_m) if is_along_x else (spec.depth_m, spec.width_m)
+        for edge in Edge:
+            down, right = NEIGHBOUR_STEPS[edge]
+            middle = x + right * width / 2, z + down * depth / 2
+            name = f"{block.name}_{edge.name.capitalize()}"
+            yield from _along(middle, edge_yaw_rad(edge), width if edge.along_x else depth, name)
+
+
+def _along(middle: Point, yaw_rad: float, length_m: float, name: str) -> Iterator[_Face]:
+    """Places a pitch apart on a face of a length, around its middle."""
+    count = max(int(length_m / _PITCH_M), 1)
+    for number in range(count):
+        across = (number - (count - 1) / 2) * _PITCH_M
+        place = rounded(to_world((across, 0.0), middle, yaw_rad))
+        yield _Face(place, yaw_rad, length_m - 2 * abs(across), f"{name}_{number + 1}")
+
+
 def _free_faces(
     mounted: Mounted, faces: Iterable[_Face], driven: shapely.STRtree, used: shapely.STRtree
 ) -> list[_Face]:
     """The faces that are wide enough, with ground before them on which nobody drives, parks or stands in the way."""
     left, right, depth = _extent_m(mounted)
-    wide = [face for face in faces if face.width_m >= right - left]
+    wide = [face for face in faces if face.wider_than_m < right - left <= face.width_m]
     feet = _before(wide, rectangle(left, _TOUCH_M, right, depth))
     approaches = _before(wide, rectangle(left, _TOUCH_M, right, depth + _APPROACH_M))
 
@@ -171,7 +195,7 @@ def _covering(
 
     def take(face: int) -> None:
         chosen[face] = faces[face]
-        covered.update(feet.query(faces[face].foot, predicate="intersects").tolist())
+        covered.update(feet.query(faces[face].foot, predicate="dwithin", distance=_LEAST_APART_M).tolist())
         near.update(beside.within(_APART * reach_m, beside.at_m[[face]])[1].tolist())
         needed[served[face]] -= 1
 

@@ -1,4 +1,4 @@
-"""Zones by letter and number, by which people find their car again: plates on columns, and the stalls' numbers."""
+"""Zones by letter and number, by which people find their car again, and the numbers of stalls."""
 
 import string
 from collections import Counter
@@ -6,17 +6,14 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-
 from garage2usd.assets.glyphs import GLYPH_PITCH
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.placement import Placement, Stall
 from garage2usd.objects.stall_number import NumberSpec
-from garage2usd.objects.zone_plate import ZonePlateSpec
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["Zone", "Zones", "stall_numbers", "with_numbers", "zone_plates"]
+__all__ = ["Zone", "Zones", "stall_numbers", "with_numbers"]
 
 _LETTERS = "".join(letter for letter in string.ascii_uppercase if letter not in "IO")
 _MAX_NUMBER = 99
@@ -24,8 +21,6 @@ _MIN_SIDE = 4
 _DIGIT_HEIGHT_M = 0.45
 _NUMBER_FROM_MOUTH_M = 0.45
 _PIECE_DIGITS = 2
-_NUMBER_PLATE_M = (1.34, 1.68)
-_LETTER_PLATE_M = (1.68, 2.06)
 
 
 class Zone(NamedTuple):
@@ -85,21 +80,3 @@ def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Pla
             spec = NumberSpec(painted[start:end], _DIGIT_HEIGHT_M)
             numbers.append(stall.placement("StallNumber", spec, (across, along), piece=piece))
     return numbers
-
-
-def zone_plates(
-    columns: Iterable[Placement], column_size_m: float, structure: Structure, zones: Zones
-) -> list[Placement]:
-    """Plates around each column with the letter and the number of the zone at its upper left."""
-    plates: list[Placement] = []
-    for column in columns:
-        x, _, z = column.position_m
-        row, col = np.searchsorted(structure.row_edges_m, z), np.searchsorted(structure.column_edges_m, x)
-        zone = zones.of((int(row) - 1, int(col) - 1))
-        for name, text, (low, high) in (
-            ("ZoneNumber", str(zone.number), _NUMBER_PLATE_M),
-            ("ZoneLetter", zone.letter, _LETTER_PLATE_M),
-        ):
-            spec = ZonePlateSpec(text, column_size_m, round(high - low, 6))
-            plates.append(Placement(f"{name}_r{row:02d}_c{col:02d}", spec, (x, low, z)))
-    return plates

@@ -6,9 +6,10 @@ from itertools import pairwise
 import numpy as np
 
 from garage2usd.assets.faces import box_faces, frame_faces
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.config.site import DOOR_FRAME_M
 from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.lit_sign import Way, lit_sign
 from garage2usd.objects.outline import Polygon, rectangle
 
 __all__ = ["KIND", "PortalSpec"]
@@ -18,7 +19,8 @@ KIND = Kind("portal", number=5, label="vehicle_door", cityscapes="wall", group="
 _FRAME_PROUD_M = 0.02
 _LAMELLA_M = 0.12
 _GROOVE_M = 0.012
-_LEAST_SIGN_M = 0.06
+_OVER_FRAME_M, _UNDER_CEILING_M = 0.08, 0.04
+"""Room around the signs over the door."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class PortalSpec(Spec, kind=KIND):
     """Whether its roller door is up, because a ramp lies behind it."""
 
     def asset(self) -> Asset:
-        """A roller door set back in the wall, closed or up, a steel frame and a lit sign."""
+        """A roller door set back in the wall, closed or up, a steel frame, and a lit sign on both faces."""
         half, jamb, back = self.length_m / 2, self.door_width_m / 2, -self.thickness_m
         concrete = box_faces((-half, 0, back), (-jamb, self.height_m, 0))
         concrete += box_faces((jamb, 0, back), (half, self.height_m, 0))
@@ -49,6 +51,7 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Door", _lamellae(opening, head, -self.thickness_m / 2), "door_steel", collider=Collider.BOX)
             ]
         )
+        sign_room = (-jamb, jamb), (self.door_height_m + _OVER_FRAME_M, self.height_m - _UNDER_CEILING_M)
         return Asset(
             (
                 make_part("LeftJamb", concrete[:6], "wall_concrete", collider=Collider.BOX),
@@ -56,7 +59,8 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
                 make_part("Frame", frame, "hazard", collider=Collider.MESH),
                 *door,
-                *_door_sign(self.door_height_m + 0.08, self.height_m - 0.04, is_entrance=self.is_entrance),
+                *lit_sign("Sign", Way.NOT_OUT if self.is_entrance else Way.OUT, *sign_room, 0.0),
+                *lit_sign("OuterSign", Way.IN if self.is_entrance else Way.NOT_IN, *sign_room, back, looks_back=True),
             ),
         )
 
@@ -67,24 +71,6 @@ class PortalSpec(Spec, kind=KIND):
             rectangle(-half, -self.thickness_m, -opening, _FRAME_PROUD_M),
             rectangle(opening, -self.thickness_m, half, _FRAME_PROUD_M),
         )
-
-
-def _door_sign(low_m: float, top_m: float, *, is_entrance: bool) -> list[Part]:
-    """The lit sign over a door, with an arrow up or down; none where the lintel has no room for it."""
-    high_m = min(low_m + 0.28, top_m)
-    if high_m - low_m < _LEAST_SIGN_M:
-        return []
-    sign = box_faces((-0.6, low_m, 0), (0.6, high_m, 0.06))
-    middle, reach = (low_m + high_m) / 2, (high_m - low_m) * 0.36
-    tip = -reach if is_entrance else reach
-    arrow = [
-        _upright([(-0.05, -tip), (0.05, -tip), (0.05, 0.0), (-0.05, 0.0)], middle),
-        _upright([(-0.16, 0.0), (0.16, 0.0), (0.0, tip)], middle),
-    ]
-    return [
-        make_part("Sign", sign, "sign_green" if is_entrance else "sign_red"),
-        make_part("Arrow", arrow, "sign_white"),
-    ]
 
 
 def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:
@@ -100,10 +86,3 @@ def _lamellae(half_m: float, height_m: float, front_m: float) -> list[Face]:
         np.array([(-half_m, y0, z0), (half_m, y0, z0), (half_m, y1, z1), (-half_m, y1, z1)])
         for (y0, z0), (y1, z1) in pairwise(profile)
     ]
-
-
-def _upright(outline: list[tuple[float, float]], middle_m: float) -> Face:
-    """An outline (x, y) on the front of a door's sign, turned counter-clockwise."""
-    face = np.array([(x, y + middle_m, 0.064) for x, y in outline])
-    normal = np.cross(face[1] - face[0], face[2] - face[0])
-    return face if normal[2] > 0 else face[::-1]

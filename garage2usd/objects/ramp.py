@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces, moved
-from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.lit_sign import Way, lit_sign
 from garage2usd.objects.outline import Point, Polygon, rectangle
 
 __all__ = ["KIND", "RampSpec"]
@@ -27,6 +29,8 @@ _PROUD_M = 0.004
 _HEADER_M = 0.3
 _DRAIN_M = 0.2
 _SLAT_M = 0.04
+_FLAT = 1e-6
+_SIGN_GAP_M = 0.2
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,8 @@ class RampSpec(Spec, kind=KIND):
         Run where the slab over its foot ends, and height of that slab's underside.
     wall_top_m
         Height of the side walls.
+    is_entrance
+        Whether cars come down it.
     """
 
     width_m: float
@@ -56,9 +62,10 @@ class RampSpec(Spec, kind=KIND):
     cover_end_m: float
     cover_height_m: float
     wall_top_m: float
+    is_entrance: bool
 
     def asset(self) -> Asset:
-        """A grooved floor with kerbs, side walls, a slab over its foot and a drain."""
+        """A grooved floor with kerbs, side walls, a slab over its foot with a lit sign, and a drain."""
         half, (start, _), (end, _) = self.width_m / 2, self.profile[0], self.profile[-1]
         cover_end, cover_low, cover_high = self.cover_end_m, self.cover_height_m, self.profile[-1][1]
         threshold = _strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
@@ -74,15 +81,17 @@ class RampSpec(Spec, kind=KIND):
         for name, side in (("Left", -1.0), ("Right", 1.0)):
             inner, outer = sorted((side * half, side * (half + self.wall_m)))
             wall = box_faces((inner, 0.0, -end), (outer, self.wall_top_m, -start))
-            face, kerb = side * (half - _PROUD_M), _kerb(half, side, self.profile)
+            face = side * (half - _PROUD_M)
             parts += [
                 make_part(f"{name}Wall", wall, "wall_concrete", collider=Collider.BOX),
                 make_part(f"{name}Band", _ribbon(face, self.profile, 0.0, _BAND_TOP_M), "wall_band"),
                 make_part(
                     f"{name}Stripe", _ribbon(face, self.profile, _BAND_TOP_M, _BAND_TOP_M + _STRIPE_M), "band_stripe"
                 ),
-                make_part(f"{name}Kerb", kerb, "hazard", collider=Collider.MESH),
+                _kerb(f"{name}Kerb", half, side, self.profile),
             ]
+        sign_room = (-half, half), (cover_high + _SIGN_GAP_M, self.wall_top_m - _SIGN_GAP_M)
+        parts += lit_sign("Sign", Way.IN if self.is_entrance else Way.NOT_IN, *sign_room, -cover_end, looks_back=True)
         return Asset(tuple(parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
@@ -109,15 +118,25 @@ def _ribbon(x: float, profile: Profile, low_m: float, high_m: float) -> list[Fac
     return faces if x > 0 else [face[::-1] for face in faces]
 
 
-def _kerb(half_m: float, side: float, profile: Profile) -> list[Face]:
-    """The kerb at the foot of a side wall."""
+def _kerb(name: str, half_m: float, side: float, profile: Profile) -> Part:
+    """The kerb at the foot of a side wall, with chevrons along its inner edge."""
     outer, inner = side * half_m, side * (half_m - _KERB_WIDTH_M)
     faces = _ribbon(inner, profile, 0.0, _KERB_HEIGHT_M)
     low, high = sorted((inner, outer))
     faces += moved(_strip((high - low) / 2, profile), ((low + high) / 2, _KERB_HEIGHT_M, 0.0))
     start, y = profile[0]
     faces += box_faces((low, y, -start - 1), (high, y + _KERB_HEIGHT_M, -start), without="lrbtn")
-    return faces
+
+    runs, heights = zip(*profile, strict=True)
+
+    def from_edge(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+        x, y, z = corners.T
+        outwards = side * (x - inner)
+        down = np.interp(-z, runs, heights) + _KERB_HEIGHT_M - y
+        is_end = normals[:, 2] > 1 - _FLAT
+        return np.stack([np.where(is_end, outwards, -z), np.where(is_end, -down, np.maximum(outwards, down))], axis=1)
+
+    return make_part(name, faces, "hazard", collider=Collider.MESH, project=from_edge)
 
 
 def _grooved(profile: Profile) -> list[tuple[float, float]]:

@@ -83,7 +83,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case NumberSpec():
             return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
         case ZonePlateSpec():
-            return _centred(spec.column_size_m + 0.01, spec.column_size_m + 0.01)
+            return shapely.box(-spec.width_m / 2, 0, spec.width_m / 2, 0.01)
         case SprinklerSpec():
             return _centred(2 * spec.radius_m, spec.length_m)
         case ExitSignSpec():

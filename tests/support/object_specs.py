@@ -58,6 +58,7 @@ SPECS = {
         cover_end_m=9.3,
         cover_height_m=3.2,
         wall_top_m=4.8,
+        is_entrance=True,
     ),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
     "raised_barrier": BarrierSpec(arm_m=6.1, is_raised=True, elbow_m=2.75),
@@ -88,8 +89,8 @@ SPECS = {
     **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
     **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88"]},
     **{
-        f"plate_{text}": ZonePlateSpec(text, 0.6, 0.38)
-        for text in [*string.ascii_uppercase.replace("I", "").replace("O", ""), "7", "12"]
+        f"plate_{text}": ZonePlateSpec(text, 0.528)
+        for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]
     },
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},

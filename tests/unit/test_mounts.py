@@ -8,14 +8,17 @@ import shapely
 from scipy.spatial.distance import cdist
 from support.footprints import footprint
 from support.overlaps import assert_solid_objects_keep_apart, carriageways
+from support.sample_files import each_sample
 from support.small_garage import PLAN as SMALL
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.site import SiteConfig
 from garage2usd.layout import lay_out, mounts
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.mirror import KIND
 from garage2usd.objects.outline import rectangle
+from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 
@@ -64,12 +67,13 @@ def test_nothing_hangs_where_cars_drive_or_park_or_people_leave(width_m, sides, 
     hung = [place for place in layout.placements if isinstance(place.spec, PlateSpec)]
     assert len(hung) > 5
     ways = shapely.union_all(shapely.box(*carriageways(layout.structure, config.bay.carriageway_setback_m).T))
-    stalls = shapely.union_all([shapely.Polygon(stall.corners_m()).buffer(-0.06) for stall in layout.stalls])
+    stalls = shapely.union_all([shapely.Polygon(stall.corners_m()) for stall in layout.stalls])
     solid = [place for kind in ("column", "wall", "obstacle", "no_parking_sign", "cone", "portal", "barrier")
              for place in layout.of_kind(kind)]  # fmt: skip
     others = shapely.union_all([footprint(place) for place in solid])
     inside = shapely.union_all([footprint(place) for place in layout.of_kind("ceiling")])
-    faces = shapely.union_all([footprint(place).boundary for place in solid if place.kind in {"column", "wall"}])
+    bearing = [place for place in solid if place.kind in {"column", "wall", "obstacle"}]
+    faces = shapely.union_all([footprint(place).boundary for place in bearing])
     grounds = [shapely.Polygon(place.outlines()[0]) for place in hung]
     for ground in grounds:
         assert ground.intersection(ways).area < 1e-6
@@ -125,6 +129,38 @@ def test_each_kind_has_a_switch_and_moves_nothing_else():
         assert everything.of_kind(mounted.kind.name)
         assert not without.of_kind(mounted.kind.name)
         assert [place for place in without.placements if place.kind not in names] == others
+
+
+@each_sample
+def test_nothing_that_hangs_reaches_into_a_stall_and_two_of_a_kind_hang_apart(sample, builds):
+    layout = builds(sample, "usdc").garage.layout
+    assert_hung_beside_stalls(layout)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_same_in_any_garage_and_each_stall_is_served(seed):
+    side = {"width_cells": 7 + seed % 6, "height_cells": 6 + seed % 5, "obstacles": seed % 3}
+    garage = generate(GarageConfig(seed=seed, site=SiteConfig(rectangles=1 + seed % 3, **side)))
+    assert_hung_beside_stalls(garage.layout)
+    for mounted in MOUNTED:
+        at = np.array([place.position_m for place in garage.layout.of_kind(mounted.kind.name)])[:, [0, 2]]
+        distances = cdist(places(garage.layout), at, "cityblock" if mounted.is_walked else "euclidean")
+        assert (np.sort(distances, axis=1)[:, mounted.count - 1] <= mounted.reach_m).all()
+
+
+def assert_hung_beside_stalls(layout):
+    """No triangle of what hangs lies over a stall below the roof of a car, and none of a kind hang side by side."""
+    stalls = shapely.STRtree([shapely.Polygon(stall.corners_m()).buffer(-1e-4) for stall in layout.stalls])
+    for mounted in MOUNTED:
+        hung = layout.of_kind(mounted.kind.name)
+        assert hung
+        points = np.concatenate([part.points for part in mounted.spec.asset().parts])
+        for place in hung:
+            over = [place.to_world((x, z)) for x, y, z in points.tolist() if y < 2.0]
+            assert not len(stalls.query(shapely.convex_hull(shapely.MultiPoint(over)), predicate="intersects")), place
+        at = np.array([place.position_m for place in hung])
+        apart = cdist(at, at) + np.where(np.eye(len(at)), np.inf, 0.0)
+        assert apart.min() > 2.9, hung[int(apart.min(axis=0).argmin())]
 
 
 @pytest.mark.parametrize("text", [PLAN, SMALL], ids=["loop", "small"])

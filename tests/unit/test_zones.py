@@ -1,9 +1,16 @@
 import numpy as np
 import pytest
+import shapely
+from scipy.spatial.distance import cdist
+from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.site import SiteConfig
 from garage2usd.layout import lay_out
 from garage2usd.layout.zones import Zones
+from garage2usd.objects import MOUNTED
+from garage2usd.objects.zone_plate import ZONE_PLATE_HEIGHT_M
+from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 
@@ -63,19 +70,58 @@ def test_without_zones_stalls_count_through_the_garage_and_columns_are_bare():
     assert not layout.of_kind("zone_plate")
 
 
-def test_each_column_shows_the_zone_of_a_square_beside_it():
+GARAGES = [
+    {"width_cells": 5 + seed % 9, "height_cells": 4 + seed % 6, "rectangles": 1 + seed % 3, "obstacles": seed % 2}
+    for seed in range(20)
+]
+
+
+@each_sample
+def test_plates_of_the_samples_show_the_zones_of_the_stalls(sample, builds):
+    assert_plates_show_the_zones_before_them(builds(sample, "usdc").garage.layout)
+
+
+@pytest.mark.parametrize("seed", range(len(GARAGES)))
+def test_plates_of_any_garage_show_the_zones_of_the_stalls(seed):
+    site = SiteConfig(min_portal_distance_cells=2, **GARAGES[seed])
+    assert_plates_show_the_zones_before_them(generate(GarageConfig(seed=seed, site=site)).layout)
+
+
+def test_on_the_border_of_two_zones_each_half_of_a_side_has_its_own_plate():
     layout = laid_out()
-    zones, edges = Zones(layout.structure), (layout.structure.row_edges_m, layout.structure.column_edges_m)
-    shown = {}
-    for plate in sorted(layout.of_kind("zone_plate"), key=lambda plate: -plate.position_m[1]):
-        x, _, z = plate.position_m
-        shown[x, z] = shown.get((x, z), "") + plate.spec.text
-    feet = {(place.position_m[0], place.position_m[2]) for place in layout.of_kind("column")}
-    assert set(shown) == feet
-    for (x, z), text in shown.items():
-        beside = {
-            str(zones.of((int(np.searchsorted(edges[0], z + dz)) - 1, int(np.searchsorted(edges[1], x + dx)) - 1)))
-            for dz in (-1, 1)
-            for dx in (-1, 1)
-        }
-        assert text in beside
+    shown = {plate.name: plate.spec.text for plate in layout.of_kind("zone_plate")}
+    # between the squares (0, 3) and (0, 4), both of which hold stalls
+    assert (shown["ZonePlate_r01_c04_Up_1"], shown["ZonePlate_r01_c04_Up_2"]) == ("B1", "A1")
+    assert (shown["ZonePlate_r01_c04_Left"], shown["ZonePlate_r01_c04_Right"]) == ("A1", "B1")
+
+
+def test_what_hangs_on_a_column_covers_no_plate():
+    layout = laid_out()
+    foot = min(plate.position_m[1] for plate in layout.of_kind("zone_plate"))
+    assert all(part.points[:, 1].max() < foot for mounted in MOUNTED for part in mounted.spec.asset().parts)
+    assert foot + ZONE_PLATE_HEIGHT_M < GarageConfig().fittings.clear_height_m
+
+
+def assert_plates_show_the_zones_before_them(layout):
+    """The stall nearest before a plate is of its zone, the plate nearest to a stall too, and each zone has one."""
+    stalls = [stall for stall in layout.stalls if stall.number]
+    zones = np.array([stall.number.split("-")[0] for stall in stalls])
+    plates = layout.of_kind("zone_plate")
+    assert {plate.spec.text for plate in plates} == {*zones.tolist()}
+    middles = np.array([stall.centre_m for stall in stalls])
+    grounds = np.array([shapely.Polygon(stall.corners_m()) for stall in stalls])
+    places = np.array([plate.position_m for plate in plates])[:, [0, 2]]
+    texts = np.array([plate.spec.text for plate in plates])
+    for plate, place in zip(plates, places, strict=True):
+        ahead = np.array([np.sin(plate.yaw_rad), np.cos(plate.yaw_rad)])
+        before = np.flatnonzero((middles - place) @ ahead > 0)
+        distances = shapely.distance(shapely.Point(place), grounds[before])
+        # of stalls that are as near as each other, one at least
+        nearest = before[distances < distances.min() + 1e-3]
+        assert plate.spec.text in zones[nearest], plate.name
+    nearest = cdist(middles, places).argmin(axis=1)
+    assert [
+        stall.number
+        for stall, plate in zip(stalls, nearest, strict=True)
+        if not stall.number.startswith(f"{texts[plate]}-")
+    ] == []

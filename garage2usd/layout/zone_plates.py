@@ -1,0 +1,212 @@
+"""Plates with the names of zones, on the sides of columns and on walls."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.layout.nearness import distances_m
+from garage2usd.layout.placement import Placement, Stall, cos_sin, edge_yaw_rad, of_spec, placed, to_world
+from garage2usd.layout.zones import Zones
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.wall import WallSpec
+from garage2usd.objects.zone_plate import ZonePlateSpec
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["zone_plates"]
+
+_FOOT_M = 1.70
+"""Height of lower edges: over what hangs on columns and walls."""
+_SHARE, _HALF_SHARES = 0.88, (0.225, 0.43)
+"""Of a column's side: the width of a plate; of two side by side, where their middles are and their width."""
+_ON_WALL_M, _FROM_END_M = 0.26, 0.15
+"""Width of a plate on a wall, and from its middle to the wall's end: between two rows of stalls."""
+_SEEN_FROM_M = 0.5
+_SIGHT_M = 12.0
+"""How far the stalls are that a plate is for: across a lane."""
+_AS_NEAR_M = 4.0
+"""Stalls before the other half of a side count where they are so much farther than the nearest ones at most."""
+_STRAIGHT_M = 0.01
+"""Stalls whose middle is not farther to a side lie before both halves."""
+
+
+class _Side(NamedTuple):
+    """Where a plate may be: its name, the middle of the foot of the column's or wall's side, its yaw, its width."""
+
+    name: str
+    middle: Point
+    yaw_rad: float
+    width_m: float
+
+
+class _Half(NamedTuple):
+    """What lies before half of a side.
+
+    Attributes
+    ----------
+    before
+        Zone of the stall before the side that is nearest to this half; empty if none is in sight.
+    beside, beside_m
+        The same of the stalls before this half alone, and how far that stall's ground is; infinitely far without one.
+    """
+
+    before: str = ""
+    beside: str = ""
+    beside_m: float = np.inf
+
+
+def zone_plates(
+    columns: Iterable[Placement],
+    walls: Iterable[Placement],
+    blocks: Iterable[Placement],
+    stalls: Iterable[Stall],
+    zones: Zones,
+) -> list[Placement]:
+    """Plates on columns and walls, such that the nearest one to each stall is that of its zone.
+
+    Parameters
+    ----------
+    columns, walls, blocks, stalls
+        The garage; blocks are its obstacles and stair cores.
+    zones
+        The zones of the stalls.
+
+    Notes
+    -----
+    Each side of a column shows the zone of the nearest stalls before it. A side that a block hides is bare, as is one
+    without a stall in sight. Before a side on the border of two zones lie stalls of both: each half of it has a plate
+    of its own then, or it is bare where the stalls before one half are nearer to the other, too. Stalls that are
+    nearest to a plate of another zone, or of a garage without columns, have one on a wall.
+    """
+    numbered = [stall for stall in stalls if stall.number]
+    if not numbered:
+        return []
+    shown = [str(zones.of(stall.square)) for stall in numbered]
+    grounds = grounds_of([stall.corners_m() for stall in numbered])
+    middles = np.array([stall.centre_m for stall in numbered])
+    plates: list[Placement] = []
+    sides = _seen(_column_sides(columns), blocks)
+    for side, halves in zip(sides, _halves_of(sides, grounds, middles, shown), strict=True):
+        plates += _plates_on(side, *halves)
+    return plates + _plates_on_walls(_seen(_wall_sides(walls), blocks), grounds, middles, shown, plates)
+
+
+def _column_sides(columns: Iterable[Placement]) -> Iterator[_Side]:
+    """The four sides of each column."""
+    for column, spec in of_spec(columns, ColumnSpec):
+        at = column.position_m[0], column.position_m[2]
+        for edge in Edge:
+            yaw = edge_yaw_rad(edge)
+            name = f"{column.name.replace('Column', 'ZonePlate')}_{edge.name.capitalize()}"
+            yield _Side(name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
+
+
+def _wall_sides(walls: Iterable[Placement]) -> Iterator[_Side]:
+    """Room for a plate at both ends of each wall, beside the stalls before it."""
+    for wall, spec in of_spec(walls, WallSpec):
+        most = spec.length_m / 2 - _FROM_END_M
+        for number, across in enumerate((-most, most), start=1):
+            name = f"{wall.name.replace('Wall', 'ZonePlate')}_{number}"
+            yield _Side(name, wall.to_world((across, 0.0)), wall.yaw_rad, _ON_WALL_M)
+
+
+def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
+    """The sides that no block hides."""
+    sides = list(sides)
+    if not sides:
+        return []
+    before = shapely.points(np.array([to_world((0.0, _SEEN_FROM_M), side.middle, side.yaw_rad) for side in sides]))
+    hiding = shapely.STRtree(grounds_of([outline for block in blocks for outline in block.outlines()]))
+    hidden = set(hiding.query(before, predicate="intersects")[0].tolist())
+    return [side for number, side in enumerate(sides) if number not in hidden]
+
+
+def _plates_on(side: _Side, left: _Half, right: _Half) -> list[Placement]:
+    """The plate of a side, or one of each half, or none."""
+    near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
+    beside = [half.beside for half in (left, right) if half.beside and half.beside_m <= near_m]
+    plates = [("", 0.0, _SHARE)]
+    if len({*beside}) > 1:
+        across, share = _HALF_SHARES
+        plates = [("_1", -across, share), ("_2", across, share)] if beside == [left.before, right.before] else []
+    return [
+        placed(
+            f"{side.name}{ending}",
+            ZonePlateSpec(zone, round(share * side.width_m, 6)),
+            to_world((across * side.width_m, 0.0), side.middle, side.yaw_rad),
+            height_m=_FOOT_M,
+            yaw_rad=side.yaw_rad,
+        )
+        for zone, (ending, across, share) in zip(beside, plates, strict=False)
+    ]
+
+
+def _halves_of(
+    sides: Sequence[_Side], grounds: Grounds, middles: NDArray[np.float64], shown: Sequence[str]
+) -> list[tuple[_Half, _Half]]:
+    """What lies before the left and the right half of each side; of the stalls grounds, middles and zones."""
+    if not sides:
+        return []
+    at = np.array([side.middle for side in sides])
+    ahead = np.array([cos_sin(side.yaw_rad)[::-1] for side in sides])
+    right = ahead[:, ::-1] * (1, -1)
+    off_m = np.array([[_HALF_SHARES[0] * side.width_m] for side in sides])
+    reach = np.stack([at - _SIGHT_M * right, at + _SIGHT_M * (right + ahead)])
+    side, stall = shapely.STRtree(grounds).query(shapely.box(*reach.min(axis=0).T, *reach.max(axis=0).T))
+    is_before = ((middles[stall] - at[side]) * ahead[side]).sum(axis=1) > 0
+    side, stall = side[is_before], stall[is_before]
+    to_right_m = ((middles[stall] - at[side]) * right[side]).sum(axis=1)
+    halves: list[list[_Half]] = []
+    for turn in (-1, 1):
+        place = at + turn * off_m * right
+        far_m = shapely.distance(shapely.points(place[side]), grounds[stall]).round(6)
+        order = np.lexsort((stall, distances_m(place[side], middles[stall]).round(6), far_m, side))
+        order = order[far_m[order] <= _SIGHT_M]
+        found = [_Half()] * len(sides)
+        for row in _first_of_each(order, side):
+            found[side[row]] = _Half(shown[stall[row]])
+        for row in _first_of_each(order[turn * to_right_m[order] > -_STRAIGHT_M], side):
+            found[side[row]] = _Half(found[side[row]].before, shown[stall[row]], float(far_m[row]))
+        halves.append(found)
+    return list(zip(*halves, strict=True))
+
+
+def _first_of_each(rows: NDArray[np.intp], owner: NDArray[np.intp]) -> list[int]:
+    """The first of the rows of each owner."""
+    return [int(row) for row in rows[np.unique(owner[rows], return_index=True)[1]]]
+
+
+def _plates_on_walls(
+    sides: Sequence[_Side],
+    grounds: Grounds,
+    middles: NDArray[np.float64],
+    shown: Sequence[str],
+    plates: Iterable[Placement],
+) -> list[Placement]:
+    """A plate on a wall for each stall to which that of another zone is the nearest, if its zone lies at a wall."""
+    at = [(plate.position_m[0], plate.position_m[2]) for plate in plates]
+    text = [plate.text for _, plate in of_spec(plates, ZonePlateSpec)]
+    lost = list(range(len(shown)))
+    if at:
+        _, nearest = shapely.STRtree(shapely.points(at)).query_nearest(shapely.points(middles), all_matches=False)
+        lost = [stall for stall, plate in enumerate(nearest.tolist()) if text[plate] != shown[stall]]
+    if not lost or not sides:
+        return []
+    places = np.array([side.middle for side in sides])
+    _, beside = shapely.STRtree(grounds).query_nearest(shapely.points(places), all_matches=False)
+    found: list[Placement] = []
+    for stall in lost:
+        own = [number for number, other in enumerate(beside.tolist()) if shown[other] == shown[stall]]
+        far_m = distances_m(middles[stall], np.array(at).reshape(-1, 2))
+        if not own or (at and text[int(far_m.argmin())] == shown[stall]):
+            continue
+        side = sides[own[int(distances_m(middles[stall], places[own]).argmin())]]
+        spec = ZonePlateSpec(shown[stall], side.width_m)
+        found.append(placed(side.name, spec, side.middle, height_m=_FOOT_M, yaw_rad=side.yaw_rad))
+        at.append(side.middle)
+        text.append(shown[stall])
+    return found

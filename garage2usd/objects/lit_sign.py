@@ -1,0 +1,99 @@
+"""Lit signs over vehicle doors and ramps: who may drive through, and who may not."""
+
+from enum import StrEnum
+
+import numpy as np
+import shapely
+from shapely import affinity
+
+from garage2usd.assets.faces import box_faces, moved
+from garage2usd.assets.flat import GRID_M, upright_triangles
+from garage2usd.assets.glyphs import text_shape
+from garage2usd.assets.mesh import Part, make_part
+
+__all__ = ["Way", "lit_sign"]
+
+_MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.8, 0.06
+_LENGTH = 5.6
+"""Of its height, as all shares that follow."""
+_TEXT = 0.5
+_SYMBOLS_AT = (-2.3, 2.3)
+_ARROW = ((-0.1, -0.36), (0.1, -0.36), (0.1, 0.0), (0.3, 0.0), (0.0, 0.36), (-0.3, 0.0), (-0.1, 0.0))
+_PLATE, _DISC, _BAR = 0.84, 0.38, (0.27, 0.07)
+"""Of the sign of no entry: side of the white plate, radius of the disc, half of its bar's length and width."""
+_DEPTH_M = 0.06
+
+
+class Way(StrEnum):
+    """What a sign says to those who see it."""
+
+    IN = "ENTER"
+    NOT_IN = "NO ENTRY"
+    OUT = "EXIT"
+    NOT_OUT = "NO EXIT"
+
+    @property
+    def is_open(self) -> bool:
+        """Whether they may drive on."""
+        return self in {Way.IN, Way.OUT}
+
+
+def lit_sign(
+    name: str,
+    way: Way,
+    across_m: tuple[float, float],
+    heights_m: tuple[float, float],
+    wall_m: float,
+    *,
+    looks_back: bool = False,
+) -> list[Part]:
+    """A lit sign on a wall, as large as its room allows; none where that is too low.
+
+    Parameters
+    ----------
+    name
+        What its parts' names begin with.
+    way
+        What it says.
+    across_m, heights_m
+        The room for it along X and Y.
+    wall_m
+        Where the wall's face is along Z.
+    looks_back
+        Whether it looks to -Z, not to +Z.
+
+    Notes
+    -----
+    Over a lane, green with an arrow that points down says that it is open (Vienna Convention on Road Signs and Signals,
+    article 23, 11), and a red disc with a white bar forbids to enter (sign C, 1 of the same; MUTCD R5-1 with a plate
+    around it). Letters and arrows are white, as on signs that show the way.
+    """
+    (left, right), (low, high) = across_m, heights_m
+    height = min(high - low, (right - left) / _LENGTH, _MOST_HEIGHT_M)
+    if height < _LEAST_HEIGHT_M:
+        return []
+    symbol = shapely.Polygon(_ARROW) if way.is_open else _around_disc()
+    drawn = shapely.union_all([text_shape(way, _TEXT), *(affinity.translate(symbol, end) for end in _SYMBOLS_AT)])
+    panel = shapely.box(-_LENGTH / 2, -0.5, _LENGTH / 2, 0.5)
+    legend, ground = (
+        upright_triangles(
+            affinity.scale(shape, height, height, origin=(0, 0)), middle_m=(low + high) / 2, front_m=_DEPTH_M
+        )
+        for shape in (drawn, shapely.difference(panel, drawn, grid_size=GRID_M))
+    )
+    x, y = _LENGTH * height / 2, (low + high) / 2
+    housing = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="f")
+    turn = np.array([-1.0, 1.0, -1.0] if looks_back else [1.0, 1.0, 1.0])
+    place = ((left + right) / 2, 0.0, wall_m)
+    hue = "sign_green" if way.is_open else "sign_red"
+    return [
+        make_part(name, moved([face * turn for face in (*housing, *ground)], place), hue),
+        make_part(f"{name}Legend", moved([face * turn for face in legend], place), "exit_white"),
+    ]
+
+
+def _around_disc() -> shapely.Geometry:
+    """The white of the sign of no entry: its plate around the disc, and the bar on it."""
+    bar = shapely.box(-_BAR[0], -_BAR[1], *_BAR)
+    disc = shapely.Point(0, 0).buffer(_DISC, quad_segs=6).difference(bar)
+    return shapely.box(-_PLATE / 2, -_PLATE / 2, _PLATE / 2, _PLATE / 2).difference(disc)
