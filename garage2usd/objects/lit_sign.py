@@ -82,7 +82,7 @@ def lit_sign(
         for shape in (drawn, shapely.difference(panel, drawn, grid_size=GRID_M))
     )
     x, y = _LENGTH * height / 2, (low + high) / 2
-    housing = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="f")
+    housing = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="nf")
     turn = np.array([-1.0, 1.0, -1.0] if looks_back else [1.0, 1.0, 1.0])
     place = ((left + right) / 2, 0.0, wall_m)
     hue = "sign_green" if way.is_open else "sign_red"

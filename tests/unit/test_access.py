@@ -3,8 +3,9 @@ import itertools
 import numpy as np
 import pytest
 import shapely
+from pxr import Usd, UsdGeom, UsdSemantics, UsdShade
 from support.footprints import footprint
-from support.sample_files import each_sample
+from support.sample_files import REPOSITORY, each_sample
 
 from garage2usd.config import GarageConfig
 from garage2usd.layout import lay_out
@@ -91,3 +92,72 @@ def test_ramps_and_gates_can_be_left_out():
     assert (counts["ramp"], counts["barrier"]) == (2, 0)
     counts = laid_out(OPEN, ramps=False).counts()
     assert (counts["ramp"], counts["sky"], counts["barrier"]) == (0, 0, 0)
+
+
+def lit_faces(prim):
+    """(colour, middle, way that it looks) of each lit sign of an object, by pxr alone; in metres."""
+    for mesh in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()):
+        if not mesh.IsA(UsdGeom.Mesh):
+            continue
+        surface = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()[0].ComputeSurfaceSource()[0]
+        red, green, _ = surface.GetInput("emissiveColor").Get() or (0.0, 0.0, 0.0)
+        if max(red, green) < 2 * min(red, green) + 0.1:
+            continue
+        shape = UsdGeom.Mesh(mesh)
+        to_world = np.array(UsdGeom.Xformable(mesh).ComputeLocalToWorldTransform(Usd.TimeCode.Default()))
+        points = np.array(shape.GetPointsAttr().Get()) @ to_world[:3, :3] + to_world[3, :3]
+        ends = np.cumsum(shape.GetFaceVertexCountsAttr().Get())[:-1]
+        faces = [points[face] for face in np.split(np.array(shape.GetFaceVertexIndicesAttr().Get()), ends)]
+        areas = [np.cross(face[1] - face[0], face[2] - face[0]) for face in faces]
+        along = np.sum(areas, axis=0)
+        yield "green" if green > red else "red", points.mean(axis=0), along / np.linalg.norm(along)
+
+
+@pytest.mark.parametrize("sample", ["paper_7x9", "irregular"])
+def test_lit_signs_are_green_for_those_who_may_pass_and_red_for_all_others(sample, builds):
+    stage = Usd.Stage.Open(str(builds(REPOSITORY / "samples" / f"{sample}.toml", "usdc").stage))
+    nodes = UsdGeom.BasisCurves(stage.GetPrimAtPath("/Garage/LaneGraph/Nodes"))
+    ends = np.cumsum(nodes.GetCurveVertexCountsAttr().Get())[:-1]
+    middles = np.array([ring.mean(axis=0) for ring in np.split(np.array(nodes.GetPointsAttr().Get()), ends)])
+    kinds = np.array(nodes.GetPrim().GetAttribute("garage:lane:kind").Get())
+    portals = np.isin(kinds, ["entrance", "exit"])
+    seen = []
+    for prim in Usd.PrimRange(stage.GetPrimAtPath("/Garage"), Usd.TraverseInstanceProxies()):
+        labels = UsdSemantics.LabelsAPI(prim, "class").GetLabelsAttr().Get() or ()
+        if not {"vehicle_door", "ramp"}.intersection(labels):
+            continue
+        for colour, place, ahead in lit_faces(prim):
+            nearest = np.linalg.norm(middles[portals] - place, axis=1).argmin()
+            inwards = middles[portals][nearest] - place
+            side = "inside" if inwards @ ahead > 0 else "outside"
+            seen.append((str(kinds[portals][nearest]), labels[0], side, colour))
+    assert sorted(seen) == [
+        ("entrance", "ramp", "outside", "green"),
+        ("entrance", "vehicle_door", "inside", "red"),
+        ("entrance", "vehicle_door", "outside", "green"),
+        ("exit", "ramp", "outside", "red"),
+        ("exit", "vehicle_door", "inside", "green"),
+        ("exit", "vehicle_door", "outside", "red"),
+    ]
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0], ids=["left", "right"])
+def test_chevrons_of_kerbs_meet_at_the_edge_on_both_sides(side):
+    asset = asset_of(laid_out(OPEN).of_kind("ramp")[0].spec)
+    kerb = next(part for part in asset.parts if part.name == ("LeftKerb" if side < 0 else "RightKerb"))
+    corners, st = kerb.points[kerb.face_indices].astype(float), kerb.st[kerb.st_indices]
+    face = np.repeat(np.arange(len(kerb.face_counts)), kerb.face_counts)
+    ups = kerb.normals[kerb.normal_indices][:, 1]
+    edge = np.abs(corners[:, 0]).min()
+    profile = np.array(laid_out(OPEN).of_kind("ramp")[0].spec.profile)
+    on_edge = np.abs(np.abs(corners[:, 0]) - edge) < 1e-4
+    for number in np.unique(face).tolist():
+        own = face == number
+        if kerb.normals[kerb.normal_indices][own][:, 2].max() > 0.99:
+            continue  # the kerb's end
+        run = -corners[own][:, 2]
+        height = corners[own][:, 1] - np.interp(run, *profile.T)
+        # from the edge, where both faces meet, stripes run the same way over the top and down the side
+        away = np.where(ups[own] > 0.5, np.abs(corners[own][:, 0]) - edge, height.max() - height)
+        assert st[own] == pytest.approx(np.stack([run, away], axis=1) / 0.6, abs=1e-3)
+    assert on_edge.any()
