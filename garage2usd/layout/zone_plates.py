@@ -28,7 +28,7 @@ _ON_WALL_M, _FROM_END_M = 0.26, 0.15
 _SEEN_FROM_M = 0.5
 _SIGHT_M = 12.0
 """How far the stalls are that a plate is for: across a lane."""
-_AS_NEAR_M = 4.0
+_AS_NEAR_M = 1.0
 """Stalls before the other half of a side count where they are so much farther than the nearest ones at most."""
 _STRAIGHT_M = 0.01
 """Stalls whose middle is not farther to a side lie before both halves."""
