@@ -26,6 +26,7 @@ _SHARE, _HALF_SHARES = 0.88, (0.225, 0.43)
 _ON_WALL_M, _FROM_END_M = 0.26, 0.15
 """Width of a plate on a wall, and from its middle to the wall's end: between two rows of stalls."""
 _SEEN_FROM_M = 0.5
+"""A side is hidden where a block is nearer."""
 _SIGHT_M = 12.0
 """How far the stalls are that a plate is for: across a lane."""
 _AS_NEAR_M = 1.0
@@ -185,28 +186,33 @@ def _plates_on_walls(
     grounds: Grounds,
     middles: NDArray[np.float64],
     shown: Sequence[str],
-    plates: Iterable[Placement],
+    plates: Sequence[Placement],
 ) -> list[Placement]:
     """A plate on a wall for each stall to which that of another zone is the nearest, if its zone lies at a wall."""
-    at = [(plate.position_m[0], plate.position_m[2]) for plate in plates]
-    text = [plate.text for _, plate in of_spec(plates, ZonePlateSpec)]
-    lost = list(range(len(shown)))
-    if at:
-        _, nearest = shapely.STRtree(shapely.points(at)).query_nearest(shapely.points(middles), all_matches=False)
-        lost = [stall for stall, plate in enumerate(nearest.tolist()) if text[plate] != shown[stall]]
-    if not lost or not sides:
+    if not sides:
         return []
+    zones = np.array(shown)
+    text = np.array([plate.text for _, plate in of_spec(plates, ZonePlateSpec)], dtype=zones.dtype)
+    nearest, nearest_m = np.full(len(zones), "", dtype=zones.dtype), np.full(len(zones), np.inf)
+    if len(text):
+        at = shapely.points([(plate.position_m[0], plate.position_m[2]) for plate in plates])
+        (_, number), nearest_m = shapely.STRtree(at).query_nearest(
+            shapely.points(middles), all_matches=False, return_distance=True
+        )
+        nearest = text[number]
+    missing = {*shown}.difference(text.tolist())
     places = np.array([side.middle for side in sides])
     _, beside = shapely.STRtree(grounds).query_nearest(shapely.points(places), all_matches=False)
     found: list[Placement] = []
-    for stall in lost:
-        own = [number for number, other in enumerate(beside.tolist()) if shown[other] == shown[stall]]
-        far_m = distances_m(middles[stall], np.array(at).reshape(-1, 2))
-        if not own or (at and text[int(far_m.argmin())] == shown[stall]):
-            continue
-        side = sides[own[int(distances_m(middles[stall], places[own]).argmin())]]
-        spec = ZonePlateSpec(shown[stall], side.width_m)
-        found.append(placed(side.name, spec, side.middle, height_m=_FOOT_M, yaw_rad=side.yaw_rad))
-        at.append(side.middle)
-        text.append(shown[stall])
+    for stall in np.flatnonzero(nearest != zones).tolist():
+        far_m = np.where(zones[beside] == zones[stall], distances_m(middles[stall], places), np.inf)
+        side = sides[int(far_m.argmin())]
+        is_nearer = nearest[stall] != zones[stall] and far_m.min() < nearest_m[stall]
+        if is_nearer or (shown[stall] in missing and far_m.min() < np.inf):
+            spec = ZonePlateSpec(shown[stall], side.width_m)
+            found.append(placed(side.name, spec, side.middle, height_m=_FOOT_M, yaw_rad=side.yaw_rad))
+            missing.discard(shown[stall])
+            to_it_m = distances_m(middles, np.array(side.middle))
+            nearest = np.where(to_it_m < nearest_m, zones[stall], nearest)
+            nearest_m = np.minimum(nearest_m, to_it_m)
     return found
