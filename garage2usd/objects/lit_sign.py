@@ -15,7 +15,7 @@ __all__ = ["Way", "lit_sign"]
 
 _MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.8, 0.06
 _LENGTH = 5.6
-"""Of its height, as all shares that follow."""
+"""In heights of the sign, as all measures of what is on it."""
 _TEXT = 0.5
 _SYMBOLS_AT = (-2.3, 2.3)
 _ARROW = ((-0.1, -0.36), (0.1, -0.36), (0.1, 0.0), (0.3, 0.0), (0.0, 0.36), (-0.3, 0.0), (-0.1, 0.0))
@@ -65,8 +65,8 @@ def lit_sign(
     Notes
     -----
     Over a lane, green with an arrow that points down says that it is open (Vienna Convention on Road Signs and Signals,
-    article 23, 11), and a red disc with a white bar forbids to enter (sign C, 1 of the same; MUTCD R5-1 with a plate
-    around it). Letters and arrows are white, as on signs that show the way.
+    article 23), and a red disc with a white bar that nobody may enter (its sign C, 1; on a plate as R5-1 of the MUTCD).
+    Letters and arrows are white, as on signs that show the way.
     """
     (left, right), (low, high) = across_m, heights_m
     height = min(high - low, (right - left) / _LENGTH, _MOST_HEIGHT_M)

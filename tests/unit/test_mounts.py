@@ -137,7 +137,7 @@ def test_nothing_that_hangs_reaches_into_a_stall_and_two_of_a_kind_hang_apart(sa
     assert_hung_beside_stalls(layout)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_the_same_in_any_garage_and_each_stall_is_served(seed):
     side = {"width_cells": 7 + seed % 6, "height_cells": 6 + seed % 5, "obstacles": seed % 3}
     garage = generate(GarageConfig(seed=seed, site=SiteConfig(rectangles=1 + seed % 3, **side)))

@@ -72,7 +72,7 @@ def test_without_zones_stalls_count_through_the_garage_and_columns_are_bare():
 
 GARAGES = [
     {"width_cells": 5 + seed % 9, "height_cells": 4 + seed % 6, "rectangles": 1 + seed % 3, "obstacles": seed % 2}
-    for seed in range(20)
+    for seed in range(12)
 ]
 
 
