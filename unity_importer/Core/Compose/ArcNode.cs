@@ -5,7 +5,7 @@ namespace Garage.Usd
     /// <summary>How a place of opinions comes to a prim, the strongest first.</summary>
     enum Arc : byte
     {
-        Root, Inherit, Variant, Reference, Payload, Specialize,
+        Root, Inherit, Variant, Relocate, Reference, Payload, Specialize,
     }
 
     /// <summary>What a layer of a stack says at the place of a node.</summary>
@@ -22,87 +22,100 @@ namespace Garage.Usd
     }
 
     /// <summary>
-    /// One place in one layer stack that has opinions on a prim, with the places that it refers to below it.
+    /// One place in one layer stack that has opinions on a prim, with the places that it leads to below it, the
+    /// strongest first.
     /// </summary>
     sealed class ArcNode
     {
         static readonly LayerSpec[] NoSpecs = new LayerSpec[0];
-        static readonly List<string> NoNames = new List<string>(0);
+        static readonly List<ArcNode> NoNodes = new List<ArcNode>(0);
 
         public readonly LayerStack Stack;
+
+        /// <summary>Of the prim in its stack, with the variants that it is in.</summary>
         public readonly string Path;
-        public readonly Arc Arc;
+
+        /// <summary>How many prims the path names.</summary>
+        public readonly int Level;
+
+        public Arc Arc { get; private set; }
+
+        /// <summary>How paths and times of this place get to the one above it.</summary>
+        public PathMap ToParent { get; private set; }
+
+        /// <summary>The level of the prim at which the arc was introduced: a deeper one is stronger.</summary>
+        public int Depth { get; private set; }
+
+        /// <summary>Which of the arcs of its kind it is at its origin, from 0.</summary>
+        public int Sibling { get; private set; }
+
+        public ArcNode Parent { get; private set; }
 
         /// <summary>
-        /// The prim at which the arc was introduced, counted from the root: a deeper one is stronger.
+        /// The node that gave rise to this one: the parent for an arc that a layer states, else the class that this one
+        /// follows from.
         /// </summary>
-        public readonly int Depth;
+        public ArcNode Origin { get; private set; }
 
-        /// <summary>Prefixes of paths in this node's stack and in that of the parent.</summary>
-        public readonly string From, To;
+        /// <summary>One that no other node of the tree has; larger for one that came later.</summary>
+        public int Number { get; private set; }
 
-        /// <summary>Whether other paths mean the same in both stacks.</summary>
-        public readonly bool KeepsOtherPaths;
-
-        /// <summary>Time in the parent's stack.</summary>
-        public readonly LayerOffset Offset;
-
-        /// <summary>"set=selection" of a variant.</summary>
-        public readonly string Variant;
-
+        /// <summary>What the layers say at the place, whether that counts or not.</summary>
         public LayerSpec[] Specs = NoSpecs;
-        public ArcNode Parent;
-        public List<ArcNode> Children;
 
         /// <summary>The arc was introduced at a prim above this one.</summary>
         public bool IsAncestral;
 
-        /// <summary>References, payloads and classes of this place are below it already.</summary>
-        public bool IsExpanded;
+        /// <summary>Elements of the path from which on nothing that the layers say counts; 0 if all does.</summary>
+        public int SilentFrom;
 
-        /// <summary>Names of variant sets that have a variant below this node.</summary>
-        public List<string> ChosenSets;
+        /// <summary>The node that has the opinions of this silent one in its place; null where there is none.</summary>
+        public ArcNode MovedTo;
 
-        List<string> variantSets;
+        /// <summary>Of a root: how many nodes are in the tree, itself included.</summary>
+        public int Size = 1;
 
-        /// <summary>Names of the variant sets that the specs give, in the order in which they are chosen.</summary>
-        public List<string> VariantSets
-        {
-            get
-            {
-                if (variantSets != null) { return variantSets; }
-                variantSets = NoNames;
-                for (int i = Specs.Length - 1; i >= 0; i--)
-                {
-                    ListOp<string> op = Specs[i].Spec.VariantSetNames;
-                    if (op == null) { continue; }
-                    if (ReferenceEquals(variantSets, NoNames)) { variantSets = new List<string>(1); }
-                    op.ApplyTo(variantSets);
-                }
-                return variantSets;
-            }
-        }
+        List<ArcNode> children;
+        PathMap toRoot;
+        bool isSilent, isElided;
+        int nextNumber = 1;
 
-        /// <summary>Of a root: how many nodes are below it, itself included.</summary>
-        public int Size;
+        // this node in a copy that is being made
+        ArcNode twin;
 
-        public ArcNode(LayerStack stack, string path, Arc arc, int depth, string from, string to, bool keepsOtherPaths,
-            LayerOffset offset, string variant)
+        ArcNode(LayerStack stack, string path, int level)
         {
             Stack = stack;
             Path = path;
-            Arc = arc;
-            Depth = depth;
-            From = from;
-            To = to;
-            KeepsOtherPaths = keepsOtherPaths;
-            Offset = offset;
-            Variant = variant;
+            Level = level;
+            ToParent = PathMap.Identity;
         }
 
-        public static ArcNode OfRoot(LayerStack stack, string path, int depth)
+        /// <summary>A tree of one node.</summary>
+        public static ArcNode Of(LayerStack stack, string path)
         {
-            return new ArcNode(stack, path, Arc.Root, depth, null, null, true, LayerOffset.Identity, null);
+            return new ArcNode(stack, path, UsdPaths.Depth(path)) { Specs = stack.SpecsAt(path) };
+        }
+
+        public IList<ArcNode> Children
+        {
+            get { return children ?? NoNodes; }
+        }
+
+        /// <summary>The same nodes, while others are added.</summary>
+        public ArcNode[] ChildrenNow()
+        {
+            return (children ?? NoNodes).ToArray();
+        }
+
+        public ArcNode Root
+        {
+            get
+            {
+                ArcNode node = this;
+                while (node.Parent != null) { node = node.Parent; }
+                return node;
+            }
         }
 
         public bool IsClass
@@ -110,120 +123,299 @@ namespace Garage.Usd
             get { return Arc == Arc.Inherit || Arc == Arc.Specialize; }
         }
 
-        /// <summary>
-        /// Whether the prim itself inherits this place, directly or by way of others, and not a prim above it.
-        /// </summary>
+        /// <summary>A class that no layer states here: it follows from one elsewhere.</summary>
+        public bool IsImpliedClass
+        {
+            get { return IsClass && !ReferenceEquals(Parent, Origin); }
+        }
+
+        /// <summary>A specialized prim that was moved below the root, where it is weaker than all else.</summary>
+        public bool IsMovedToRoot
+        {
+            get
+            {
+                return Arc == Arc.Specialize && Parent.Parent == null && Origin.Path == Path
+                    && ReferenceEquals(Origin.Stack, Stack);
+            }
+        }
+
+        /// <summary>Whether what the layers say here does not count.</summary>
+        public bool IsSilent
+        {
+            get { return isSilent || isElided; }
+            set
+            {
+                bool was = IsSilent;
+                isSilent = value;
+                if (value != was) { SilentFrom = IsSilent ? UsdPaths.Elements(Path) : 0; }
+            }
+        }
+
+        /// <summary>Whether the node is there only because others came from it.</summary>
+        public bool IsElided
+        {
+            get { return isElided; }
+        }
+
+        public bool HasOpinions
+        {
+            get { return !IsSilent && Specs.Length > 0; }
+        }
+
+        /// <summary>How many prims below the one that introduced the arc this one is.</summary>
+        public int DepthBelowIntroduction
+        {
+            get { return Parent == null ? 0 : Parent.Level - Depth; }
+        }
+
+        /// <summary>The path of the prim that the arc leads to where it was introduced.</summary>
+        public string PathAtIntroduction
+        {
+            get
+            {
+                string path = Path;
+                for (int depth = DepthBelowIntroduction; depth > 0; depth--)
+                {
+                    while (UsdPaths.IsVariant(path)) { path = UsdPaths.Parent(path); }
+                    path = UsdPaths.Parent(path);
+                }
+                return path;
+            }
+        }
+
+        /// <summary>How paths and times of this place get to the root.</summary>
+        public PathMap ToRoot
+        {
+            get
+            {
+                if (toRoot == null) { toRoot = Parent == null ? ToParent : Parent.ToRoot.After(ToParent); }
+                return toRoot;
+            }
+        }
+
+        public bool IsAt(LayerStack stack, string path)
+        {
+            return ReferenceEquals(Stack, stack) && Path == path;
+        }
+
+        /// <summary>Whether the prim itself inherits this place, and not a prim above it.</summary>
         public bool IsInheritedDirectly
         {
             get
             {
                 for (ArcNode node = this; node.Parent != null; node = node.Parent)
                 {
-                    if (node.IsClass && UsdPaths.Depth(node.Parent.Path) == node.Depth) { return true; }
+                    if (node.IsClass && node.DepthBelowIntroduction == 0) { return true; }
                 }
                 return false;
             }
         }
 
-        /// <summary>Adds a child at its place by strength, behind equally strong ones.</summary>
-        public void Add(ArcNode child)
+        /// <summary>Whether this is another node or below it.</summary>
+        public bool IsWithin(ArcNode other)
         {
+            ArcNode node = this;
+            while (node != null && !ReferenceEquals(node, other)) { node = node.Parent; }
+            return node != null;
+        }
+
+        /// <summary>Hangs a tree below this node at its place by strength.</summary>
+        public void Add(ArcNode child, Arc arc, ArcNode origin, PathMap toParent, int depth, int sibling)
+        {
+            child.Arc = arc;
             child.Parent = this;
-            Children = Children ?? new List<ArcNode>(2);
-            int place = Children.Count;
-            while (place > 0 && IsStronger(child, Children[place - 1])) { place--; }
-            Children.Insert(place, child);
+            child.Origin = origin;
+            child.ToParent = toParent;
+            child.Depth = depth;
+            child.Sibling = sibling;
+            child.IsAncestral = false;
+            ArcNode root = Root;
+            child.Join(root.nextNumber);
+            root.nextNumber += child.nextNumber;
+            root.Size += child.Size;
+            children = children ?? new List<ArcNode>(2);
+            int place = children.Count;
+            while (place > 0 && ArcStrength.Compare(child, children[place - 1]) < 0) { place--; }
+            children.Insert(place, child);
         }
 
-        static bool IsStronger(ArcNode one, ArcNode other)
+        void Join(int firstNumber)
         {
-            return one.Arc != other.Arc ? one.Arc < other.Arc : one.Depth > other.Depth;
+            Number += firstNumber;
+            toRoot = null;
+            foreach (ArcNode child in Children) { child.Join(firstNumber); }
         }
 
-        /// <summary>
-        /// A path of this node's stack as the parent's stack means it; null where it means nothing there.
-        /// </summary>
-        public string PathInParent(string path)
+        /// <summary>Makes all nodes of the tree count for nothing, now and for prims above.</summary>
+        public void Silence(bool elides)
         {
-            if (From == null) { return path; }
-            if (UsdPaths.HasPrefix(path, From))
-            {
-                return From == To ? path : To == "/" ? path.Substring(From.Length)
-                    : To + path.Substring(From == "/" ? 0 : From.Length);
-            }
-            // what stands at the parent's place there is hidden by what this node brings to that place
-            return KeepsOtherPaths && !UsdPaths.HasPrefix(path, To) ? path : null;
+            if (elides) { isElided = true; }
+            else { isSilent = true; }
+            SilentFrom = 1;
+            foreach (ArcNode child in Children) { child.Silence(elides); }
         }
 
-        /// <summary>A copy of a node, of its place and its specs, without what is around it.</summary>
-        public ArcNode Copy(int depth)
+        /// <summary>The whole tree anew.</summary>
+        public ArcNode Copy()
         {
-            return new ArcNode(Stack, Path, Arc, depth, From, To, KeepsOtherPaths, Offset, Variant)
-            {
-                Specs = Specs, variantSets = variantSets, IsAncestral = IsAncestral, IsExpanded = IsExpanded,
-                ChosenSets = ChosenSets == null ? null : new List<string>(ChosenSets),
-            };
+            return Copied(null);
         }
 
-        /// <summary>The node of a child prim, or null where no opinions are below this one.</summary>
+        /// <summary>The tree of a child prim as far as it comes from the arcs of this one's.</summary>
         public ArcNode Extended(string name)
+        {
+            return Copied(name);
+        }
+
+        ArcNode Copied(string name)
+        {
+            ArcNode copy = CopiedTree(name, null);
+            CopyLinks();
+            copy.Size = Size;
+            copy.nextNumber = nextNumber;
+            return copy;
+        }
+
+        ArcNode CopiedTree(string name, ArcNode parent)
+        {
+            string path = name == null ? Path : UsdPaths.Child(Path, name);
+            twin = new ArcNode(Stack, path, name == null ? Level : Level + 1)
+            {
+                Arc = Arc, ToParent = ToParent, Depth = Depth, Sibling = Sibling, Parent = parent, Number = Number,
+                Specs = name == null ? Specs : SpecsOfChild(name),
+                IsAncestral = name == null ? IsAncestral : parent != null, SilentFrom = SilentFrom,
+                toRoot = toRoot, isSilent = isSilent, isElided = isElided,
+            };
+            if (children == null) { return twin; }
+            ArcNode made = twin;
+            made.children = new List<ArcNode>(children.Count);
+            foreach (ArcNode child in children) { made.children.Add(child.CopiedTree(name, made)); }
+            return made;
+        }
+
+        void CopyLinks()
+        {
+            twin.Origin = Origin == null ? null : Origin.twin;
+            twin.MovedTo = MovedTo == null ? null : MovedTo.twin;
+            foreach (ArcNode child in Children) { child.CopyLinks(); }
+        }
+
+        LayerSpec[] SpecsOfChild(string name)
         {
             int count = 0;
             foreach (LayerSpec spec in Specs)
             {
                 if (spec.Spec.Children.Find(name) != null) { count++; }
             }
-            var extended = new ArcNode(Stack, UsdPaths.Child(Path, name), Arc, Depth, From, To, KeepsOtherPaths,
-                Offset, Variant);
-            if (count > 0)
+            if (count == 0) { return NoSpecs; }
+            var specs = new LayerSpec[count];
+            count = 0;
+            foreach (LayerSpec spec in Specs)
             {
-                extended.Specs = new LayerSpec[count];
-                count = 0;
-                foreach (LayerSpec spec in Specs)
-                {
-                    PrimSpec child = spec.Spec.Children.Find(name);
-                    if (child != null) { extended.Specs[count++] = new LayerSpec(spec.Layer, child); }
-                }
+                PrimSpec child = spec.Spec.Children.Find(name);
+                if (child != null) { specs[count++] = new LayerSpec(spec.Layer, child); }
             }
-            extended.IsAncestral = Arc != Arc.Root;
-            if (Children != null)
-            {
-                foreach (ArcNode child in Children)
-                {
-                    ArcNode below = child.Extended(name);
-                    if (below == null) { continue; }
-                    below.Parent = extended;
-                    extended.Children = extended.Children ?? new List<ArcNode>(2);
-                    extended.Children.Add(below);
-                }
-            }
-            return extended.Specs.Length == 0 && extended.Children == null && Arc != Arc.Root ? null : extended;
+            return specs;
         }
 
-        /// <summary>All nodes that have opinions, strongest first; whatever is specialized comes last.</summary>
+        /// <summary>Numbers the nodes anew, the strongest first.</summary>
+        public void Renumber()
+        {
+            nextNumber = 0;
+            Renumber(this);
+        }
+
+        void Renumber(ArcNode root)
+        {
+            Number = root.nextNumber++;
+            foreach (ArcNode child in Children) { child.Renumber(root); }
+        }
+
+        /// <summary>The nodes whose opinions count, or that move prims, the strongest first.</summary>
         public void AddByStrength(List<ArcNode> list)
         {
-            List<ArcNode> specialized = null;
-            AddButSpecialized(list, ref specialized);
-            if (specialized == null) { return; }
-            // what a specialized prim specializes comes before other specialized prims
-            foreach (ArcNode one in specialized) { one.AddByStrength(list); }
+            if (!IsSilent && (Specs.Length > 0 || Stack.Relocates != null)) { list.Add(this); }
+            foreach (ArcNode child in Children) { child.AddByStrength(list); }
         }
 
-        void AddButSpecialized(List<ArcNode> list, ref List<ArcNode> specialized)
+        // ---- what says nothing and leads nowhere
+
+        /// <summary>Takes the nodes of a root out that no opinion can come by.</summary>
+        public void Prune()
         {
-            if (Specs.Length > 0) { list.Add(this); }
-            if (Children == null) { return; }
+            foreach (ArcNode child in ChildrenNow())
+            {
+                if (!child.IsMovedToRoot) { continue; }
+                var elided = new HashSet<KeyValuePair<LayerStack, string>>();
+                child.Elide(elided);
+                child.Origin.ElideAlike(elided);
+            }
             foreach (ArcNode child in Children)
             {
-                if (child.Arc != Arc.Specialize)
-                {
-                    child.AddButSpecialized(list, ref specialized);
-                    continue;
-                }
-                specialized = specialized ?? new List<ArcNode>(2);
-                specialized.Add(child);
+                if (!child.IsMovedToRoot) { child.Elide(null); }
             }
+            KeepOrigins();
+            Size = 1 + RemoveElided();
+        }
+
+        bool Elide(HashSet<KeyValuePair<LayerStack, string>> elided)
+        {
+            bool isEmpty = true;
+            foreach (ArcNode child in Children)
+            {
+                // what is specialized has its like below the root
+                isEmpty &= child.Arc == Arc.Specialize ? child.isElided : child.Elide(elided);
+            }
+            if (isElided) { return true; }
+            if (!isEmpty || HasOpinions || DepthBelowIntroduction == 0) { return false; }
+            isElided = true;
+            SilentFrom = UsdPaths.Elements(Path);
+            if (elided != null) { elided.Add(new KeyValuePair<LayerStack, string>(Stack, Path)); }
+            return true;
+        }
+
+        bool ElideAlike(HashSet<KeyValuePair<LayerStack, string>> elided)
+        {
+            bool isEmpty = true;
+            foreach (ArcNode child in Children) { isEmpty &= child.ElideAlike(elided); }
+            if (isEmpty && elided.Contains(new KeyValuePair<LayerStack, string>(Stack, Path)))
+            {
+                isElided = true;
+                SilentFrom = UsdPaths.Elements(Path);
+            }
+            return isElided;
+        }
+
+        bool isKept;
+
+        bool IsToBeRemoved
+        {
+            get { return isElided && !isKept; }
+        }
+
+        void KeepOrigins()
+        {
+            if (!isElided) { Keep(Origin); }
+            foreach (ArcNode child in Children) { child.KeepOrigins(); }
+        }
+
+        static void Keep(ArcNode node)
+        {
+            if (node == null || !node.isElided || node.isKept) { return; }
+            node.isKept = true;
+            Keep(node.Parent);
+            Keep(node.Origin);
+        }
+
+        int RemoveElided()
+        {
+            int count = 0;
+            if (MovedTo != null && MovedTo.IsToBeRemoved) { MovedTo = null; }
+            if (children == null) { return count; }
+            children.RemoveAll(delegate(ArcNode child) { return child.IsToBeRemoved; });
+            if (children.Count == 0) { children = null; }
+            foreach (ArcNode child in Children) { count += 1 + child.RemoveElided(); }
+            return count;
         }
     }
 }

@@ -1,12 +1,8 @@
-using System;
 using System.Collections.Generic;
 
 namespace Garage.Usd
 {
-    /// <summary>
-    /// Finds all opinions on a prim: local, inherited, of variants, references, payloads and specialized prims, in this
-    /// order of strength at each place.
-    /// </summary>
+    /// <summary>Finds all opinions on the prims of a stage, and keeps the work within what its layers can need.</summary>
     sealed class Composer
     {
         const int MostNodes = 4096;
@@ -14,13 +10,16 @@ namespace Garage.Usd
         const long LeastNodeBudget = 300000;
         const long NodesPerSpec = 400;
 
-        // looking at a node costs this much less than making it
-        const int NodesPassedPerCharge = 16;
+        /// <summary>Looking at a node costs this much less than making it.</summary>
+        public const int NodesPassedPerCharge = 16;
 
         readonly LayerLibrary library;
-        readonly Dictionary<string, ArcNode> templates = new Dictionary<string, ArcNode>();
-        readonly HashSet<string> inProgress = new HashSet<string>();
+        readonly Dictionary<string, ArcNode> targets = new Dictionary<string, ArcNode>();
         long nodesMade;
+        int nodesPassed, depth;
+
+        /// <summary>What is built depends on what it will be hung into, as that has a part of it already.</summary>
+        public bool IsPeculiar;
 
         public Composer(LayerLibrary library)
         {
@@ -32,7 +31,7 @@ namespace Garage.Usd
             get { return library; }
         }
 
-        UsdFormatException Error(ArcNode node, string reason)
+        static UsdFormatException Error(ArcNode node, string reason)
         {
             return new UsdFormatException(node.Stack.Root.Identifier, "<" + node.Path + ">", reason);
         }
@@ -40,238 +39,141 @@ namespace Garage.Usd
         /// <summary>The opinions on the root of a stack.</summary>
         public static ArcNode RootOf(LayerStack stack)
         {
-            ArcNode root = ArcNode.OfRoot(stack, "/", 0);
-            root.Specs = stack.SpecsAt("/");
-            root.IsExpanded = true;
-            return root;
+            return ArcNode.Of(stack, "/");
         }
 
         /// <summary>The opinions on a child, from those on its parent.</summary>
         public ArcNode Child(ArcNode parent, string name)
         {
             ArcNode root = parent.Extended(name);
-            Expand(root, true, null);
+            root.Renumber();
+            var tree = new ArcTree(this, root, null);
+            if (!tree.IsMovedAway())
+            {
+                tree.Grow();
+                WarnOfMissing(root);
+            }
+            root.Prune();
             Charge(root, root.Size);
             return root;
         }
 
-        // the opinions on a prim as an arc's target sees them: its variants are chosen by whoever refers to it
-        ArcNode Template(LayerStack stack, string path, bool withVariants, bool withAncestors, VariantChoices choices)
+        // ---- targets of arcs
+
+        /// <summary>
+        /// The tree of an arc's target, with what the prims above it lead to, but without variants, which are chosen
+        /// where the arc is; the target itself may say nothing.
+        /// </summary>
+        public ArcNode Target(PendingArc arc, bool speaks)
         {
-            string key = stack.Number + (withVariants ? "+" : withAncestors ? "-" : "=") + path
-                + (choices == null ? "" : choices.Key);
-            ArcNode made;
-            if (templates.TryGetValue(key, out made)) { return made; }
-            if (!inProgress.Add(key)) { return null; }
-            if (inProgress.Count > DeepestArc)
+            bool isUsual = speaks && !arc.SkipsKnown;
+            for (PendingArc around = arc; around != null; around = around.Around)
             {
-                throw new UsdFormatException(stack.Root.Identifier, "<" + path + ">",
+                isUsual &= around.Arc != Arc.Relocate;
+            }
+            if (!isUsual) { return Grown(arc, arc.Path, speaks); }
+            string key = arc.Stack.Number + arc.Path;
+            ArcNode known;
+            if (targets.TryGetValue(key, out known) && Fits(known, arc)) { return known.Copy(); }
+            bool wasPeculiar = IsPeculiar;
+            IsPeculiar = false;
+            ArcNode grown = Grown(arc, arc.Path, true);
+            if (!IsPeculiar && known == null) { targets.Add(key, grown.Copy()); }
+            IsPeculiar |= wasPeculiar;
+            return grown;
+        }
+
+        ArcNode Grown(PendingArc arc, string path, bool speaks)
+        {
+            if (UsdPaths.IsVariant(path))
+            {
+                ArcNode variant = ArcNode.Of(arc.Stack, path);
+                if (!speaks) { variant.IsSilent = true; }
+                new ArcTree(this, variant, arc).Grow();
+                return variant;
+            }
+            if (path == "/") { return RootOf(arc.Stack); }
+            if (++depth > DeepestArc)
+            {
+                throw new UsdFormatException(arc.Stack.Root.Identifier, "<" + path + ">",
                     "references lead more than " + DeepestArc + " deep");
             }
-            string parentPath = UsdPaths.Parent(path);
-            ArcNode root;
-            if (parentPath == "/" || parentPath == null || !withAncestors)
-            {
-                root = ArcNode.OfRoot(stack, path, UsdPaths.Depth(path));
-                root.Specs = stack.SpecsAt(path);
-            }
-            else
-            {
-                ArcNode parent = Template(stack, parentPath, true, true, choices);
-                if (parent == null)
-                {
-                    inProgress.Remove(key);
-                    return null;
-                }
-                root = parent.Extended(UsdPaths.Name(path));
-            }
-            Expand(root, withVariants, choices);
-            inProgress.Remove(key);
-            templates.Add(key, root);
+            ArcNode parent = Grown(arc, UsdPaths.Parent(path), true);
+            if (Instancing.IsInstance(parent)) { Instancing.SilenceOutside(parent); }
+            ArcNode root = parent.Extended(UsdPaths.Name(path));
+            Charge(root, root.Size);
+            if (!speaks) { root.IsSilent = true; }
+            var tree = new ArcTree(this, root, arc);
+            if (!tree.IsMovedAway()) { tree.Grow(); }
+            depth--;
             return root;
         }
 
-        void Expand(ArcNode root, bool withVariants, VariantChoices choices)
+        // whether none of it is in the trees that it is to be hung into
+        bool Fits(ArcNode known, PendingArc arc)
         {
-            var pending = new List<ArcNode>();
-            root.Size = Count(root);
-            AddUnexpanded(root, pending);
-            for (;;)
+            for (; arc != null; arc = arc.Around)
             {
-                for (int i = 0; i < pending.Count; i++) { ExpandNode(pending[i]); }
-                pending.Clear();
-                if (!withVariants) { return; }
-                ArcNode variant = NextVariant(root, choices);
-                if (variant == null) { return; }
-                pending.Add(variant);
-            }
-        }
-
-        static void AddUnexpanded(ArcNode node, List<ArcNode> list)
-        {
-            if (!node.IsExpanded && node.Specs.Length > 0) { list.Add(node); }
-            if (node.Children == null) { return; }
-            foreach (ArcNode child in node.Children) { AddUnexpanded(child, list); }
-        }
-
-        // ---- references, payloads, classes
-
-        void ExpandNode(ArcNode node)
-        {
-            node.IsExpanded = true;
-            bool references = false, payloads = false, inherits = false, specializes = false;
-            foreach (LayerSpec spec in node.Specs)
-            {
-                references |= spec.Spec.References != null;
-                payloads |= spec.Spec.Payloads != null;
-                inherits |= spec.Spec.Inherits != null;
-                specializes |= spec.Spec.Specializes != null;
-            }
-            if (references) { AddReferences(node, Arc.Reference); }
-            if (payloads) { AddReferences(node, Arc.Payload); }
-            if (inherits) { AddClasses(node, Arc.Inherit); }
-            if (specializes) { AddClasses(node, Arc.Specialize); }
-        }
-
-        sealed class Target : IEquatable<Target>
-        {
-            public LayerStack Stack;
-            public string Path;
-            public LayerOffset Offset;
-            public bool IsInternal;
-
-            public bool Equals(Target other)
-            {
-                return ReferenceEquals(Stack, other.Stack) && Path == other.Path && Offset.Offset == other.Offset.Offset
-                    && Offset.Scale == other.Offset.Scale;
-            }
-
-            public override bool Equals(object other)
-            {
-                var target = other as Target;
-                return target != null && Equals(target);
-            }
-
-            public override int GetHashCode()
-            {
-                return Stack.Number * 31 + Path.GetHashCode();
-            }
-        }
-
-        void AddReferences(ArcNode node, Arc arc)
-        {
-            var targets = new List<Target>();
-            for (int i = node.Specs.Length - 1; i >= 0; i--)
-            {
-                ListOp<ReferenceArc> op = arc == Arc.Reference ? node.Specs[i].Spec.References
-                    : node.Specs[i].Spec.Payloads;
-                if (op == null) { continue; }
-                int layer = node.Specs[i].Layer;
-                Converted(op, delegate(ReferenceArc one) { return Resolve(node, layer, one); }).ApplyTo(targets);
-            }
-            foreach (Target target in targets)
-            {
-                Attach(node, arc, target.Stack, target.Path, target.Offset, target.IsInternal, true);
-            }
-        }
-
-        Target Resolve(ArcNode node, int layerNumber, ReferenceArc arc)
-        {
-            Layer layer = node.Stack.Layers[layerNumber];
-            LayerStack stack = arc.Asset.Length == 0 ? node.Stack : library.Find(layer, arc.Asset);
-            if (stack == null) { return null; }
-            string path = arc.Path.Length > 0 ? arc.Path : stack.DefaultPrim;
-            if (path == null || path == "/")
-            {
-                library.Warn(layer.Identifier + ": <" + node.Path + "> refers to " + stack.Root.Identifier
-                    + ", which has no default prim");
-                return null;
-            }
-            LayerOffset offset = node.Stack.Offsets[layerNumber].After(library.Rated(arc.Offset, layer, stack.Root));
-            return new Target { Stack = stack, Path = path, Offset = offset, IsInternal = arc.Asset.Length == 0 };
-        }
-
-        static ListOp<Target> Converted(ListOp<ReferenceArc> op, Func<ReferenceArc, Target> convert)
-        {
-            return new ListOp<Target>
-            {
-                IsExplicit = op.IsExplicit, Explicit = Converted(op.Explicit, convert),
-                Added = Converted(op.Added, convert),
-                Prepended = Converted(op.Prepended, convert), Appended = Converted(op.Appended, convert),
-                Deleted = Converted(op.Deleted, convert), Ordered = Converted(op.Ordered, convert),
-            };
-        }
-
-        static List<Target> Converted(List<ReferenceArc> arcs, Func<ReferenceArc, Target> convert)
-        {
-            if (arcs == null) { return null; }
-            var targets = new List<Target>(arcs.Count);
-            foreach (ReferenceArc arc in arcs)
-            {
-                Target target = convert(arc);
-                if (target != null) { targets.Add(target); }
-            }
-            return targets;
-        }
-
-        void AddClasses(ArcNode node, Arc arc)
-        {
-            var paths = new List<string>();
-            for (int i = node.Specs.Length - 1; i >= 0; i--)
-            {
-                ListOp<string> op = arc == Arc.Inherit ? node.Specs[i].Spec.Inherits : node.Specs[i].Spec.Specializes;
-                if (op != null) { op.ApplyTo(paths); }
-            }
-            foreach (string path in paths)
-            {
-                ArcNode added = Attach(node, arc, node.Stack, path, LayerOffset.Identity, true, true);
-                if (added != null) { Imply(added); }
-            }
-        }
-
-        /// <summary>Adds a copy of all opinions on the target below a node; null where that is impossible.</summary>
-        ArcNode Attach(ArcNode node, Arc arc, LayerStack stack, string path, LayerOffset offset, bool keepsOtherPaths,
-            bool withAncestors)
-        {
-            if (Repeats(node, stack, path))
-            {
-                library.Warn("<" + node.Path + "> leads back to <" + path + ">");
-                return null;
-            }
-            bool isClass = arc == Arc.Inherit || arc == Arc.Specialize;
-            ArcNode template = Template(stack, path, false, withAncestors, isClass && withAncestors
-                ? VariantChoices.Of(node, path) : null);
-            if (template == null)
-            {
-                library.Warn("<" + node.Path + "> leads in a circle by <" + path + ">");
-                return null;
-            }
-            if (template.Specs.Length == 0 && template.Children == null && !isClass)
-            {
-                library.Warn(node.Stack.Root.Identifier + ": <" + node.Path + "> refers to <" + path + "> of "
-                    + stack.Root.Identifier + ", which does not exist");
-            }
-            var root = new ArcNode(stack, path, arc, UsdPaths.Depth(node.Path), path, node.Path, keepsOtherPaths,
-                offset, null)
-            {
-                Specs = template.Specs, IsExpanded = template.IsExpanded,
-                ChosenSets = template.ChosenSets == null ? null : new List<string>(template.ChosenSets),
-            };
-            node.Add(root);
-            CountIn(node, 1);
-            CopyChildren(node, template, root);
-            if (!isClass && root.Children != null)
-            {
-                foreach (ArcNode child in root.Children.ToArray())
+                for (ArcNode above = arc.Parent; above != null; above = above.Parent)
                 {
-                    if (child.IsClass) { Imply(child); }
+                    if (Crosses(known, above)) { return false; }
                 }
+                if (Shares(known, arc.Parent.Root)) { return false; }
             }
-            return root;
+            return true;
         }
 
-        // work that hostile references could multiply without end
-        void Charge(ArcNode node, int count)
+        bool Crosses(ArcNode node, ArcNode above)
+        {
+            Pass();
+            if (ReferenceEquals(node.Stack, above.Stack) && (UsdPaths.HasPrefix(node.Path, above.Path)
+                || UsdPaths.HasPrefix(above.Path, node.Path)))
+            {
+                return true;
+            }
+            foreach (ArcNode child in node.Children)
+            {
+                if (Crosses(child, above)) { return true; }
+            }
+            return false;
+        }
+
+        bool Shares(ArcNode node, ArcNode root)
+        {
+            Pass();
+            if (ArcTree.Has(root, node.Stack, node.Path)) { return true; }
+            foreach (ArcNode child in node.Children)
+            {
+                if (Shares(child, root)) { return true; }
+            }
+            return false;
+        }
+
+        // ---- what is missing, and what is too much
+
+        void WarnOfMissing(ArcNode node)
+        {
+            bool isArc = node.Arc == Arc.Reference || node.Arc == Arc.Payload;
+            if (isArc && !node.IsAncestral && !HasSpecs(node))
+            {
+                library.Warn(node.Parent.Stack.Root.Identifier + ": <" + UsdPaths.WithoutVariants(node.Parent.Path)
+                    + "> refers to <" + node.Path + "> of " + node.Stack.Root.Identifier + ", which does not exist");
+            }
+            foreach (ArcNode child in node.Children) { WarnOfMissing(child); }
+        }
+
+        static bool HasSpecs(ArcNode node)
+        {
+            if (node.Specs.Length > 0) { return true; }
+            foreach (ArcNode child in node.Children)
+            {
+                if (HasSpecs(child)) { return true; }
+            }
+            return false;
+        }
+
+        /// <summary>Counts work that hostile references could multiply without end.</summary>
+        public void Charge(ArcNode node, int count)
         {
             nodesMade += count;
             if (nodesMade > LeastNodeBudget + NodesPerSpec * library.SpecCount)
@@ -280,179 +182,18 @@ namespace Garage.Usd
             }
         }
 
-        void CountIn(ArcNode place, int count)
+        /// <summary>Counts a node that was looked at.</summary>
+        public void Pass()
         {
-            ArcNode root = place;
-            while (root.Parent != null) { root = root.Parent; }
-            root.Size += count;
-            if (root.Size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
-            Charge(place, count);
+            if (++nodesPassed < NodesPassedPerCharge) { return; }
+            nodesPassed = 0;
+            nodesMade++;
         }
 
-        static int Count(ArcNode node)
+        /// <summary>Refuses trees that are larger than any prim can need.</summary>
+        public void CheckSize(ArcNode place, int size)
         {
-            int count = 1;
-            if (node.Children != null)
-            {
-                foreach (ArcNode child in node.Children) { count += Count(child); }
-            }
-            return count;
-        }
-
-        void CopyChildren(ArcNode place, ArcNode from, ArcNode to)
-        {
-            if (from.Children == null) { return; }
-            foreach (ArcNode child in from.Children)
-            {
-                if (Repeats(place, child.Stack, child.Path) && child.Arc != Arc.Variant)
-                {
-                    library.Warn("<" + place.Path + "> leads back to <" + child.Path + ">");
-                    continue;
-                }
-                CountIn(place, 1);
-                ArcNode copy = child.Copy(child.Depth);
-                copy.IsAncestral = false;
-                copy.Parent = to;
-                to.Children = to.Children ?? new List<ArcNode>(from.Children.Count);
-                to.Children.Add(copy);
-                CopyChildren(place, child, copy);
-            }
-        }
-
-        // whether a place is that of a node or of one above it, or around or within it
-        static bool Repeats(ArcNode node, LayerStack stack, string path)
-        {
-            for (; node != null; node = node.Parent)
-            {
-                if (ReferenceEquals(node.Stack, stack) && (UsdPaths.HasPrefix(node.Path, path)
-                    || UsdPaths.HasPrefix(path, node.Path)))
-                {
-                    return true;
-                }
-            }
-            return false;
-        }
-
-        // ---- implied classes
-
-        /// <summary>
-        /// What inherits a class in a referenced layer inherits the class of the same name in the layers that refer to
-        /// it too.
-        /// </summary>
-        void Imply(ArcNode added)
-        {
-            // a class of a class goes with the class that it belongs to
-            var chain = new List<ArcNode> { added };
-            while (chain[0].Parent.IsClass) { chain.Insert(0, chain[0].Parent); }
-            ArcNode place = chain[0].Parent;
-            var paths = new List<string>();
-            foreach (ArcNode one in chain) { paths.Add(one.Path); }
-            while (place.Parent != null)
-            {
-                ArcNode above = place.Parent;
-                bool moved = !ReferenceEquals(above.Stack, place.Stack);
-                for (int i = 0; i < paths.Count; i++)
-                {
-                    string path = place.PathInParent(paths[i]) ?? paths[i];
-                    moved |= path != paths[i];
-                    paths[i] = path;
-                }
-                place = above;
-                if (!moved) { continue; }
-                ImplyBelow(place, chain, paths);
-                return;
-            }
-        }
-
-        void ImplyBelow(ArcNode place, List<ArcNode> chain, List<string> paths)
-        {
-            ArcNode at = place;
-            for (int i = 0; i < chain.Count; i++)
-            {
-                ArcNode found = null;
-                if (at.Children != null)
-                {
-                    foreach (ArcNode child in at.Children)
-                    {
-                        if (child.Arc == chain[i].Arc && child.Path == paths[i]
-                            && ReferenceEquals(child.Stack, at.Stack))
-                        {
-                            found = child;
-                        }
-                    }
-                }
-                if (found == null)
-                {
-                    if (Repeats(at, at.Stack, paths[i])) { return; }
-                    // what the class inherits from its ancestors comes by the class that this one is implied by
-                    found = Attach(at, chain[i].Arc, at.Stack, paths[i], LayerOffset.Identity, true, false);
-                    if (found == null) { return; }
-                    Imply(found);
-                }
-                at = found;
-            }
-            foreach (ArcNode deeper in (chain[chain.Count - 1].Children ?? new List<ArcNode>()).ToArray())
-            {
-                if (deeper.IsClass) { Imply(deeper); }
-            }
-        }
-
-        // ---- variants
-
-        ArcNode NextVariant(ArcNode root, VariantChoices choices)
-        {
-            var order = new List<ArcNode>();
-            root.AddByStrength(order);
-            Charge(root, 1 + order.Count / NodesPassedPerCharge);
-            foreach (ArcNode node in order)
-            {
-                foreach (string set in node.VariantSets)
-                {
-                    if (node.ChosenSets != null && node.ChosenSets.Contains(set)) { continue; }
-                    string selection = (choices == null ? null : choices.Find(root.Path, set))
-                        ?? SelectionOf(order, set);
-                    if (selection == null) { continue; }
-                    node.ChosenSets = node.ChosenSets ?? new List<string>(1);
-                    node.ChosenSets.Add(set);
-                    ArcNode variant = MakeVariant(node, set, selection);
-                    if (variant != null) { return variant; }
-                }
-            }
-            return null;
-        }
-
-        static string SelectionOf(List<ArcNode> order, string set)
-        {
-            foreach (ArcNode one in order)
-            {
-                foreach (LayerSpec spec in one.Specs)
-                {
-                    string selection;
-                    Dictionary<string, string> selections = spec.Spec.VariantSelections;
-                    if (selections != null && selections.TryGetValue(set, out selection)) { return selection; }
-                }
-            }
-            return null;
-        }
-
-        ArcNode MakeVariant(ArcNode node, string set, string selection)
-        {
-            var specs = new List<LayerSpec>();
-            foreach (LayerSpec spec in node.Specs)
-            {
-                VariantSetSpec sets = spec.Spec.FindVariantSet(set);
-                PrimSpec found = sets == null ? null : sets.Find(selection);
-                if (found != null) { specs.Add(new LayerSpec(spec.Layer, found)); }
-            }
-            if (specs.Count == 0) { return null; }
-            var variant = new ArcNode(node.Stack, node.Path, Arc.Variant, UsdPaths.Depth(node.Path), null, null, true,
-                LayerOffset.Identity, set + "=" + selection)
-            {
-                Specs = specs.ToArray(),
-            };
-            node.Add(variant);
-            CountIn(node, 1);
-            return variant;
+            if (size > MostNodes) { throw Error(place, "references lead to more places than a prim can need"); }
         }
     }
 }

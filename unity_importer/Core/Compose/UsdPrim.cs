@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Text;
 
 namespace Garage.Usd
 {
@@ -23,20 +22,16 @@ namespace Garage.Usd
 
         public LayerOffset Offset
         {
-            get
-            {
-                LayerOffset offset = Node.Stack.Offsets[Spec.Layer];
-                for (ArcNode node = Node; node != null; node = node.Parent) { offset = node.Offset.After(offset); }
-                return offset;
-            }
+            get { return Node.ToRoot.Offset.After(Node.Stack.Offsets[Spec.Layer]); }
         }
 
         /// <summary>A path of the layer as the stage means it; null where it means nothing there.</summary>
         public string PathInRoot(string path)
         {
+            // arc by arc, as what one of them hides is not in the map of all
             for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent)
             {
-                path = node.PathInParent(path);
+                path = node.ToParent.ToTarget(path);
             }
             return path;
         }
@@ -148,18 +143,6 @@ namespace Garage.Usd
             }
         }
 
-        bool WantsInstancing
-        {
-            get
-            {
-                foreach (Opinion opinion in opinions)
-                {
-                    if (opinion.Spec.Spec.IsInstanceable != null) { return opinion.Spec.Spec.IsInstanceable.Value; }
-                }
-                return false;
-            }
-        }
-
         /// <summary>Whether this is a class or below one: something to refer to, not to show.</summary>
         public bool IsAbstract
         {
@@ -264,31 +247,10 @@ namespace Garage.Usd
         /// <summary>Finds whether this is an instance: known as soon as its parent's children are.</summary>
         void FindPrototype()
         {
-            if (Parent == null || !WantsInstancing) { return; }
-            var key = new StringBuilder();
-            bool has = false;
-            AddKey(index, LayerOffset.Identity, key, ref has);
-            if (!has) { return; }
-            Prototype = Stage.PrototypeOf(key.ToString(), this);
-        }
-
-        static void AddKey(ArcNode node, LayerOffset above, StringBuilder key, ref bool has)
-        {
-            LayerOffset offset = above.After(node.Offset);
-            if (node.Arc != Arc.Root && !node.IsAncestral)
+            if (Parent != null && Instancing.IsInstance(index))
             {
-                has |= node.Specs.Length > 0;
-                key.Append((int)node.Arc).Append(' ').Append(node.Stack.Number).Append(' ');
-                // a variant of the instance itself is another thing wherever the instance is
-                key.Append(node.Path).Append(' ').Append(node.Variant).Append(' ');
-                key.Append(offset.Offset).Append(' ').Append(offset.Scale);
+                Prototype = Stage.PrototypeOf(Instancing.Key(index), this);
             }
-            key.Append('(');
-            if (node.Children != null)
-            {
-                foreach (ArcNode child in node.Children) { AddKey(child, offset, key, ref has); }
-            }
-            key.Append(')');
         }
 
         /// <summary>
@@ -296,21 +258,8 @@ namespace Garage.Usd
         /// </summary>
         internal ArcNode SharedPart()
         {
-            return SharedPart(index);
-        }
-
-        static ArcNode SharedPart(ArcNode node)
-        {
-            ArcNode shared = node.Copy(node.Depth);
-            if (node.Arc == Arc.Root || node.IsAncestral) { shared.Specs = new LayerSpec[0]; }
-            if (node.Children == null) { return shared; }
-            shared.Children = new List<ArcNode>(node.Children.Count);
-            foreach (ArcNode child in node.Children)
-            {
-                ArcNode copy = SharedPart(child);
-                copy.Parent = shared;
-                shared.Children.Add(copy);
-            }
+            ArcNode shared = index.Copy();
+            Instancing.SilenceOutside(shared);
             return shared;
         }
 
@@ -318,22 +267,7 @@ namespace Garage.Usd
         {
             children = NoPrims;
             if (Prototype != null || index == null) { return; }
-            var names = new List<string>();
-            HashSet<string> seen = null;
-            for (int i = opinions.Length - 1; i >= 0; i--)
-            {
-                PrimSpec spec = opinions[i].Spec.Spec;
-                if (spec.Children.Count > 0)
-                {
-                    seen = seen ?? new HashSet<string>();
-                    for (int k = 0; k < spec.Children.Count; k++)
-                    {
-                        string name = spec.Children[k].Name;
-                        if (seen.Add(name)) { names.Add(name); }
-                    }
-                }
-                if (spec.ChildOrder != null) { ListOp<string>.Reorder(names, spec.ChildOrder); }
-            }
+            IList<string> names = new ChildNames(index).Names;
             if (names.Count > 0)
             {
                 int depth = 0;

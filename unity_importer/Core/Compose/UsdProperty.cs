@@ -118,32 +118,13 @@ namespace Garage.Usd
                 var targets = new List<string>();
                 for (int i = specs.Length - 1; i >= 0; i--)
                 {
-                    if (specs[i].Targets != null) { Mapped(specs[i].Targets, places[i]).ApplyTo(targets); }
+                    if (specs[i].Targets == null) { continue; }
+                    Opinion place = places[i];
+                    specs[i].Targets.Converted(delegate(string path) { return Prim.InPrototype(place.PathInRoot(path)); })
+                        .ApplyTo(targets);
                 }
                 return targets;
             }
-        }
-
-        ListOp<string> Mapped(ListOp<string> op, Opinion place)
-        {
-            return new ListOp<string>
-            {
-                IsExplicit = op.IsExplicit, Explicit = Mapped(op.Explicit, place), Added = Mapped(op.Added, place),
-                Prepended = Mapped(op.Prepended, place), Appended = Mapped(op.Appended, place),
-                Deleted = Mapped(op.Deleted, place), Ordered = Mapped(op.Ordered, place),
-            };
-        }
-
-        List<string> Mapped(List<string> paths, Opinion place)
-        {
-            if (paths == null) { return null; }
-            var mapped = new List<string>(paths.Count);
-            foreach (string path in paths)
-            {
-                string target = Prim.InPrototype(place.PathInRoot(path));
-                if (target != null) { mapped.Add(target); }
-            }
-            return mapped;
         }
 
         /// <summary>A field such as "interpolation" or "colorSpace" as text, or null.</summary>

@@ -26,7 +26,7 @@ namespace Garage.Usd
             var library = new LayerLibrary(resolver);
             library.Add(root);
             Composer = new Composer(library);
-            Root = new UsdPrim(this, null, "/", Composer.RootOf(library.StackOf(root.Identifier)), null, null);
+            Root = new UsdPrim(this, null, "/", Composer.RootOf(library.StackOf(root.Identifier, null)), null, null);
         }
 
         /// <summary>

@@ -35,6 +35,12 @@ namespace Garage.Usd
         {
             return new LayerOffset(Scale * inner.Offset + Offset, Scale * inner.Scale);
         }
+
+        /// <summary>From the outer layer to the inner.</summary>
+        public LayerOffset Inverse()
+        {
+            return new LayerOffset(-Offset / Scale, 1 / Scale);
+        }
     }
 
     /// <summary>
@@ -110,6 +116,9 @@ namespace Garage.Usd
         /// <summary>The strongest first.</summary>
         public readonly List<SubLayer> SubLayers = new List<SubLayer>();
 
+        /// <summary>Paths of prims with the paths at which they are to be instead, empty for nowhere.</summary>
+        public readonly List<KeyValuePair<string, string>> Relocates = new List<KeyValuePair<string, string>>();
+
         /// <summary>What the file has and this does not, each with its name; in the order of the file.</summary>
         public IList<string> Skipped
         {
@@ -136,11 +145,6 @@ namespace Garage.Usd
         internal void SkipEdits()
         {
             Skip("edits of arrays are left out");
-        }
-
-        internal void SkipRelocates()
-        {
-            Skip("relocates are left out: prims stay where they were");
         }
 
         /// <summary>Specs of prims, variants included.</summary>
@@ -176,19 +180,34 @@ namespace Garage.Usd
             }
         }
 
-        /// <summary>The prim spec at an absolute prim path without variants, or null.</summary>
+        /// <summary>The prim spec at an absolute path of a prim, or of a variant "/A{set=variant}"; or null.</summary>
         public PrimSpec Find(string path)
         {
             PrimSpec spec = Root;
-            int start = 1;
-            while (spec != null && start < path.Length)
+            for (int start = 1; spec != null && start < path.Length;)
             {
-                int end = path.IndexOf('/', start);
-                if (end < 0) { end = path.Length; }
-                spec = spec.Children.Find(path.Substring(start, end - start));
-                start = end + 1;
+                int end;
+                if (path[start] == '{')
+                {
+                    int equals = path.IndexOf('=', start);
+                    end = path.IndexOf('}', equals);
+                    VariantSetSpec set = spec.FindVariantSet(path.Substring(start + 1, equals - start - 1));
+                    spec = set == null ? null : set.Find(path.Substring(equals + 1, end - equals - 1));
+                    start = end + 1;
+                }
+                else
+                {
+                    end = path.IndexOfAny(Ends, start);
+                    if (end < 0) { end = path.Length; }
+                    spec = spec.Children.Find(path.Substring(start, end - start));
+                    start = end < path.Length && path[end] == '{' ? end : end + 1;
+                    continue;
+                }
+                if (start < path.Length && path[start] == '/') { start++; }
             }
             return spec;
         }
+
+        static readonly char[] Ends = { '/', '{' };
     }
 }

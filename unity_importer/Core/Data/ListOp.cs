@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace Garage.Usd
@@ -21,6 +22,29 @@ namespace Garage.Usd
         public ListOp<T> Copy()
         {
             return (ListOp<T>)MemberwiseClone();
+        }
+
+        /// <summary>The edit of other items; those that become null are left out.</summary>
+        public ListOp<U> Converted<U>(Func<T, U> convert) where U : class
+        {
+            return new ListOp<U>
+            {
+                IsExplicit = IsExplicit, Explicit = Converted(Explicit, convert), Added = Converted(Added, convert),
+                Prepended = Converted(Prepended, convert), Appended = Converted(Appended, convert),
+                Deleted = Converted(Deleted, convert), Ordered = Converted(Ordered, convert),
+            };
+        }
+
+        static List<U> Converted<U>(List<T> items, Func<T, U> convert) where U : class
+        {
+            if (items == null) { return null; }
+            var converted = new List<U>(items.Count);
+            foreach (T item in items)
+            {
+                U one = convert(item);
+                if (one != null) { converted.Add(one); }
+            }
+            return converted;
         }
 
         /// <summary>Applies the edit to what weaker opinions made of the list.</summary>

@@ -47,32 +47,95 @@ namespace Garage.Usd
         {
             if (prefix == "/") { return true; }
             if (!path.StartsWith(prefix, System.StringComparison.Ordinal)) { return false; }
-            return path.Length == prefix.Length || path[prefix.Length] == '/' || path[prefix.Length] == '.';
+            if (path.Length == prefix.Length || prefix[prefix.Length - 1] == '}') { return true; }
+            char next = path[prefix.Length];
+            return next == '/' || next == '.' || next == '{';
+        }
+
+        /// <summary>A path below a prefix as the path below another one.</summary>
+        public static string Moved(string path, string prefix, string to)
+        {
+            if (prefix == to) { return path; }
+            string rest = prefix == "/" ? (path == "/" ? "" : path) : path.Substring(prefix.Length);
+            if (rest.Length == 0) { return to; }
+            bool isBare = rest[0] != '/' && rest[0] != '.' && rest[0] != '{';
+            if (to == "/") { return isBare ? "/" + rest : rest; }
+            bool intoVariant = to[to.Length - 1] == '}';
+            return isBare ? to + (intoVariant ? "" : "/") + rest
+                : to + (intoVariant && rest[0] == '/' ? rest.Substring(1) : rest);
         }
 
         /// <summary>The path of a child.</summary>
         public static string Child(string parent, string name)
         {
-            return parent == "/" ? "/" + name : parent + "/" + name;
+            return parent == "/" || parent[parent.Length - 1] == '}' ? parent + name : parent + "/" + name;
         }
 
-        /// <summary>The prim above; null above the root.</summary>
+        /// <summary>The prim above, or the prim with a variant; null above the root.</summary>
         public static string Parent(string path)
         {
             if (path == "/") { return null; }
-            int slash = path.LastIndexOf('/');
-            return slash <= 0 ? "/" : path.Substring(0, slash);
+            if (path[path.Length - 1] == '}') { return path.Substring(0, path.LastIndexOf('{')); }
+            int end = path.LastIndexOfAny(Ends);
+            return end <= 0 ? "/" : path.Substring(0, path[end] == '}' ? end + 1 : end);
         }
 
-        /// <summary>How many prims a path of a prim names: 2 for "/A/B".</summary>
+        static readonly char[] Ends = { '/', '}' };
+
+        /// <summary>How many prims a path of a prim names: 2 for "/A/B" and for "/A{set=variant}B".</summary>
         public static int Depth(string path)
         {
+            if (path == "/") { return 0; }
             int depth = 0;
-            foreach (char letter in path)
+            for (int i = 0; i < path.Length; i++)
             {
-                if (letter == '/') { depth++; }
+                bool isAfterVariant = path[i] == '}' && i + 1 < path.Length && path[i + 1] != '{';
+                if (path[i] == '/' || isAfterVariant) { depth++; }
             }
             return depth;
+        }
+
+        /// <summary>How many prims and variants a path of a prim names: 3 for "/A{set=variant}B".</summary>
+        public static int Elements(string path)
+        {
+            int elements = Depth(path);
+            foreach (char letter in path)
+            {
+                if (letter == '{') { elements++; }
+            }
+            return elements;
+        }
+
+        /// <summary>Whether a path leads through a variant.</summary>
+        public static bool HasVariant(string path)
+        {
+            return path.IndexOf('{') >= 0;
+        }
+
+        /// <summary>Whether a path ends in a variant.</summary>
+        public static bool IsVariant(string path)
+        {
+            return path[path.Length - 1] == '}';
+        }
+
+        /// <summary>The path of a variant of a set.</summary>
+        public static string Variant(string prim, string set, string variant)
+        {
+            return prim + "{" + set + "=" + variant + "}";
+        }
+
+        /// <summary>The path in the namespace of the stage, which has no variants.</summary>
+        public static string WithoutVariants(string path)
+        {
+            int open;
+            while ((open = path.IndexOf('{')) >= 0)
+            {
+                int close = path.IndexOf('}', open);
+                string rest = path.Substring(close + 1);
+                bool isBare = rest.Length > 0 && rest[0] != '/' && rest[0] != '.' && rest[0] != '{';
+                path = path.Substring(0, open) + (isBare ? "/" : "") + rest;
+            }
+            return path;
         }
 
         /// <summary>The path without its property.</summary>
@@ -85,7 +148,7 @@ namespace Garage.Usd
         /// <summary>The last element of a path.</summary>
         public static string Name(string path)
         {
-            return path.Substring(path.LastIndexOf('/') + 1);
+            return path.Substring(path.LastIndexOfAny(Ends) + 1);
         }
     }
 }

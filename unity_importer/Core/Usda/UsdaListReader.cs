@@ -137,7 +137,8 @@ namespace Garage.Usd
             return op;
         }
 
-        string Absolute(string path, bool mayBeEmpty)
+        /// <summary>A path as seen from the prim that is read; an empty one may stay so.</summary>
+        protected string Absolute(string path, bool mayBeEmpty)
         {
             if (path.Length == 0)
             {

@@ -425,17 +425,28 @@ namespace Garage.Usd
                 case "active": prim.IsActive = Truth(); break;
                 case "variants": ReadVariantSelections(prim); break;
                 case "subLayers": ReadSubLayers(prim); break;
-                case "relocates": PassRelocates(); break;
+                case "relocates": ReadRelocates(prim); break;
                 default: prim.AddField(key == "doc" ? "documentation" : key, ReadAnything(0)); break;
             }
         }
 
-        void PassRelocates()
+        // those of a prim, an older form, mean nothing to a stage
+        void ReadRelocates(PrimSpec prim)
         {
+            bool isOfLayer = ReferenceEquals(prim, layer.Root);
             Expect('{');
-            if (Take('}')) { return; }
-            SkipRest();
-            layer.SkipRelocates();
+            while (!Take('}'))
+            {
+                string source = PathText();
+                Expect(':');
+                string target = PathText();
+                if (isOfLayer)
+                {
+                    layer.Relocates.Add(new KeyValuePair<string, string>(Absolute(source, false),
+                        Absolute(target, true)));
+                }
+                if (!Take(',') && Next() != '}') { throw Unexpected("',' or '}'"); }
+            }
         }
 
         void ReadSubLayers(PrimSpec prim)

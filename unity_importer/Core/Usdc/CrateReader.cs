@@ -26,7 +26,7 @@ namespace Garage.Usd
             { "custom", Field.Custom }, { "variability", Field.Variability }, { "targetPaths", Field.Targets },
             { "connectionPaths", Field.Targets }, { "subLayers", Field.SubLayers },
             { "subLayerOffsets", Field.SubLayerOffsets }, { "layerRelocates", Field.Relocates },
-            { "relocates", Field.Relocates }, { "properties", Field.Ignored }, { "variantSetChildren", Field.Ignored },
+            { "relocates", Field.Ignored }, { "properties", Field.Ignored }, { "variantSetChildren", Field.Ignored },
             { "variantChildren", Field.Ignored }, { "targetChildren", Field.Ignored },
             { "connectionChildren", Field.Ignored }, { "spline", Field.Spline },
         };
@@ -397,7 +397,10 @@ namespace Garage.Usd
                         }
                         break;
                     case Field.SubLayerOffsets: layerOffsets = ValueOf<LayerOffset[]>(field); break;
-                    case Field.Relocates: FieldValue(field); break;
+                    case Field.Relocates:
+                        layer.Relocates.AddRange(ValueOf<List<KeyValuePair<string, string>>>(field)
+                            ?? new List<KeyValuePair<string, string>>());
+                        break;
                     case Field.Other: prim.AddField(fieldNames[field], FieldValue(field)); break;
                 }
             }

@@ -113,9 +113,7 @@ namespace Garage.Usd
                 case 52: case 53:
                     long at = payload + bytes.Long(payload);
                     return Read((ulong)bytes.Long(at), at, depth + 1);
-                case 58:
-                    if (bytes.Count(payload, 8) > 0) { layer.SkipRelocates(); }
-                    return null;
+                case 58: return RelocatePairs(payload);
                 default: return null;
             }
         }
@@ -484,6 +482,19 @@ namespace Garage.Usd
                 offsets[i] = new LayerOffset(bytes.Double(place + 8 + 16L * i), bytes.Double(place + 16 + 16L * i));
             }
             return offsets;
+        }
+
+        List<KeyValuePair<string, string>> RelocatePairs(long place)
+        {
+            int count = bytes.Count(place, 8);
+            bytes.Charge(place, 100L * count);
+            var pairs = new List<KeyValuePair<string, string>>(count);
+            for (int i = 0; i < count; i++)
+            {
+                long at = place + 8 + 8L * i;
+                pairs.Add(new KeyValuePair<string, string>(path(bytes.Int(at)), path(bytes.Int(at + 4))));
+            }
+            return pairs;
         }
 
         Dictionary<string, string> Selections(long place)
