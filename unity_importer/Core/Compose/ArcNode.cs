@@ -205,7 +205,7 @@ namespace Garage.Usd
             {
                 for (ArcNode node = this; node.Parent != null; node = node.Parent)
                 {
-                    if (node.IsClass && node.DepthBelowIntroduction == 0) { return true; }
+                    if (node.Arc == Arc.Inherit && !node.IsAncestral) { return true; }
                 }
                 return false;
             }

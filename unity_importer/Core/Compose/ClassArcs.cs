@@ -117,6 +117,9 @@ namespace Garage.Usd
                     continue;
                 }
                 PathMap map = ImpliedMap(transfer, child.ToParent);
+                bool isMovedAnyway = IsOfStage && to.Parent == null && child.Arc == Arc.Specialize
+                    && child.IsAt(to.Stack, ClassPath(to.Path, map));
+                if (isMovedAnyway) { continue; }
                 ArcNode implied = null;
                 foreach (ArcNode one in to.Children)
                 {
@@ -229,13 +232,19 @@ namespace Garage.Usd
                 node.Silence(false);
                 return null;
             }
-            if (ReferenceEquals(node.MovedTo, moved)) { return moved; }
+            if (ReferenceEquals(node.MovedTo, moved))
+            {
+                node.IsSilent = true;
+                return moved;
+            }
+            // one that says nothing is no reason for what came elsewhere to say nothing
+            if (node.IsSilent) { return moved; }
             int silentFrom = moved.SilentFrom;
-            if (moved.IsSilent && !node.IsSilent) { AddTask(Step.FindVariants, moved); }
-            moved.IsSilent = node.IsSilent;
+            if (moved.IsSilent) { AddTask(Step.FindVariants, moved); }
+            moved.IsSilent = false;
+            moved.MovedTo = null;
             node.IsSilent = true;
             node.MovedTo = moved;
-            moved.MovedTo = null;
             if (silentFrom != 0) { node.SilentFrom = silentFrom; }
             return moved;
         }

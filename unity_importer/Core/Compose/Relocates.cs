@@ -87,6 +87,13 @@ namespace Garage.Usd
             foreach (string source in wrong) { Targets.Remove(source); }
         }
 
+        /// <summary>Whether a path is that of a prim that is moved, or below one: nothing is there any longer.</summary>
+        public bool Moves(string path)
+        {
+            path = UsdPaths.Prim(path);
+            return Targets.ContainsKey(path) || HasMovedAncestor(path, 0);
+        }
+
         bool HasMovedAncestor(string path, int highest)
         {
             for (path = UsdPaths.Parent(path); UsdPaths.Depth(path) > highest; path = UsdPaths.Parent(path))

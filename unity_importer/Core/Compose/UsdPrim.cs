@@ -28,12 +28,10 @@ namespace Garage.Usd
         /// <summary>A path of the layer as the stage means it; null where it means nothing there.</summary>
         public string PathInRoot(string path)
         {
-            // arc by arc, as what one of them hides is not in the map of all
-            for (ArcNode node = Node; node.Parent != null && path != null; node = node.Parent)
-            {
-                path = node.ToParent.ToTarget(path);
-            }
-            return path;
+            path = Node.ToRoot.ToTarget(path);
+            Relocates relocates = Node.Root.Stack.Relocates;
+            bool isFromElsewhere = !ReferenceEquals(Node.Stack, Node.Root.Stack);
+            return path != null && relocates != null && isFromElsewhere && relocates.Moves(path) ? null : path;
         }
     }
 

@@ -49,9 +49,11 @@ namespace Garage.Usd
                 tasks.Add(task);
                 return;
             }
-            string variant = UsdPaths.Variant(task.Path, task.Set, selection);
-            ArcNode added = Follow(Arc.Variant, node, node, node.Stack, UsdPaths.Moved(node.Path, task.Path, variant),
-                PathMap.Identity, task.SetNumber, UsdPaths.Depth(task.Path), new Terms
+            string variant = UsdPaths.Moved(node.Path, task.Path, UsdPaths.Variant(task.Path, task.Set, selection));
+            // a node that was moved may have been given it before
+            if (Known(Arc.Variant, node, node.Stack, variant, PathMap.Identity, 0, false) != null) { return; }
+            ArcNode added = Follow(Arc.Variant, node, node, node.Stack, variant, PathMap.Identity,
+                task.SetNumber, UsdPaths.Depth(task.Path), new Terms
                 {
                     HasAncestors = isAncestral, SkipsKnown = isAncestral && IsOfClass(node),
                 });

@@ -58,19 +58,17 @@ namespace Garage.Usd
             bool many = Take('[');
             while (!(many && Take(']')))
             {
-                string asset = Next() == '@' ? AssetPath() : "";
+                bool hasAsset = Next() == '@';
+                string asset = hasAsset ? AssetPath() : "";
                 int stop = at;
                 string path = "";
-                if (Next() == '<')
+                bool hasPath = Next() == '<';
+                if (hasPath)
                 {
                     path = Absolute(PathText(), true);
                     stop = at;
                 }
-                if (asset.Length == 0 && path.Length == 0 && Next() != '(' && Next() != ',' && Next() != ']'
-                    && text[at - 1] != '@' && text[at - 1] != '>')
-                {
-                    throw Unexpected("an asset or a path");
-                }
+                if (!hasAsset && !hasPath) { throw Unexpected("an asset or a path"); }
                 bool hasOffset = Take('(');
                 arcs.Add(new ReferenceArc(asset, path, hasOffset ? ReadOffset() : LayerOffset.Identity));
                 if (!many)

@@ -78,6 +78,7 @@ namespace Garage.Usd
         PrimSpec ReadPrim(PrimSpec parent, Specifier specifier)
         {
             string typeName = AtQuote() ? "" : Name();
+            while (Take('.')) { typeName += "." + Name(); }
             string name = QuotedString(false);
             if (name.Length == 0 || name.IndexOf('/') >= 0 || name.IndexOf('.') >= 0)
             {
@@ -238,11 +239,7 @@ namespace Garage.Usd
             }
             bool isRelationship = word == "rel";
             string typeName = word;
-            if (!isRelationship && text[at] == '[' && text[at + 1] == ']')
-            {
-                at += 2;
-                typeName = ArrayName(word);
-            }
+            if (!isRelationship && TakeBrackets()) { typeName = ArrayName(word); }
             string name = Name();
             PropertySpec property = prim.OwnProperty(name);
             if (property == null)
@@ -257,12 +254,7 @@ namespace Garage.Usd
             }
             property.IsCustom |= custom;
             property.IsUniform |= uniform;
-            string part = "default";
-            if (text[at] == '.')
-            {
-                at++;
-                part = Name();
-            }
+            string part = Take('.') ? Name() : "default";
             if (isRelationship || part == "connect")
             {
                 if (Take('=')) { property.Targets = Edited(property.Targets, edit, PathList()); }

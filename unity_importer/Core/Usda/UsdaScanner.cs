@@ -100,7 +100,7 @@ namespace Garage.Usd
                 }
                 else if (letter == '#' || (letter == '/' && s[i + 1] == '/'))
                 {
-                    while (i < end && s[i] != '\n') { i++; }
+                    while (i < end && s[i] != '\n' && s[i] != '\r') { i++; }
                 }
                 else if (letter == '/' && s[i + 1] == '*')
                 {

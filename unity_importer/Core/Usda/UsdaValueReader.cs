@@ -40,6 +40,14 @@ namespace Garage.Usd
             return values.ArrayName(typeName);
         }
 
+        /// <summary>Passes the brackets of a type of arrays.</summary>
+        protected bool TakeBrackets()
+        {
+            if (!Take('[')) { return false; }
+            Expect(']');
+            return true;
+        }
+
         protected bool TakeNone()
         {
             if (Next() != 'N' || text[at + 1] != 'o' || text[at + 2] != 'n' || text[at + 3] != 'e') { return false; }
@@ -166,7 +174,14 @@ namespace Garage.Usd
                 into[i] = (float)Number();
             }
             if (text[at] == ')') { at++; }
-            else { Expect(')'); }
+            else { EndTuple(); }
+        }
+
+        // a last comma may be there
+        void EndTuple()
+        {
+            Take(',');
+            Expect(')');
         }
 
         string ReadText(UsdType type)
@@ -194,9 +209,9 @@ namespace Garage.Usd
                     if (column > 0) { Expect(','); }
                     ReadComponent(type);
                 }
-                Expect(')');
+                EndTuple();
             }
-            if (rows > 1) { Expect(')'); }
+            if (rows > 1) { EndTuple(); }
         }
 
         void ReadComponent(UsdType type)
@@ -299,11 +314,7 @@ namespace Garage.Usd
                     continue;
                 }
                 string typeName = Name();
-                if (text[at] == '[' && text[at + 1] == ']')
-                {
-                    at += 2;
-                    typeName = values.ArrayName(typeName);
-                }
+                if (TakeBrackets()) { typeName = values.ArrayName(typeName); }
                 string key = AtQuote() ? QuotedString() : Name();
                 Expect('=');
                 if (typeName == "dictionary" && Next() == '{') { dictionary[key] = ReadDictionary(depth + 1); }
