@@ -243,7 +243,7 @@ def test_numbers_are_the_nearest(usd_dump, tmp_path):
         ('#usda 1.0\ndef "A" {}\ndef "A" {}', "a second prim 'A'"),
         ('#usda 1.0\ndef "A" { int[] a = edit [ append 1', "expected a closing bracket"),
         ('#usda 1.0\ndef "A" { int[] a = edit append }', "expected '['"),
-        ('#usda 1.0\n(\n relocates = { </A/B>: "}\n', "does not end on its line"),
+        ('#usda 1.0\ndef "A" { double a.spline = { 1: 2, "}\n', "does not end on its line"),
         ("#usda 1.0\n" + 'def "A" {' * 2000, "nested more than"),
         ("#usda 1.0\n" + 'def "A" {\ndef "k" {\n}\n' * 400, "nested more than"),
         ('#usda 1.0\ndef "A" (\nadd references = </B>\n) {\nadd references = </B>\n}', "expected a name"),

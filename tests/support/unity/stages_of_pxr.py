@@ -34,16 +34,11 @@ def stage_dump(stage: Usd.Stage) -> dict:
 
 
 def local_transform(prim: Usd.Prim) -> tuple[Gf.Matrix4d, bool]:
-    """To the parent, of the values without time, else of the first samples; whether it leads to the world instead."""
+    """To the parent at the earliest time; whether it leads to the world instead."""
     xformable = UsdGeom.Xformable(prim)
     if not xformable or not prim.GetAttribute("xformOpOrder").IsAuthored():
         return Gf.Matrix4d(1), False
-    if not xformable.TransformMightBeTimeVarying():
-        return xformable.GetLocalTransformation(Usd.TimeCode.Default()), xformable.GetResetXformStack()
-    local = Gf.Matrix4d(1)
-    for operation in xformable.GetOrderedXformOps():
-        local = operation.GetOpTransform(first_time(operation.GetAttr())) * local
-    return local, xformable.GetResetXformStack()
+    return xformable.GetLocalTransformation(Usd.TimeCode.EarliestTime()), xformable.GetResetXformStack()
 
 
 def prim_dump(prim: Usd.Prim, world: Gf.Matrix4d) -> dict:
@@ -90,12 +85,12 @@ def property_dump(one) -> dict:
     # the authored type: a schema may have another
     kind = next(spec.typeName for spec in specs if spec.typeName)
     out = {"type": str(kind)}
-    if any(spec.HasDefaultValue() for spec in specs):
-        # a value of another type than the schema's is nothing to the schema
-        same = kind == one.GetTypeName()
-        value = one.Get() if same else next(spec.default for spec in specs if spec.HasDefaultValue())
+    # a value of another type than the schema's is nothing to the schema
+    authored = [spec for spec in specs if spec.HasDefaultValue() or spec.layer.GetNumTimeSamplesForPath(spec.path)]
+    if kind == one.GetTypeName():
+        value = one.Get(Usd.TimeCode.EarliestTime()) if one.HasAuthoredValue() else None
     else:
-        value = first_value(one)
+        value = authored[0].default if authored else None
     value = dumped(kind, value)
     if value is not None:
         out["value"] = value
@@ -108,18 +103,6 @@ def property_dump(one) -> dict:
     if one.HasAuthoredMetadata("interpolation"):
         out["interpolation"] = one.GetMetadata("interpolation")
     return out
-
-
-def first_value(one: Usd.Attribute):
-    """The value without time, else that of the first sample, else None."""
-    return one.Get(first_time(one)) if one.HasAuthoredValue() else None
-
-
-def first_time(one: Usd.Attribute) -> Usd.TimeCode:
-    if any(spec.HasDefaultValue() for spec in one.GetPropertyStack()):
-        return Usd.TimeCode.Default()
-    times = one.GetTimeSamples()
-    return Usd.TimeCode(times[0]) if times else Usd.TimeCode.Default()
 
 
 def numbered_alike(wanted: dict, found: dict) -> None:

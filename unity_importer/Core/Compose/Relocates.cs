@@ -87,11 +87,15 @@ namespace Garage.Usd
             foreach (string source in wrong) { Targets.Remove(source); }
         }
 
-        /// <summary>Whether a path is that of a prim that is moved, or below one: nothing is there any longer.</summary>
+        /// <summary>Whether a path is that of a prim that is moved elsewhere, or below one.</summary>
         public bool Moves(string path)
         {
-            path = UsdPaths.Prim(path);
-            return Targets.ContainsKey(path) || HasMovedAncestor(path, 0);
+            for (path = UsdPaths.Prim(path); path != "/"; path = UsdPaths.Parent(path))
+            {
+                string target;
+                if (Targets.TryGetValue(path, out target)) { return target.Length > 0; }
+            }
+            return false;
         }
 
         bool HasMovedAncestor(string path, int highest)

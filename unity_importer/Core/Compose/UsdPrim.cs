@@ -92,6 +92,7 @@ namespace Garage.Usd
                 foreach (LayerSpec spec in one.Specs) { opinions[count++] = new Opinion(one, spec); }
             }
             FindSpecifierAndType();
+            WarnOfClips();
             if (parent == null) { Specifier = Specifier.Def; }
         }
 
@@ -115,6 +116,18 @@ namespace Garage.Usd
             }
             // that a class is inherited makes a class of a prim that nothing else defines
             if (!isFound && isInheritedClass) { Specifier = Specifier.Class; }
+        }
+
+        // what clips give is not read
+        void WarnOfClips()
+        {
+            foreach (Opinion opinion in opinions)
+            {
+                if (opinion.Spec.Spec.Field("clips") == null) { continue; }
+                Stage.Composer.Library.Warn("<" + Path + ">: value clips are left out: attributes are as they are without"
+                    + " them");
+                return;
+            }
         }
 
         internal string SourcePath
@@ -362,7 +375,8 @@ namespace Garage.Usd
             foreach (Opinion opinion in opinions)
             {
                 PropertySpec spec = opinion.Spec.Spec.Properties.Find(name);
-                if (spec == null || spec.Default == null) { continue; }
+                if (spec == null || (spec.Default == null && spec.Samples == null)) { continue; }
+                if (spec.Samples != null) { break; }
                 if (ReferenceEquals(spec.Default, UsdValue.Blocked)) { return null; }
                 if (spec.Default.Type != UsdType.TimeCode) { return spec.Default; }
                 break;

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace Garage.Usd
@@ -43,7 +44,7 @@ namespace Garage.Usd
             }
         }
 
-        /// <summary>The value without time, else the first sample, else null.</summary>
+        /// <summary>The value at the earliest time: of the strongest layer, its first sample or its default.</summary>
         public UsdValue Value
         {
             get
@@ -58,15 +59,9 @@ namespace Garage.Usd
         {
             for (place = 0; place < specs.Length; place++)
             {
-                UsdValue value = specs[place].Default;
-                if (value == null) { continue; }
-                return ReferenceEquals(value, UsdValue.Blocked) ? null : Timed(value, place);
-            }
-            for (place = 0; place < specs.Length; place++)
-            {
                 TimeSamples samples = specs[place].Samples;
-                if (samples == null || samples.Times.Length == 0) { continue; }
-                UsdValue value = samples.Values[0];
+                UsdValue value = samples != null && samples.Times.Length > 0 ? samples.Values[0] : specs[place].Default;
+                if (value == null) { continue; }
                 return ReferenceEquals(value, UsdValue.Blocked) ? null : Timed(value, place);
             }
             place = -1;
@@ -76,11 +71,28 @@ namespace Garage.Usd
         // values that are times move with their layer
         UsdValue Timed(UsdValue value, int place)
         {
+            if (value.Type == UsdType.PathExpression) { WarnOfPaths(value.Text ?? "", places[place]); }
             if (value.Type != UsdType.TimeCode) { return value; }
             LayerOffset offset = places[place].Offset;
             double[] times = (double[])((double[])value.Data).Clone();
             for (int i = 0; i < times.Length; i++) { times[i] = offset.Scale * times[i] + offset.Offset; }
             return new UsdValue(UsdType.TimeCode, value.IsArray, times);
+        }
+
+        // paths in an expression stay those of its layer, and what it takes of weaker ones is not put in
+        void WarnOfPaths(string expression, Opinion place)
+        {
+            bool isRelative = false;
+            foreach (string part in expression.Split(' ', '(', ')', '~'))
+            {
+                isRelative |= part.Length > 0 && "/%+&-".IndexOf(part[0]) < 0;
+            }
+            if (!isRelative && place.Node.Parent == null && expression.IndexOf("%_", StringComparison.Ordinal) < 0)
+            {
+                return;
+            }
+            Prim.Stage.Composer.Library.Warn("<" + Prim.Path + "." + Name + ">: the path expression '" + expression
+                + "' is as its layer says it");
         }
 
         /// <summary>
