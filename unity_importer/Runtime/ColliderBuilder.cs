@@ -13,6 +13,9 @@ namespace Garage.Unity
     /// <summary>Unity's colliders for those of UsdPhysics.</summary>
     sealed class ColliderBuilder
     {
+        // how much scale may differ by axis, as a share of it, and still be that of a ball
+        const float EvenScale = 1e-4f;
+
         readonly SceneModel scene;
         readonly Basis basis;
         readonly ColliderMode mode;
@@ -42,10 +45,36 @@ namespace Garage.Unity
                 return;
             }
             Collider collider = mode == ColliderMode.Boxes ? Box(holder, mesh.bounds)
-                : node.Shape != null ? OfShape(holder, node.Shape, mesh) : OfMesh(holder, node, mesh);
+                : node.Shape != null ? OfShape(holder, node.Shape, mesh, IsScaledEvenly(holder.transform))
+                : OfMesh(holder, node, mesh);
             collider.enabled = node.Collider.IsEnabled;
             collider.sharedMaterial = FrictionAt(material);
             if (isMirrored) { report.Add("colliders stand under mirrored transforms", node.Prim.Path); }
+        }
+
+        /// <summary>
+        /// Names the round colliders of an object and below it that stand under scale that differs by axis, where
+        /// Unity keeps them round.
+        /// </summary>
+        public void CheckRound(GameObject made, string path)
+        {
+            bool isStretched = false;
+            foreach (Collider collider in made.GetComponentsInChildren<Collider>(true))
+            {
+                bool isRound = collider is SphereCollider || collider is CapsuleCollider;
+                isStretched |= isRound && !IsScaledEvenly(collider.transform);
+            }
+            if (isStretched) { report.Add("round colliders stay round under scale that differs by axis", path); }
+        }
+
+        static bool IsScaledEvenly(Transform place)
+        {
+            Matrix4x4 matrix = place.localToWorldMatrix;
+            Vector3 middle = matrix.MultiplyPoint3x4(Vector3.zero);
+            float x = Vector3.Distance(middle, matrix.MultiplyPoint3x4(new Vector3(1, 0, 0)));
+            float y = Vector3.Distance(middle, matrix.MultiplyPoint3x4(new Vector3(0, 1, 0)));
+            float z = Vector3.Distance(middle, matrix.MultiplyPoint3x4(new Vector3(0, 0, 1)));
+            return Mathf.Abs(x - y) <= EvenScale * x && Mathf.Abs(x - z) <= EvenScale * x;
         }
 
         static Collider Box(GameObject holder, Bounds bounds)
@@ -78,6 +107,7 @@ namespace Garage.Unity
                         radius = Mathf.Max(radius, Vector3.Distance(point, sphere.center));
                     }
                     sphere.radius = radius;
+                    CheckRound(holder, node.Prim.Path);
                     return sphere;
                 case "convexHull": return OfMesh(holder, mesh, true);
                 case "convexDecomposition":
@@ -90,9 +120,12 @@ namespace Garage.Unity
             }
         }
 
-        Collider OfShape(GameObject holder, ShapeData shape, Mesh mesh)
+        Collider OfShape(GameObject holder, ShapeData shape, Mesh mesh, bool isScaledEvenly)
         {
             float metres = (float)basis.MetersPerUnit;
+            bool isRound = shape.Kind == "Sphere" || shape.Kind == "Capsule";
+            // an ellipsoid, or a capsule with such ends, is no collider of Unity's
+            if (isRound && !isScaledEvenly) { return OfMesh(holder, mesh, true); }
             switch (shape.Kind)
             {
                 case "Cube": return Box(holder, mesh.bounds);
@@ -122,7 +155,7 @@ namespace Garage.Unity
             PhysicsMaterialData data = PhysicsMaterialData.Of(prim);
             if (data != null)
             {
-                string key = "friction " + data.StaticFriction + " " + data.DynamicFriction + " " + data.Restitution;
+                string key = "friction " + InvariantText.Of(data.StaticFriction, data.DynamicFriction, data.Restitution);
                 if (!byKey.TryGetValue(key, out friction))
                 {
                     friction = new Friction(prim.Name)

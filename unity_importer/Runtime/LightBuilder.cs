@@ -65,6 +65,10 @@ namespace Garage.Unity
             float strength = Shape(light, data, node.Prim.Path);
             SetColor(light, data, strength);
             light.enabled = strength > 0;
+            if (!light.enabled && data.Intensity > 0)
+            {
+                report.Add("lights without a size give no light, as they are not normalized", node.Prim.Path);
+            }
         }
 
         float Shape(Light light, LightData data, string path)
@@ -80,7 +84,8 @@ namespace Garage.Unity
             Vector2 size = isRound ? new Vector2((float)(data.Radius * metres), 0)
                 : new Vector2((float)(data.Width * metres), (float)(data.Height * metres));
             light.range = Range(data);
-            if (settings.lightMode == LightMode.BakedRectangle && isPanel
+            bool hasArea = data.Area(metres) > 0;
+            if (settings.lightMode == LightMode.BakedRectangle && isPanel && hasArea
                 && EditorOnly.MakeBaked(light, isRound ? LightType.Disc : LightType.Rectangle, size))
             {
                 return (float)data.Luminance(metres) * factor;
@@ -130,11 +135,12 @@ namespace Garage.Unity
             light.intensity = strength;
         }
 
-        /// <summary>The glowing surface of a panel, where nothing else beside it glows; null for other
-        /// lights.</summary>
+        /// <summary>The glowing surface of a panel, where nothing else beside it glows; null for other lights,
+        /// and for one without a size.</summary>
         public static MeshArrays Panel(LightData light)
         {
-            if (light.Kind != LightKind.Rect && light.Kind != LightKind.Disk) { return null; }
+            bool isPanel = light.Kind == LightKind.Rect || light.Kind == LightKind.Disk;
+            if (!isPanel || !(light.Area(1) > 0)) { return null; }
             int count = light.Kind == LightKind.Rect ? 4 : 32;
             var arrays = new MeshArrays
             {

@@ -211,6 +211,8 @@ namespace Garage.Unity
             material.SetColor("_BaseColor", color);
             SetMap(material, "_BaseColorMap", maps.Base, null);
             SetCoordinates(material, "_BaseColorMap", surface);
+            // the others read as the base does
+            SetCoordinates(material, "_EmissiveColorMap", surface);
             SetMap(material, "_NormalMap", maps.Normal, "_NORMALMAP");
             material.EnableKeyword("_NORMALMAP_TANGENT_SPACE");
             SetMap(material, "_MaskMap", maps.Mask, "_MASKMAP");

@@ -45,7 +45,7 @@ namespace Garage.Unity
             if (data == null)
             {
                 color = color ?? new[] { 0.18f, 0.18f, 0.18f };
-                key = Colored + color[0] + " " + color[1] + " " + color[2];
+                key = Colored + InvariantText.Of(color[0], color[1], color[2]);
             }
             SurfaceData surface;
             if (!surfaces.TryGetValue(key, out surface))

@@ -25,6 +25,7 @@ namespace Garage.Unity
 
         public bool IsDoubleSided;
 
+        /// <summary>With the named texture coordinates, else those named "st", else the first ones.</summary>
         public static MeshArrays Of(TriangleMesh mesh, string coordinates)
         {
             var arrays = new MeshArrays

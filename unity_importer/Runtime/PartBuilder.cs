@@ -59,11 +59,31 @@ namespace Garage.Unity
             if (node.Curves != null && context.IsDrawn) { report.Add("curves are not drawn", node.Prim.Path); }
         }
 
+        /// <summary>Names what a copy of an object cannot be where it stands.</summary>
+        public void CheckCopy(GameObject made, SceneNode node)
+        {
+            colliders.CheckRound(made, node.Prim.Path);
+        }
+
         Mesh MeshOf(SceneNode node, BuildContext context)
         {
             if (node.Mesh.Points.Length == 0 || node.Mesh.SubMeshes.Count == 0) { return null; }
-            string material = context.MaterialOf(node.Mesh.SubMeshes[0]);
-            string coordinates = materials.Surface(material, null).Coordinates;
+            string coordinates = null;
+            foreach (SubMesh part in node.Mesh.SubMeshes)
+            {
+                SurfaceData surface = materials.Surface(context.MaterialOf(part), node.Mesh.Colors);
+                if (!surface.IsTextured) { continue; }
+                if (!node.Mesh.TextureCoordinates.ContainsKey(surface.Coordinates))
+                {
+                    report.Add("meshes lack the texture coordinates that their materials read", node.Prim.Path);
+                }
+                coordinates = coordinates ?? surface.Coordinates;
+                if (surface.Coordinates != coordinates)
+                {
+                    report.Add("all materials of a mesh use the texture coordinates of the first one", node.Prim.Path);
+                }
+            }
+            coordinates = coordinates ?? "st";
             if (node.Mesh.TextureCoordinates.Count > 1)
             {
                 report.Add("meshes keep one set of texture coordinates", node.Prim.Path);

@@ -198,7 +198,11 @@ namespace Garage.Unity
             Place(made, node, placement, context);
             if (node.Labels != null) { Dress<SemanticLabels>(made, isClone).Set(node.Labels); }
             if (isStall) { lanes.AddStall(Dress<Stall>(made, isClone), node); }
-            if (isClone) { return; }
+            if (isClone)
+            {
+                parts.CheckCopy(made, node);
+                return;
+            }
 
             if (node.Visibility == "invisible" || context.IsHidden) { made.SetActive(false); }
             BuildContext below = context.Under(node, movable);

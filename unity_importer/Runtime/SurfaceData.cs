@@ -49,6 +49,16 @@ namespace Garage.Unity
 
         public Vector2 CoordinateScale = Vector2.one, CoordinateOffset = Vector2.zero;
 
+        /// <summary>Whether it reads a texture, so that coordinates matter.</summary>
+        public bool IsTextured
+        {
+            get
+            {
+                return BaseTexture != null || NormalTexture != null || EmissionTexture != null || Alpha.Texture != null
+                    || Metallic.Texture != null || Roughness.Texture != null || Occlusion.Texture != null;
+            }
+        }
+
         public bool Glows
         {
             get { return Emission.maxColorComponent > 0; }
@@ -88,7 +98,7 @@ namespace Garage.Unity
                 report.Add("the specular workflow is shown as the metallic one", data.Path);
             }
             if (data.Texture("clearcoat") != null) { report.Add("textures of clearcoats are left out", data.Path); }
-            if (data.Texture("displacement") != null) { report.Add("displacement is left out", data.Path); }
+            surface.NameWhatIsLeftOut(data, report);
             foreach (KeyValuePair<string, MaterialInput> input in data.Inputs)
             {
                 if (input.Value.Primvar != null)
@@ -99,6 +109,44 @@ namespace Garage.Unity
             }
             return surface;
         }
+
+        void NameWhatIsLeftOut(MaterialData data, ImportReport report)
+        {
+            if (data.Texture("displacement") != null || data.Value("displacement")[0] != 0)
+            {
+                report.Add("displacement is left out", data.Path);
+            }
+            float[] normal = data.Value("normal");
+            bool isTilted = data.Texture("normal") == null && (normal[0] != 0 || normal[1] != 0);
+            if (isTilted) { report.Add("constant normals are left out", data.Path); }
+            if (data.Value("ior")[0] != 1.5f || data.Texture("ior") != null)
+            {
+                report.Add("the index of refraction is taken for 1.5", data.Path);
+            }
+            if (Clearcoat > 0 && (data.Value("clearcoatRoughness")[0] != 0.01f
+                || data.Texture("clearcoatRoughness") != null))
+            {
+                report.Add("the roughness of clearcoats is left out", data.Path);
+            }
+            foreach (string input in Numbers)
+            {
+                TextureData texture = data.Texture(input);
+                if (texture != null && texture.Channel == "rgb")
+                {
+                    report.Add("a number reads red where the stage connects a color", data.Path + "." + input);
+                }
+            }
+            foreach (string input in new[] { "diffuseColor", "emissiveColor", "normal" })
+            {
+                TextureData texture = data.Texture(input);
+                if (texture != null && texture.Channel != "rgb")
+                {
+                    report.Add("a color reads all channels where the stage connects one", data.Path + "." + input);
+                }
+            }
+        }
+
+        static readonly string[] Numbers = { "opacity", "metallic", "roughness", "occlusion" };
 
         static TextureData Found(TextureData texture)
         {

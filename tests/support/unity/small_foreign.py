@@ -85,6 +85,38 @@ def "A" { uint2 pair = (0, 1)
             "root.usd: values of the type 'uint2[]', which is not known, are left out",
         ],
     ),
+}
+"""Stages that are equal to those of ``pxr``, with the warnings of each."""
+
+NAMED = {
+    "value clips": (
+        {
+            "root.usd": """
+def "A" ( clips = { dictionary default = { asset[] assetPaths = [@clip.usd@]
+    asset manifestAssetPath = @clip.usd@
+    string primPath = "/A"
+    double2[] active = [(0, 0)]
+    double2[] times = [(0, 0), (10, 10)]
+    } }
+) { double y
+    float kept = 1
+}
+""",
+            "clip.usd": """
+over "A" { double y.timeSamples = { 0: 5, 10: 9 } }
+""",
+        },
+        "</A>: value clips are left out: attributes are as they are without them",
+    ),
+    "path expressions": (
+        {
+            "root.usd": """
+def "A" ( references = </B> ) { float kept = 1 }
+def "B" { pathExpression e = ".//x" }
+""",
+        },
+        "</A.e>: the path expression '/B//x' is as its layer says it",
+    ),
     "splines": (
         {
             "root.usd": """
@@ -93,29 +125,11 @@ def "A" { double x.spline = {
         1: 8; post held,
         5: 10,
     }
-    double y = 3
+    float kept = 3
 }
 """,
         },
-        ["root.usd: the spline of 'x' is left out"],
-    ),
-}
-"""Stages that are equal to those of ``pxr``, with the warnings of each."""
-
-NAMED = {
-    "relocates": (
-        {
-            "root.usd": """(
-    relocates = { </A/B>: </A/C> }
-)
-def "A" ( references = </R> ) {}
-def "R" {
-    def "B" { string text = "} > \\" ]" }
-}
-def "Z" { float kept = 1 }
-""",
-        },
-        "root.usd: relocates are left out: prims stay where they were",
+        "root.usd: the spline of 'x' is left out",
     ),
     "edits of arrays": (
         {

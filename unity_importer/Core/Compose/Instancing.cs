@@ -85,7 +85,7 @@ namespace Garage.Usd
                 // what is below it follows from it
                 LayerOffset offset = child.ToRoot.Offset;
                 key.Append((int)child.Arc).Append(' ').Append(child.Stack.Number).Append(' ').Append(child.Path);
-                key.Append(' ').Append(offset.Offset).Append(' ').Append(offset.Scale).Append('\n');
+                key.Append(' ').Append(InvariantText.Of(offset.Offset, offset.Scale)).Append('\n');
             }
         }
 

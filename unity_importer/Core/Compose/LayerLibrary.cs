@@ -51,8 +51,8 @@ namespace Garage.Usd
             double rate = layer.Number("timeCodesPerSecond", 1);
             if (!(rate > 0))
             {
-                Warn(layer.Identifier + ": timeCodesPerSecond of " + rate + " is taken for "
-                    + layer.TimeCodesPerSecond);
+                Warn(layer.Identifier + ": timeCodesPerSecond of " + InvariantText.Of(rate) + " is taken for "
+                    + InvariantText.Of(layer.TimeCodesPerSecond));
             }
         }
 
@@ -155,7 +155,8 @@ namespace Garage.Usd
             if (!(offset.Scale > 0) || double.IsInfinity(offset.Scale) || double.IsNaN(offset.Offset)
                 || double.IsInfinity(offset.Offset))
             {
-                Warn(outer.Identifier + ": the offset " + offset.Offset + " and scale " + offset.Scale + " of "
+                Warn(outer.Identifier + ": the offset " + InvariantText.Of(offset.Offset) + " and scale "
+                    + InvariantText.Of(offset.Scale) + " of "
                     + inner.Identifier + " are no times");
                 offset = LayerOffset.Identity;
             }

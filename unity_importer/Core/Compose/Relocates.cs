@@ -120,7 +120,7 @@ namespace Garage.Usd
             return source;
         }
 
-        /// <summary>What paths mean after the moves at a path and below it.</summary>
+        /// <summary>What paths mean after the moves below a path.</summary>
         public PathMap At(string path)
         {
             PathMap map;
@@ -134,7 +134,8 @@ namespace Garage.Usd
             {
                 foreach (KeyValuePair<string, string> one in all)
                 {
-                    if (one.Value.Length > 0 && UsdPaths.HasPrefix(one.Key, path) && !moved.ContainsKey(one.Key)
+                    if (one.Value.Length > 0 && UsdPaths.HasPrefix(one.Key, path) && one.Key != path
+                        && !moved.ContainsKey(one.Key)
                         && seen.Add(one.Value))
                     {
                         moved.Add(one.Key, one.Value);

@@ -6,10 +6,19 @@ namespace Garage.Usd
     /// <summary>Cuts the faces of a mesh into triangles, concave ones and such as are not quite plane too.</summary>
     sealed class FaceTriangles
     {
-        const int LargestEarCut = 1000;
+        // looking for ears takes the cube of the corners at worst
+        const long MostChecks = 200000000;
 
         readonly float[] points;
         readonly int[] indices;
+
+        long checks;
+
+        /// <summary>Whether faces have so many corners that not all were looked at: some may be cut wrongly.</summary>
+        public bool IsCrude
+        {
+            get { return checks >= MostChecks; }
+        }
 
         // the face at hand: its direction, its corners in the plane, and those not cut off yet
         readonly double[] normal = new double[3];
@@ -41,9 +50,9 @@ namespace Garage.Usd
         /// </summary>
         public void Cut(int start, int count, List<int> corners)
         {
-            if (count == 3 || count > LargestEarCut)
+            if (count == 3)
             {
-                for (int i = 1; i + 1 < count; i++) { AddTriangle(corners, start, start + i, start + i + 1); }
+                AddTriangle(corners, start, start + 1, start + 2);
                 return;
             }
             // the plane in which the face is largest
@@ -67,7 +76,7 @@ namespace Garage.Usd
             }
             while (rest.Count > 3)
             {
-                int ear = BestEar();
+                int ear = checks < MostChecks ? BestEar() : 1;
                 int before = rest[(ear + rest.Count - 1) % rest.Count], after = rest[(ear + 1) % rest.Count];
                 AddTriangle(corners, start + before, start + rest[ear], start + after);
                 rest.RemoveAt(ear);
@@ -100,6 +109,7 @@ namespace Garage.Usd
                 }
                 if (area <= 0) { continue; }
                 bool isFree = true;
+                checks += rest.Count;
                 foreach (int other in rest)
                 {
                     if (other == a || other == b || other == c) { continue; }

@@ -157,7 +157,12 @@ namespace Garage.Usd
             if (id == "UsdUVTexture") { input.Texture = TextureOf(stage, shader, output.Substring(8)); }
             else if (id.StartsWith("UsdPrimvarReader", StringComparison.Ordinal))
             {
-                input.Primvar = TextOf(stage, shader, "inputs:varname", null);
+                input.Primvar = TextOf(stage, shader, "inputs:varname", "");
+                // what a reader gives where there is no primvar
+                UsdPrim from;
+                UsdProperty fallback = Source(stage, shader, "inputs:fallback", out from, out output);
+                UsdValue otherwise = fallback == null ? null : fallback.Value;
+                if (otherwise != null && !(otherwise.Data is string[])) { input.Value = otherwise.Floats(); }
             }
             return input;
         }
@@ -206,16 +211,37 @@ namespace Garage.Usd
             }
             UsdPrim reader;
             Source(stage, texture, "inputs:st", out reader, out output);
-            if (reader != null && reader.Text("info:id", "") == "UsdTransform2d")
+            for (int i = 0; i < LongestConnection && reader != null
+                && reader.Text("info:id", "") == "UsdTransform2d"; i++)
             {
-                data.CoordinateScale = FloatsOf(stage, reader, "inputs:scale", data.CoordinateScale);
-                data.CoordinateTranslation = FloatsOf(stage, reader, "inputs:translation", data.CoordinateTranslation);
-                data.CoordinateRotationDegrees = FloatsOf(stage, reader, "inputs:rotation", new float[1])[0];
+                Precede(data, stage, reader);
                 UsdPrim transform = reader;
                 Source(stage, transform, "inputs:in", out reader, out output);
             }
             if (reader != null) { data.Primvar = TextOf(stage, reader, "inputs:varname", "st"); }
             return data;
+        }
+
+        // puts a transform before those that were found: what they scale and move is what it makes of the coordinates
+        static void Precede(TextureData data, UsdStage stage, UsdPrim transform)
+        {
+            float[] scale = FloatsOf(stage, transform, "inputs:scale", new[] { 1f, 1 });
+            float[] translation = FloatsOf(stage, transform, "inputs:translation", new float[2]);
+            float rotation = FloatsOf(stage, transform, "inputs:rotation", new float[1])[0];
+            var moved = new float[2];
+            double angle = data.CoordinateRotationDegrees * Math.PI / 180;
+            double x = translation[0] * data.CoordinateScale[0], y = translation[1] * data.CoordinateScale[1];
+            moved[0] = (float)(x * Math.Cos(angle) - y * Math.Sin(angle)) + data.CoordinateTranslation[0];
+            moved[1] = (float)(x * Math.Sin(angle) + y * Math.Cos(angle)) + data.CoordinateTranslation[1];
+            bool isEven = data.CoordinateScale[0] == data.CoordinateScale[1];
+            if (rotation != 0 && !isEven)
+            {
+                stage.Composer.Library.Warn("<" + transform.Path
+                    + "> turns texture coordinates that are then scaled by axis: they are scaled first");
+            }
+            data.CoordinateTranslation = moved;
+            data.CoordinateScale = new[] { data.CoordinateScale[0] * scale[0], data.CoordinateScale[1] * scale[1] };
+            data.CoordinateRotationDegrees += rotation;
         }
     }
 }

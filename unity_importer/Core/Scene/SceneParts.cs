@@ -96,28 +96,44 @@ namespace Garage.Usd
             }
         }
 
-        /// <summary>Candela a square metre.</summary>
+        // what the intensity of a normalized light is divided by; a distant light without an angle has all its light
+        // in one direction
+        double Size(double metersPerUnit)
+        {
+            if (Kind != LightKind.Distant) { return Area(metersPerUnit); }
+            double half = Math.Min(AngleDegrees, 360) * Math.PI / 360, square = Math.Sin(half) * Math.Sin(half);
+            return half <= 0 ? 1 : Math.PI * (half <= Math.PI / 2 ? square : 2 - square);
+        }
+
+        double Emission
+        {
+            get { return Intensity * Math.Pow(2, Exposure); }
+        }
+
+        /// <summary>
+        /// Candela a square metre; for a normalized light without a size, which has infinitely many, its intensity.
+        /// </summary>
         public double Luminance(double metersPerUnit)
         {
-            double luminance = Intensity * Math.Pow(2, Exposure), area = Area(metersPerUnit);
-            if (!IsNormalized) { return luminance; }
-            if (Kind == LightKind.Distant)
-            {
-                double half = AngleDegrees * Math.PI / 360, sine = Math.Sin(half);
-                return sine > 0 ? luminance / (Math.PI * sine * sine) : luminance;
-            }
-            return area > 0 ? luminance / area : luminance;
+            double size = Size(metersPerUnit);
+            return IsNormalized && size > 0 ? Emission / size : Emission;
+        }
+
+        // what is divided by the size and multiplied by it again: a normalized light may well have none
+        double Sized(double metersPerUnit)
+        {
+            return IsNormalized ? Emission : Emission * Size(metersPerUnit);
         }
 
         /// <summary>Candela straight ahead, across the axis for a cylinder; 0 for lights at infinity.</summary>
         public double Candela(double metersPerUnit)
         {
-            double luminance = Luminance(metersPerUnit), square = metersPerUnit * metersPerUnit;
             switch (Kind)
             {
-                case LightKind.Rect: case LightKind.Disk: return luminance * Area(metersPerUnit);
-                case LightKind.Sphere: return luminance * Math.PI * Radius * Radius * square;
-                case LightKind.Cylinder: return luminance * 2 * Radius * Length * square;
+                case LightKind.Rect: case LightKind.Disk: return Sized(metersPerUnit);
+                // of the sphere's surface, a disk of a quarter is seen; of the cylinder's, a rectangle
+                case LightKind.Sphere: return Sized(metersPerUnit) / 4;
+                case LightKind.Cylinder: return Sized(metersPerUnit) / Math.PI;
                 default: return 0;
             }
         }
@@ -125,18 +141,13 @@ namespace Garage.Usd
         /// <summary>All lumens of a light with an area.</summary>
         public double Lumen(double metersPerUnit)
         {
-            return Kind == LightKind.Distant || Kind == LightKind.Dome ? 0
-                : Math.PI * Luminance(metersPerUnit) * Area(metersPerUnit);
+            return Kind == LightKind.Distant || Kind == LightKind.Dome ? 0 : Math.PI * Sized(metersPerUnit);
         }
 
         /// <summary>Lux on a surface that faces a distant light.</summary>
         public double Lux
         {
-            get
-            {
-                double sine = Math.Sin(AngleDegrees * Math.PI / 360);
-                return Kind != LightKind.Distant ? 0 : Luminance(1) * Math.PI * sine * sine;
-            }
+            get { return Kind != LightKind.Distant ? 0 : Sized(1); }
         }
     }
 

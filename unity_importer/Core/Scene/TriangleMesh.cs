@@ -441,6 +441,11 @@ namespace Garage.Usd
                         into.Add(vertexOfCorner[corners[leftHanded ? i + 1 : i + 2]]);
                     }
                 }
+                if (faces.IsCrude)
+                {
+                    prim.Stage.Composer.Library.Warn("<" + prim.Path + "> has faces with too many corners to cut them all"
+                        + " into triangles within them");
+                }
                 for (int i = 0; i < parts.Count; i++)
                 {
                     parts[i].Triangles = triangles[i].ToArray();
