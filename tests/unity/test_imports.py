@@ -139,6 +139,80 @@ def test_colliders_of_meshes(prefabs, tmp_path):
     assert not [item for item in prefabs(tmp_path / "stage.usda", colliders="None").objects if "collider" in item]
 
 
+@pytest.mark.parametrize("outer", [(1, 1, 1), (1, 2, 1)])
+def test_round_colliders_under_scale_that_differs_by_axis_are_convex_meshes(prefabs, tmp_path, outer):
+    """Unity keeps balls and capsules round, whatever their scale; those that are scaled evenly stay what they are."""
+    stage = Usd.Stage.CreateNew(str(tmp_path / "stage.usda"))
+    UsdGeom.SetStageMetersPerUnit(stage, 1)
+    UsdGeom.Xform.Define(stage, "/World").AddScaleOp().Set(outer)
+    scales = {"Even": (2, 2, 2), "Mirrored": (2, -2, 2), "Tall": (1, 2, 3)}
+    for (kind, define), (name, scale) in itertools.product(
+        (("Ball", UsdGeom.Sphere), ("Pill", UsdGeom.Capsule), ("Box", UsdGeom.Cube)), scales.items()
+    ):
+        shape = define.Define(stage, f"/World/{kind}{name}")
+        UsdGeom.XformCommonAPI(shape).SetScale(scale)
+        UsdPhysics.CollisionAPI.Apply(shape.GetPrim())
+    stage.Save()
+    prefab = prefabs(tmp_path / "stage.usda")
+    for name in scales:
+        is_round = name != "Tall" and outer == (1, 1, 1)
+        for kind, usual in (("Ball", "SphereCollider"), ("Pill", "CapsuleCollider")):
+            found = prefab.named(f"{kind}{name}")["collider"]
+            assert found["type"] == (usual if is_round else "MeshCollider"), (kind, name)
+            assert is_round or found["convex"]
+        assert prefab.named(f"Box{name}")["collider"]["type"] == "BoxCollider"
+    assert not [text for text in prefab.found["warnings"] if "stay round" in text]
+
+
+def test_copies_with_round_colliders_under_uneven_scale_are_named(prefabs, tmp_path):
+    """What instances share cannot be another collider in one of them."""
+    (tmp_path / "stage.usda").write_text(
+        """#usda 1.0
+(
+    metersPerUnit = 1
+)
+class "Thing" { def Sphere "Ball" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) { }
+}
+def Xform "A" ( instanceable = true
+    inherits = </Thing>
+) { }
+def Xform "B" ( instanceable = true
+    inherits = </Thing>
+) { float3 xformOp:scale = (1, 2, 3)
+    uniform token[] xformOpOrder = ["xformOp:scale"]
+}
+""".replace(" }", "\n}")
+    )
+    found = prefabs(tmp_path / "stage.usda").found
+    (warning,) = [text for text in found["warnings"] if "round colliders" in text]
+    assert "/B" in warning
+
+
+@pytest.mark.parametrize("country", ["de_DE", "tr_TR"])
+def test_names_of_assets_and_warnings_are_the_same_in_all_countries(prefab_dump, tmp_path, monkeypatch, country):
+    stage = Usd.Stage.CreateNew(str(tmp_path / "INITIAL.usda"))
+    UsdGeom.SetStageMetersPerUnit(stage, 0.5)
+    material = UsdShade.Material.Define(stage, "/Rubber")
+    UsdPhysics.MaterialAPI.Apply(material.GetPrim()).CreateStaticFrictionAttr(0.25)
+    cube = UsdGeom.Cube.Define(stage, "/Cube")
+    cube.CreateDisplayColorAttr([(0.5, 0.25, 0.125)])
+    UsdPhysics.CollisionAPI.Apply(cube.GetPrim())
+    UsdShade.MaterialBindingAPI.Apply(cube.GetPrim()).Bind(material, UsdShade.Tokens.weakerThanDescendants, "physics")
+    stage.GetRootLayer().subLayerPaths = ["slow.usda"]
+    slow = stage.GetRootLayer().CreateNew(str(tmp_path / "slow.usda"))
+    slow.timeCodesPerSecond = -1.5
+    slow.Save()
+    stage.Save()
+    wanted = prefab_dump.ask("prefab", tmp_path / "INITIAL.usda")
+    assert any("-1.5" in text for text in wanted["warnings"])
+    assert any("0.25" in str(asset.get("friction")) for asset in wanted["assets"].values())
+    monkeypatch.setenv("LANG", f"{country}.UTF-8")
+    monkeypatch.setenv("LC_ALL", f"{country}.UTF-8")
+    abroad = reader.Reader(prefab_dump.program)
+    assert abroad.ask("prefab", tmp_path / "INITIAL.usda") == wanted
+    abroad.close()
+
+
 SHAPES = {
     "Cube": (UsdGeom.Cube, {"size": 3.0}, 27),
     "Sphere": (UsdGeom.Sphere, {"radius": 2.0}, 4 / 3 * math.pi * 8),

@@ -172,3 +172,41 @@ def test_domes_are_reported(prefabs, tmp_path):
 
 def test_the_projects_color_space_is_looked_at(prefabs, lamps):
     assert any("color space" in warning for warning in prefabs(lamps, gamma=1).found["warnings"])
+
+
+def test_lights_without_a_size_are_the_limits_of_their_formulas(prefabs, tmp_path):
+    stage = Usd.Stage.CreateNew(str(tmp_path / "stage.usda"))
+    UsdGeom.SetStageMetersPerUnit(stage, METRES)
+    kinds = {
+        "Bulb": (UsdLux.SphereLight, {"radius": 0}),
+        "Spot": (UsdLux.DiskLight, {"radius": 0}),
+        "Slit": (UsdLux.RectLight, {"width": 0, "height": 3}),
+        "Thread": (UsdLux.CylinderLight, {"radius": 0, "length": 2}),
+        "Sun": (UsdLux.DistantLight, {"angle": 0}),
+        "Sky": (UsdLux.DistantLight, {"angle": 200}),
+        "None": (UsdLux.SphereLight, {"radius": 0, "normalize": False}),
+    }
+    for name, (kind, inputs) in kinds.items():
+        prim = kind.Define(stage, f"/{name}").GetPrim()
+        for key, value in {"intensity": 100, "exposure": 1, "normalize": True, **inputs}.items():
+            prim.GetAttribute(f"inputs:{key}").Set(value)
+    # without an angle, all light comes from one direction, normalized or not
+    prim = UsdLux.DistantLight.Define(stage, "/Ray").GetPrim()
+    prim.GetAttribute("inputs:intensity").Set(3)
+    prim.GetAttribute("inputs:angle").Set(0)
+    stage.Save()
+    prefab = prefabs(tmp_path / "stage.usda")
+    expected = {"Bulb": 200 / 4, "Spot": 200, "Slit": 200, "Thread": 200 / math.pi, "None": 0}
+    for name, candela in expected.items():
+        given, light = prefab.named(name)["usdLight"], prefab.named(name)["light"]
+        # as a very small light of the same kind has them
+        assert given["candela"] == pytest.approx(candela, rel=1e-5)
+        assert given["lumen"] == pytest.approx(math.pi * 200 if candela else 0, rel=1e-5)
+        assert light["enabled"] is bool(candela)
+        assert light["intensity"] == pytest.approx(candela / math.pi, rel=1e-5)
+    assert prefab.named("Sun")["usdLight"]["lux"] == pytest.approx(200, rel=1e-5)
+    assert prefab.named("Sky")["usdLight"]["lux"] == pytest.approx(200, rel=1e-5)
+    assert prefab.named("Ray")["usdLight"]["lux"] == pytest.approx(3, rel=1e-5)
+    assert not [item for item in prefab.objects if item["path"].endswith("/Glow")]
+    (warning,) = [text for text in prefab.found["warnings"] if "without a size" in text]
+    assert "/None" in warning

@@ -410,3 +410,67 @@ def test_subsets_have_materials_of_their_own(prefabs, tmp_path):
     assert [len(part) for part in prefab.assets[item["mesh"]]["parts"]] == [3, 3]
     colors = [prefab.assets[name]["colors"]["_Color"] for name in item["materials"]]
     assert np.allclose(colors, [[1, 0, 0, 1], [0, 1, 0, 1]])
+
+
+def test_transforms_of_coordinates_in_a_row(prefabs, tmp_path):
+    """The reader's coordinates go through the transform next to it first."""
+    look = Look(tmp_path)
+    surface = look.material("Tiled")
+    texture = look.texture(surface, {"emissiveColor": "rgb"}, look.image("tile.png", noise(4, 4, 3)))
+    path = surface.GetPath().GetParentPath()
+    shader = UsdShade.Shader.Define(look.stage, path.AppendChild("Primvar"))
+    shader.CreateIdAttr("UsdPrimvarReader_float2")
+    shader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
+    for name, scale, translation in (("Inner", (3, 4), (0.5, 0.25)), ("Outer", (2, -1), (1, 7))):
+        moved = UsdShade.Shader.Define(look.stage, path.AppendChild(name))
+        moved.CreateIdAttr("UsdTransform2d")
+        moved.CreateInput("scale", Sdf.ValueTypeNames.Float2).Set(scale)
+        moved.CreateInput("translation", Sdf.ValueTypeNames.Float2).Set(translation)
+        output = shader.CreateOutput("result", Sdf.ValueTypeNames.Float2)
+        moved.CreateInput("in", Sdf.ValueTypeNames.Float2).ConnectToSource(output)
+        shader = moved
+    output = shader.CreateOutput("result", Sdf.ValueTypeNames.Float2)
+    texture.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(output)
+    look.stage.Save()
+    for pipeline in PIPELINES:
+        material = material_of(prefabs(look.path, pipeline=pipeline), "Tiled")
+        # 2 (3 u + 0.5) + 1 and -(4 v + 0.25) + 7
+        maps = {BASE[pipeline], "_EmissiveColorMap"} & material["coordinates"].keys()
+        assert maps
+        for name in maps:
+            assert material["coordinates"][name] == pytest.approx([6, -4, 2, 6.75])
+
+
+def test_what_a_material_cannot_say_is_named(prefabs, tmp_path):
+    look = Look(tmp_path)
+    for key, value in (("ior", 1.3), ("displacement", 0.1), ("clearcoat", 1.0)):
+        look.material(key, **{key: value})
+    look.material("rough", clearcoat=1.0, clearcoatRoughness=0.4)
+    tilted = look.material("tilted")
+    tilted.CreateInput("normal", Sdf.ValueTypeNames.Normal3f).Set((1, 0, 1))
+    lacking = look.material("lacking", primvars=("other",))
+    look.texture(lacking, {"diffuseColor": "r", "roughness": "rgb"}, look.image("a.png", noise(4, 4, 3)))
+    colored = look.material("colored")
+    reader = UsdShade.Shader.Define(look.stage, "/coloredLook/Reader")
+    reader.CreateIdAttr("UsdPrimvarReader_float3")
+    reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("paint")
+    reader.CreateInput("fallback", Sdf.ValueTypeNames.Float3).Set((0, 1, 0))
+    output = reader.CreateOutput("result", Sdf.ValueTypeNames.Float3)
+    colored.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).ConnectToSource(output)
+    look.stage.Save()
+    prefab = prefabs(look.path, pipeline="HighDefinition")
+    text = "\n".join(prefab.found["warnings"])
+    for words, place in (
+        ("the index of refraction is taken for 1.5", "/iorLook"),
+        ("displacement is left out", "/displacementLook"),
+        ("the roughness of clearcoats is left out", "/roughLook"),
+        ("constant normals are left out", "/tiltedLook"),
+        ("meshes lack the texture coordinates", "/lacking"),
+        ("a color reads all channels", "/lackingLook.diffuseColor"),
+        ("a number reads red", "/lackingLook.roughness"),
+        ("do not read primvars", "/coloredLook.diffuseColor"),
+    ):
+        (line,) = [line for line in text.splitlines() if words in line]
+        assert place in line
+    # a reader's own value stands for the primvar that is not read
+    assert material_of(prefab, "colored")["colors"]["_BaseColor"] == pytest.approx([0, 1, 0, 1])

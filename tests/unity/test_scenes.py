@@ -345,3 +345,34 @@ def Mesh "Empty" {}
     scene = scene_of(usd_dump, tmp_path / "bad.usda")
     assert all("mesh" not in node for node in scene["nodes"].values())
     assert len(scene["warnings"]) == 4
+
+
+def comb(teeth: int) -> np.ndarray:
+    """Points around a comb, whose area is half of what is around it."""
+    top = [(x + shift, 1 - x % 2) for x in range(2 * teeth) for shift in (0, 1)]
+    return np.array([(0, -1), *top, (2 * teeth, -1)], dtype=float)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_intricate_faces_keep_their_area(usd_dump, tmp_path, turned):
+    """A comb of 1200 corners, and a ring with a hole that a cut through it joins to the outside."""
+    ring = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0), (2, 2), (2, 8), (8, 8), (8, 2), (2, 2)]
+    faces = {"Comb": comb(300), "Ring": np.array(ring, dtype=float)}
+    stage = Usd.Stage.CreateNew(str(tmp_path / "faces.usda"))
+    expected = {}
+    for name, outline in faces.items():
+        points = np.column_stack([outline, np.zeros(len(outline))])
+        if turned:
+            points = points[:, [2, 0, 1]][::-1]
+        x, y = outline.T
+        expected[name] = abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
+        mesh = UsdGeom.Mesh.Define(stage, f"/{name}")
+        mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points.astype(np.float32)))
+        mesh.CreateFaceVertexCountsAttr([len(points)])
+        mesh.CreateFaceVertexIndicesAttr(list(range(len(points))))
+    stage.Save()
+    scene = scene_of(usd_dump, tmp_path / "faces.usda")
+    assert scene["warnings"] == []
+    for name, area in expected.items():
+        assert scene["nodes"][f"/{name}"]["mesh"]["area"] == pytest.approx(area, rel=1e-5), name
+    assert expected["Ring"] == 64

@@ -5,26 +5,129 @@ from pxr import Sdf
 from support.unity.agreement import same
 
 TEXTS = {
-    "spaces before brackets": 'def "A" {\n int [] a = [1, 2]\n uniform token [ ] b = ["x"]\n custom float3\t[] c = []\n}',
-    "brackets in dictionaries": 'def "A" (customData = { float3 [] c = [(1,2,3)]\n dictionary d = { int[ ] e = [1] } })\n{\n}',
-    "spaces around dots": 'def "A" {\n int b\n int a .connect = </A.b>\n int c. timeSamples = { 0 : 1, }\n}',
-    "types with dots": 'def Foo.Bar "A" {\n}\ndef Foo . Baz "B" {\n}\ndef Foo::Bar "C" {\n}',
-    "last commas": 'def "A" {\n float3 a = (1, 2, 3,)\n float3[] b = [(1,2,3),(4,5,6,),]\n matrix2d m = ((1, 2,), (3, 4),)\n'
-    " rel r = [</B>, </C>,]\n}",
-    "no default prim to refer to": 'def "A" (references = <>)\n{\n}\ndef "B" (prepend payload = [<>, </C>,])\n{\n}\n'
-    'def "C" {\n int c = 1\n}',
-    "the default prim itself": '(\n defaultPrim = "C"\n)\ndef "A" (references = <>)\n{\n}\n'
-    'def "B" (payload = [<> (offset = 3; scale = 2)])\n{\n}\ndef "C" {\n int c.timeSamples = {1: 1}\n}',
-    "comments everywhere": '/* a */ def /* b */ "A" /* c */ ( # d\n kind = "x" // e\n) /* f */ {'
-    " /* g */ int a /* h */ = /* i */ 1 # j\n int[] b = [ # k\n 1, /* l */ 2, // m\n ]\n}  # n",
-    "returns": 'def "A" {\r\n int a = 1 # c\r\n int b = 2\r\n}\r\n',
-    "semicolons": 'def "A" ( kind = "a"; doc = "b"; ) { int a = 1; int b = 2; }',
-    "empty lists": '(subLayers = [ ])\ndef "A" (references = [] )\n{\n rel r = [ ]\n int[] a = [ ]\n}',
-    "offsets": 'def "A" (references = </B> (\n offset = 3\n scale = 2;\n customData = { int a = 1 } ))\n{\n}\n'
-    'def "B" (references = </C> ())\n{\n}\ndef "C" {\n int z.timeSamples = {1:1}\n}',
-    "words of the grammar as names": 'def "def" {\n int class = 1\n float default = 2\n float add = 3\n int rel = 1\n}',
-    "numbers": 'def "A" {\n float[] a = [1., .5, -.5, 1e3, -1E-3, inf, -inf, nan]\n bool[] b = [true, false, 1, 0]\n}',
-    "metadata of all kinds": 'def "A" {\n float a = 1 ("c"; customData = { int b = 1 };)\n float b (doc = "x")\n rel r ( )\n}',
+    "spaces before brackets": """
+def "A" {
+ int [] a = [1, 2]
+ uniform token [ ] b = ["x"]
+ custom float3\t[] c = []
+}
+""",
+    "brackets in dictionaries": """
+def "A" (customData = { float3 [] c = [(1,2,3)]
+ dictionary d = { int[ ] e = [1] } })
+{
+}
+""",
+    "spaces around dots": """
+def "A" {
+ int b
+ int a .connect = </A.b>
+ int c. timeSamples = { 0 : 1, }
+}
+""",
+    "types with dots": """
+def Foo.Bar "A" {
+}
+def Foo . Baz "B" {
+}
+def Foo::Bar "C" {
+}
+""",
+    "last commas": """
+def "A" {
+ float3 a = (1, 2, 3,)
+ float3[] b = [(1,2,3),(4,5,6,),]
+ matrix2d m = ((1, 2,), (3, 4),)
+ rel r = [</B>, </C>,]
+}
+""",
+    "no default prim to refer to": """
+def "A" (references = <>)
+{
+}
+def "B" (prepend payload = [<>, </C>,])
+{
+}
+def "C" {
+ int c = 1
+}
+""",
+    "the default prim itself": """
+(
+ defaultPrim = "C"
+)
+def "A" (references = <>)
+{
+}
+def "B" (payload = [<> (offset = 3; scale = 2)])
+{
+}
+def "C" {
+ int c.timeSamples = {1: 1}
+}
+""",
+    "comments everywhere": """
+/* a */ def /* b */ "A" /* c */ ( # d
+ kind = "x" // e
+) /* f */ { /* g */ int a /* h */ = /* i */ 1 # j
+ int[] b = [ # k
+ 1, /* l */ 2, // m
+ ]
+}  # n
+""",
+    "returns": """
+def "A" {\r
+ int a = 1 # c\r
+ int b = 2\r
+}\r
+
+""",
+    "semicolons": """
+def "A" ( kind = "a"; doc = "b"; ) { int a = 1; int b = 2; }
+""",
+    "empty lists": """
+(subLayers = [ ])
+def "A" (references = [] )
+{
+ rel r = [ ]
+ int[] a = [ ]
+}
+""",
+    "offsets": """
+def "A" (references = </B> (
+ offset = 3
+ scale = 2;
+ customData = { int a = 1 } ))
+{
+}
+def "B" (references = </C> ())
+{
+}
+def "C" {
+ int z.timeSamples = {1:1}
+}
+""",
+    "words of the grammar as names": """
+def "def" {
+ int class = 1
+ float default = 2
+ float add = 3
+ int rel = 1
+}
+""",
+    "numbers": """
+def "A" {
+ float[] a = [1., .5, -.5, 1e3, -1E-3, inf, -inf, nan]
+ bool[] b = [true, false, 1, 0]
+}
+""",
+    "metadata of all kinds": """
+def "A" {
+ float a = 1 ("c"; customData = { int b = 1 };)
+ float b (doc = "x")
+ rel r ( )
+}
+""",
 }
 
 
