@@ -155,7 +155,8 @@ namespace Garage.Unity
             PhysicsMaterialData data = PhysicsMaterialData.Of(prim);
             if (data != null)
             {
-                string key = "friction " + InvariantText.Of(data.StaticFriction, data.DynamicFriction, data.Restitution);
+                string key = "friction "
+                    + InvariantText.Of(data.StaticFriction, data.DynamicFriction, data.Restitution);
                 if (!byKey.TryGetValue(key, out friction))
                 {
                     friction = new Friction(prim.Name)

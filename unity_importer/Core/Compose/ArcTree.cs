@@ -211,10 +211,12 @@ namespace Garage.Usd
             bool isImplied = (arc == Arc.Inherit || arc == Arc.Specialize) && !ReferenceEquals(parent, origin);
             if (isImplied && IsOfRelocate(parent)) { return false; }
             PendingArc pending = around;
+            int arcs = 0;
             for (ArcNode node = parent; node != null;)
             {
                 for (ArcNode above = node; above != null; above = above.Parent)
                 {
+                    composer.CheckDepth(parent, ++arcs);
                     if (ReferenceEquals(above.Stack, stack) && (UsdPaths.HasPrefix(above.Path, path)
                         || UsdPaths.HasPrefix(path, above.Path)))
                     {

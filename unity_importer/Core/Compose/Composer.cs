@@ -93,11 +93,7 @@ namespace Garage.Usd
                 return variant;
             }
             if (path == "/") { return RootOf(arc.Stack); }
-            if (++depth > DeepestArc)
-            {
-                throw new UsdFormatException(arc.Stack.Root.Identifier, "<" + path + ">",
-                    "references lead more than " + DeepestArc + " deep");
-            }
+            CheckDepth(arc.Parent, ++depth);
             ArcNode parent = Grown(arc, UsdPaths.Parent(path), true);
             if (Instancing.IsInstance(parent)) { Instancing.SilenceOutside(parent); }
             ArcNode root = parent.Extended(UsdPaths.Name(path));
@@ -188,6 +184,13 @@ namespace Garage.Usd
             if (++nodesPassed < NodesPassedPerCharge) { return; }
             nodesPassed = 0;
             nodesMade++;
+        }
+
+        /// <summary>Refuses arcs that lead from one to the next without end.</summary>
+        public void CheckDepth(ArcNode place, int arcs)
+        {
+            Pass();
+            if (arcs > DeepestArc) { throw Error(place, "references lead more than " + DeepestArc + " deep"); }
         }
 
         /// <summary>Refuses trees that are larger than any prim can need.</summary>
