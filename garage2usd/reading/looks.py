@@ -1,14 +1,17 @@
 """What prims look like: every mesh and surface of a stage once."""
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdShade
 
-from garage2usd.reading.meshes import Triangles, display_colour, face_sets, triangles_of
-from garage2usd.reading.surfaces import SurfaceLook, stands_alone, surface_of
+from garage2usd.reading.inheritance import NOTHING, Inherited
+from garage2usd.reading.meshes import Triangles, face_sets, triangles_of
+from garage2usd.reading.objects import DrawnPart, PlacedObject
+from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.surfaces import SurfaceLook, SurfaceReader, stands_alone
 from garage2usd.reading.values import opinions_of
 
 __all__ = ["DrawnMesh", "MeshLooks", "Numbered"]
@@ -51,42 +54,57 @@ class MeshLooks:
     ----------
     is_apart_by_name
         Whether surfaces of materials with other names are different, even if they look alike.
+    remarks
+        Told of what is left out; left out, new ones.
 
     Attributes
     ----------
     meshes, surfaces
         Different ones in the order in which they were first met.
+    pictures
+        What their textures show.
+    remarks
+        What is left out.
     """
 
-    def __init__(self, *, is_apart_by_name: bool = False) -> None:
+    def __init__(self, *, is_apart_by_name: bool = False, remarks: Remarks | None = None) -> None:
         self._is_apart_by_name = is_apart_by_name
         self.meshes: Numbered[Triangles] = Numbered()
         self.surfaces: Numbered[SurfaceLook] = Numbered()
-        self._triangles_of: dict[tuple[str, Hashable], Triangles | None] = {}
+        self.remarks = Remarks() if remarks is None else remarks
+        self._reader = SurfaceReader(self.remarks)
+        self.pictures = self._reader.pictures
+        self._triangles_of: dict[Hashable, Triangles | None] = {}
         self._mesh_of: dict[Hashable, int | None] = {}
         self._surface_of_material: dict[Sdf.Path, int] = {}
         self._surface_of_opinions: dict[Hashable, int] = {}
         self._is_composed_within: dict[Hashable, bool] = {}
 
-    def of_prim(self, prim: Usd.Prim) -> list[DrawnMesh]:
-        """What a prim of one of `garage2usd.reading.meshes.DRAWN_TYPES` draws."""
+    def of_part(self, placed: PlacedObject, part: DrawnPart) -> list[DrawnMesh]:
+        """What a part of an object draws, with all that it inherits."""
+        return self.of_prim(placed.twin_of(part), part.inherited)
+
+    def of_prim(self, prim: Usd.Prim, inherited: Inherited = NOTHING) -> list[DrawnMesh]:
+        """What a prim of one of `garage2usd.reading.meshes.DRAWN_TYPES` draws; `inherited` is from outside of it."""
         found, opinions = [], opinions_of(prim)
         for bound, faces in face_sets(prim):
             surface = self._surface(bound, prim)
-            coordinate_name = self.surfaces.values[surface].coordinate_name
-            key = coordinate_name, opinions, None if faces is None else faces.tobytes()
-            if key not in self._mesh_of:
-                self._mesh_of[key] = self._mesh(prim, key[:2], faces)
-            mesh = self._mesh_of[key]
+            look = self.surfaces.values[surface]
+            names = {own.name for own in look.sets} | {look.colour_name}
+            key = look.sets, look.colour_name, opinions, inherited.of(names)
+            of_faces = *key, None if faces is None else faces.tobytes()
+            if of_faces not in self._mesh_of:
+                self._mesh_of[of_faces] = self._mesh(prim, key, look, faces)
+            mesh = self._mesh_of[of_faces]
             if mesh is not None:
                 found.append(DrawnMesh(mesh, surface))
         return found
 
-    def _mesh(self, prim: Usd.Prim, key: tuple[str, Hashable], faces: NDArray[np.intp] | None) -> int | None:
+    def _mesh(self, prim: Usd.Prim, key: Hashable, look: SurfaceLook, faces: NDArray[np.intp] | None) -> int | None:
         """Number of the triangles of some faces; None where there are none."""
         # prims made of the same opinions are the same
         if key not in self._triangles_of:
-            self._triangles_of[key] = triangles_of(prim, coordinate_name=key[0])
+            self._triangles_of[key] = triangles_of(prim, sets=look.sets, colour_name=look.colour_name)
         triangles = self._triangles_of[key]
         if triangles is not None and faces is not None:
             triangles = triangles.of_faces(faces)
@@ -95,32 +113,44 @@ class MeshLooks:
         return self.meshes.number(triangles, triangles.key())
 
     def _surface(self, bound: Usd.Prim, prim: Usd.Prim) -> int:
-        material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
+        bindings = UsdShade.MaterialBindingAPI(bound)
+        material, _ = bindings.ComputeBoundMaterial(UsdShade.Tokens.preview)
         if not material:
-            return self._number(SurfaceLook(colour_rgb=display_colour(prim)))
+            return self._number(self._reader.unbound(prim))
         path = material.GetPath()
-        if path not in self._surface_of_material:
-            self._surface_of_material[path] = self._surface_of(material)
-        return self._surface_of_material[path]
+        if path in self._surface_of_material:
+            return self._surface_of_material[path]
+        surface, is_of_prim = self._surface_of(material, prim)
+        if not is_of_prim:
+            self._surface_of_material[path] = surface
+        return surface
 
-    def _surface_of(self, material: UsdShade.Material) -> int:
-        """Number of a material's surface; many prototypes have materials that are made of the same opinions."""
+    def _surface_of(self, material: UsdShade.Material, bound: Usd.Prim) -> tuple[int, bool]:
+        """Number of a material's surface, and whether it depends on the prim that has it.
+
+        Many prototypes have materials that are made of the same opinions.
+        """
         prim = material.GetPrim()
         key: Hashable = prim.GetName(), opinions_of(prim)
         # what is below it follows from its own opinions, unless that is composed of something else as well
         if key not in self._is_composed_within:
-            self._is_composed_within[key] = any(_has_arcs(part) for part in Usd.PrimRange(prim) if part != prim)
+            self._is_composed_within[key] = any(_has_arcs(part) for part in _below(prim) if part != prim)
         if self._is_composed_within[key]:
-            key = prim.GetName(), tuple(opinions_of(part) for part in Usd.PrimRange(prim))
+            key = prim.GetName(), tuple(opinions_of(part) for part in _below(prim))
         if key not in self._surface_of_opinions:
-            surface = self._number(surface_of(material))
-            if not stands_alone(material):
-                return surface
+            surface = self._number(self._reader.surface_of(material, bound))
+            if self._reader.read_a_primvar or not stands_alone(material):
+                return surface, self._reader.read_a_primvar
             self._surface_of_opinions[key] = surface
-        return self._surface_of_opinions[key]
+        return self._surface_of_opinions[key], False
 
     def _number(self, surface: SurfaceLook) -> int:
         return self.surfaces.number(surface, (surface, surface.name) if self._is_apart_by_name else surface)
+
+
+def _below(prim: Usd.Prim) -> Iterator[Usd.Prim]:
+    """A prim and all below it, of instances too."""
+    yield from Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
 
 
 def _has_arcs(prim: Usd.Prim) -> bool:

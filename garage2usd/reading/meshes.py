@@ -1,19 +1,20 @@
 """Meshes and simple shapes of a stage as triangles with one normal and one texture coordinate a vertex."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Sdf, Usd, UsdGeom
+from pxr import Usd, UsdGeom, UsdShade
 
+from garage2usd.reading.polygons import triangulated
 from garage2usd.reading.solid_shapes import solid_faces
-from garage2usd.reading.surfaces import PLAIN
+from garage2usd.reading.textures import USUAL_COORDINATES, Coordinates
 from garage2usd.reading.values import READ_AT, numbers_of
 
-__all__ = ["DRAWN_TYPES", "Triangles", "cross", "display_colour", "face_sets", "triangles_of"]
+__all__ = ["DRAWN_TYPES", "Triangles", "cross", "face_sets", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
 """Types of prims that have triangles."""
@@ -27,8 +28,12 @@ class Triangles:
 
     Attributes
     ----------
-    positions_m, normals, coordinates
-        float32 of shape (vertices, 3), (vertices, 3) and (vertices, 2); normals are of unit length.
+    positions_m, normals
+        float32, shape (vertices, 3) each; normals are of unit length.
+    coordinates
+        On textures; float32, shape (vertices, sets, 2).
+    colours
+        Linear; float32, shape (vertices, 3), or None where all vertices have the colour of the surface.
     indices
         uint32, shape (triangles, 3), counter-clockwise seen from outside.
     face_of
@@ -43,11 +48,13 @@ class Triangles:
     indices: NDArray[np.uint32]
     face_of: NDArray[np.int32]
     double_sided: bool
+    colours: NDArray[np.float32] | None = None
 
     def key(self) -> bytes:
         """Equal for triangles that are equal in all."""
         digest = hashlib.blake2b(bytes([self.double_sided]), digest_size=16)
-        for values in (self.positions_m, self.normals, self.coordinates, self.indices):
+        colours = () if self.colours is None else (self.colours,)
+        for values in (self.positions_m, self.normals, self.coordinates, self.indices, *colours):
             digest.update(np.array(values.shape).tobytes())
             digest.update(np.ascontiguousarray(values).tobytes())
         return digest.digest()
@@ -67,33 +74,43 @@ class Triangles:
             indices.astype(np.uint32),
             self.face_of[kept],
             self.double_sided,
+            None if self.colours is None else self.colours[used],
         )
 
 
-def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | None:
+def triangles_of(
+    prim: Usd.Prim, *, sets: Sequence[Coordinates] = (USUAL_COORDINATES,), colour_name: str = ""
+) -> Triangles | None:
     """Triangles of a prim of one of `DRAWN_TYPES`; None where it has none that can be drawn.
 
     Parameters
     ----------
     prim
         The mesh or shape.
-    coordinate_name
-        Name of the primvar with the texture coordinates.
+    sets
+        The texture coordinates that are wanted.
+    colour_name
+        Name of the primvar with the colours; empty for none.
 
     Notes
     -----
-    Polygons are cut into fans. Without authored normals a mesh is faceted, or smooth where it asks to be subdivided,
-    which is not done. Faces that name missing points are left out, as a renderer would.
+    Faces that are holes are left out, and polygons are cut as `garage2usd.reading.polygons.triangulated` says. Without
+    authored normals a mesh is faceted, or smooth where it asks to be subdivided, which is not done. Faces that name
+    missing points are left out, as a renderer would.
     """
     if prim.GetTypeName() != "Mesh":
-        return _of_solid(prim)
+        return _of_solid(prim, sets)
     mesh = UsdGeom.Mesh(prim)
     points = numbers_of(mesh.GetPointsAttr(), np.float32, width=3)
     counts = numbers_of(mesh.GetFaceVertexCountsAttr(), np.int64)
     corners = numbers_of(mesh.GetFaceVertexIndicesAttr(), np.int64)
     if not len(counts) or (counts < 0).any() or counts.sum() != len(corners) or not len(corners) or not len(points):
         return None
-    fans, face_of = _fans(counts)
+    fans, face_of = triangulated(points, corners, counts)
+    holes = numbers_of(mesh.GetHoleIndicesAttr(), np.int64)
+    if len(holes):
+        is_drawn = ~np.isin(face_of, holes)
+        fans, face_of = fans[is_drawn], face_of[is_drawn]
     points_of = corners[fans]
     if not (corners.min() >= 0 and corners.max() < len(points) and np.isfinite(points).all()):
         sound = ((points_of >= 0) & (points_of < len(points))).all(axis=1)
@@ -104,11 +121,12 @@ def triangles_of(prim: Usd.Prim, *, coordinate_name: str = "st") -> Triangles | 
     if mesh.GetOrientationAttr().Get(READ_AT) == UsdGeom.Tokens.leftHanded:
         fans = fans[:, [0, 2, 1]]
     normals = _normals(mesh, points, corners, fans, face_of)
-    coordinates = _coordinates(prim, coordinate_name, len(points), corners, fans)
+    coordinates = [_coordinates(prim, own, len(points), corners, fans, face_of) for own in sets]
     return _welded(
         points[corners[fans]].reshape(-1, 3),
         normals.reshape(-1, 3),
-        coordinates.reshape(-1, 2),
+        np.stack(coordinates, axis=2).reshape(-1, len(sets), 2),
+        _colours(prim, colour_name, len(points), corners, fans, face_of) if colour_name else None,
         face_of,
         double_sided=bool(mesh.GetDoubleSidedAttr().Get(READ_AT)),
     )
@@ -128,8 +146,8 @@ def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | Non
     tuple
         The prim that the material is bound to, and the numbers of its faces; None for all.
     """
-    subsets = [child for child in prim.GetChildren() if child.GetTypeName() == "GeomSubset"]
-    subsets = [child for child in subsets if child.GetRelationship("material:binding").HasAuthoredTargets()]
+    children = prim.GetFilteredChildren(Usd.TraverseInstanceProxies())
+    subsets = [child for child in children if child.IsA(UsdGeom.Subset) and _is_bound(child)]
     if not subsets:
         yield prim, None
         return
@@ -141,22 +159,26 @@ def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | Non
         yield prim, rest
 
 
-def _of_solid(prim: Usd.Prim) -> Triangles | None:
+def _is_bound(subset: Usd.Prim) -> bool:
+    """Whether a subset is one of faces and has a material of its own."""
+    if UsdGeom.Subset(subset).GetElementTypeAttr().Get(READ_AT) != UsdGeom.Tokens.face:
+        return False
+    bindings = UsdShade.MaterialBindingAPI(subset)
+    purposes = UsdShade.Tokens.allPurpose, UsdShade.Tokens.preview
+    return any(bindings.GetDirectBindingRel(purpose).HasAuthoredTargets() for purpose in purposes) or any(
+        bindings.GetCollectionBindings(purpose) for purpose in purposes
+    )
+
+
+def _of_solid(prim: Usd.Prim, sets: Sequence[Coordinates]) -> Triangles | None:
     solid = solid_faces(prim)
     if solid is None:
         return None
     positions, normals = solid
     face_of = np.arange(len(positions) // 3, dtype=np.int32)
-    return _welded(positions, normals, np.zeros((len(positions), 2), np.float32), face_of, double_sided=False)
-
-
-def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Corners of each triangle, shape (triangles, 3), as numbers into the face vertices, and the face of each."""
-    triangles = np.maximum(counts - 2, 0)
-    face_of = np.repeat(np.arange(len(counts)), triangles)
-    first = (np.cumsum(counts) - counts)[face_of]
-    step = np.arange(len(face_of)) - (np.cumsum(triangles) - triangles)[face_of]
-    return np.stack([first, first + step + 1, first + step + 2], axis=1), face_of.astype(np.int32)
+    coordinates = np.broadcast_to([own.fallback for own in sets], (len(positions), len(sets), 2))
+    double_sided = bool(UsdGeom.Gprim(prim).GetDoubleSidedAttr().Get(READ_AT))
+    return _welded(positions, normals, coordinates, None, face_of, double_sided=double_sided)
 
 
 def _normals(
@@ -186,15 +208,46 @@ def _normals(
 
 
 def _coordinates(
-    prim: Usd.Prim, name: str, points: int, corners: NDArray[np.int64], fans: NDArray[np.int64]
+    prim: Usd.Prim,
+    wanted: Coordinates,
+    points: int,
+    corners: NDArray[np.int64],
+    fans: NDArray[np.int64],
+    face_of: NDArray[np.int32],
 ) -> NDArray[np.float32]:
-    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); zero without coordinates."""
+    """Texture coordinate of each corner of each triangle, shape (triangles, 3, 2); the fallback where there is none."""
+    found = _primvar(prim, wanted.name, 2, points, corners, fans, face_of) if wanted.name else None
+    return np.broadcast_to(np.array(wanted.fallback, np.float32), (len(fans), 3, 2)) if found is None else found
+
+
+def _colours(
+    prim: Usd.Prim,
+    name: str,
+    points: int,
+    corners: NDArray[np.int64],
+    fans: NDArray[np.int64],
+    face_of: NDArray[np.int32],
+) -> NDArray[np.float32] | None:
+    """Colour of each corner of each triangle, one after the other; None where the prim gives none."""
+    found = _primvar(prim, name, 3, points, corners, fans, face_of)
+    return None if found is None else np.clip(np.nan_to_num(found), 0, 1).reshape(-1, 3)
+
+
+def _primvar(
+    prim: Usd.Prim,
+    name: str,
+    width: int,
+    points: int,
+    corners: NDArray[np.int64],
+    fans: NDArray[np.int64],
+    face_of: NDArray[np.int32],
+) -> NDArray[np.float32] | None:
+    """Vectors of a primvar at each corner of each triangle; None where it has none."""
     primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name)
     values = primvar.ComputeFlattened(READ_AT) if primvar and primvar.HasValue() else None
-    found = None
-    if values is not None and primvar.GetTypeName().type.typeName.startswith("VtArray<GfVec2"):
-        found = _at_corners(values, primvar.GetInterpolation(), 2, points, corners, fans, None)
-    return np.zeros((len(fans), 3, 2), np.float32) if found is None else found
+    if values is None or f"GfVec{width}" not in primvar.GetTypeName().type.typeName:
+        return None
+    return _at_corners(values, primvar.GetInterpolation(), width, points, corners, fans, face_of)
 
 
 def _at_corners(
@@ -237,13 +290,16 @@ def _unit(vectors: NDArray[Any]) -> NDArray[np.float32]:
 def _welded(
     positions: NDArray[np.float32],
     normals: NDArray[np.float32],
-    coordinates: NDArray[np.float32],
+    coordinates: NDArray[np.floating[Any]],
+    colours: NDArray[np.float32] | None,
     face_of: NDArray[np.int32],
     *,
     double_sided: bool,
 ) -> Triangles:
     """Corners of triangles as vertices, those that are equal in all made one."""
-    rows = np.ascontiguousarray(np.hstack([positions, normals, coordinates]).astype(np.float32) + np.float32(0))
+    sets = coordinates.shape[1]
+    columns = [positions, normals, coordinates.reshape(-1, 2 * sets), *(() if colours is None else (colours,))]
+    rows = np.ascontiguousarray(np.hstack(columns).astype(np.float32) + np.float32(0))
     _, first, inverse = np.unique(
         rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel(), return_index=True, return_inverse=True
     )
@@ -254,20 +310,9 @@ def _welded(
     return Triangles(
         kept[:, :3].copy(),
         kept[:, 3:6].copy(),
-        kept[:, 6:].copy(),
+        kept[:, 6 : 6 + 2 * sets].reshape(-1, sets, 2).copy(),
         rank[inverse].reshape(-1, 3).astype(np.uint32),
         face_of,
         double_sided,
+        None if colours is None else kept[:, 6 + 2 * sets :].copy(),
     )
-
-
-def display_colour(prim: Usd.Prim) -> tuple[float, float, float]:
-    """Mean of the colours that a prim without a material says of itself; a surface's own where it says none."""
-    primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance("displayColor")
-    if not primvar or primvar.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
-        return PLAIN.colour_rgb
-    values = numbers_of(primvar.GetAttr(), np.float64, width=3)
-    if not len(values):
-        return PLAIN.colour_rgb
-    red, green, blue = np.clip(np.nan_to_num(values), 0, 1).mean(axis=0).tolist()
-    return red, green, blue

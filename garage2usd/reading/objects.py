@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
+from garage2usd.reading.inheritance import NOTHING, Inherited
+
 __all__ = ["DrawnPart", "Matrix", "PlacedObject", "once_for_each_look"]
 
 _Read = TypeVar("_Read")
@@ -27,11 +29,14 @@ class DrawnPart(NamedTuple):
         From the object's path to the prim; empty where the object is the prim.
     matrix
         From the prim's space to the object's.
+    inherited
+        What it inherits of how it looks, from outside of its prototype too.
     """
 
     prim: Usd.Prim
     path: str
     matrix: Matrix
+    inherited: Inherited = NOTHING
 
 
 @dataclass(eq=False, slots=True)
@@ -51,7 +56,7 @@ class PlacedObject:
     matrix
         From its space to the world.
     parts
-        What is drawn. Objects that are instances of one prototype share the same tuple.
+        What is drawn. Objects that are instances of one prototype, and inherit the same, share the same tuple.
     """
 
     path: str
@@ -60,6 +65,10 @@ class PlacedObject:
     square: str
     matrix: Matrix
     parts: Sequence[DrawnPart] = field(default_factory=list)
+
+    def twin_of(self, part: DrawnPart) -> Usd.Prim:
+        """The prim on the stage that looks like a part: it inherits what the part does, as a prototype's cannot."""
+        return part.prim.GetStage().GetPrimAtPath(self.twin + part.path)
 
 
 def once_for_each_look(read: Callable[[PlacedObject], _Read]) -> Callable[[PlacedObject], _Read]:

@@ -1,42 +1,59 @@
 """Materials of a stage as the few values that surfaces take which know no networks of shaders."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import NamedTuple
 
 import numpy as np
-from pxr import Sdf, Usd, UsdShade
+from numpy.typing import NDArray
+from pxr import Sdf, Usd, UsdGeom, UsdShade
 
-from garage2usd.reading.values import READ_AT, number_of, numbers_of
+from garage2usd.reading.pictures import ALPHA, Pictures
+from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.textures import (
+    PRIMVAR_READER,
+    USUAL_COORDINATES,
+    UV_TEXTURE,
+    Coordinates,
+    Source,
+    Texture,
+    TextureReader,
+    source_of,
+)
+from garage2usd.reading.values import READ_AT, lacks, numbers_of
 
-__all__ = ["PLAIN", "SurfaceLook", "stands_alone", "surface_of"]
+__all__ = ["PLAIN", "Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
 
 Rgb = tuple[float, float, float]
 _PREVIEW = "UsdPreviewSurface"
 _BRIGHTEST = 1e4
 _DEFAULT_ROUGHNESS = 0.5
+_DEFAULT_IOR = 1.5
+_MOST_IOR = 1e3
+_COLOUR_READERS = frozenset({f"{PRIMVAR_READER}float3", f"{PRIMVAR_READER}float4"})
 
 
 @dataclass(frozen=True)
 class SurfaceLook:
-    """A surface.
+    """A surface. What a texture gives is 1 here.
 
     Attributes
     ----------
     colour_rgb, emissive_rgb
         Linear.
-    roughness, metallic, opacity, clearcoat
+    roughness, metallic, opacity, clearcoat, clearcoat_roughness, occlusion
         0 to 1.
-    colour_texture, roughness_texture, metallic_texture, normal_texture, occlusion_texture
-        Resolved asset paths, empty for none.
-    roughness_channel, metallic_channel, occlusion_channel
-        Which channel of its texture each is: 0 to 3.
-    has_alpha
-        Whether the colour texture's alpha is the opacity.
+    ior
+        Index of refraction.
+    specular_rgb
+        What it reflects where it is met squarely, in the specular workflow; None in the metallic one.
+    colour_texture, emissive_texture, roughness_texture, metallic_texture, opacity_texture, clearcoat_texture,
+    clearcoat_roughness_texture, occlusion_texture, specular_texture, normal_texture
+        None for none.
+    colour_name
+        Primvar with a colour for each point, in place of `colour_rgb`; empty for none.
     opacity_threshold
         What is less opaque is not drawn, and all else is opaque; 0 where all is drawn as opaque as it is.
-    coordinate_name
-        Primvar of the texture coordinates.
     name
         Of the material, empty for none; two materials of other names that look alike are equal.
     """
@@ -47,139 +64,235 @@ class SurfaceLook:
     metallic: float = 0.0
     opacity: float = 1.0
     clearcoat: float = 0.0
-    colour_texture: str = ""
-    roughness_texture: str = ""
-    roughness_channel: int = 0
-    metallic_texture: str = ""
-    metallic_channel: int = 0
-    normal_texture: str = ""
-    occlusion_texture: str = ""
-    occlusion_channel: int = 0
-    has_alpha: bool = False
+    clearcoat_roughness: float = 0.01
+    occlusion: float = 1.0
+    ior: float = _DEFAULT_IOR
+    specular_rgb: Rgb | None = None
+    colour_texture: Texture | None = None
+    opacity_texture: Texture | None = None
+    roughness_texture: Texture | None = None
+    metallic_texture: Texture | None = None
+    normal_texture: Texture | None = None
+    occlusion_texture: Texture | None = None
+    emissive_texture: Texture | None = None
+    clearcoat_texture: Texture | None = None
+    clearcoat_roughness_texture: Texture | None = None
+    specular_texture: Texture | None = None
+    colour_name: str = ""
     opacity_threshold: float = 0.0
-    coordinate_name: str = "st"
     name: str = field(default="", compare=False)
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether a texture says how opaque it is."""
+        return self.opacity_texture is not None
 
     @property
     def is_blended(self) -> bool:
         """Whether what lies behind it shows."""
         return self.has_alpha or self.opacity < 1
 
+    @property
+    def sets(self) -> tuple[Coordinates, ...]:
+        """The coordinates that its textures are read at, each once; one at least."""
+        textures = [getattr(self, name) for name in _TEXTURES]
+        return tuple(dict.fromkeys(own.layout.coordinates for own in textures if own)) or (USUAL_COORDINATES,)
 
+
+_TEXTURES = tuple(own.name for own in fields(SurfaceLook) if own.name.endswith("_texture"))
 PLAIN = SurfaceLook()
 """What has no material."""
 
 
-def surface_of(material: UsdShade.Material) -> SurfaceLook:
-    """What a material's UsdPreviewSurface says; `PLAIN` where it has none."""
-    found, _, _ = material.ComputeSurfaceSource()
-    if not found or found.GetIdAttr().Get() != _PREVIEW:
-        return PLAIN
-    shader = _Shader(found, frozenset(found.GetPrim().GetAuthoredPropertyNames()))
-    colour, colour_reader, _ = _colour(shader, "diffuseColor", (0.18, 0.18, 0.18))
-    emissive, _, _ = _colour(shader, "emissiveColor", (0.0, 0.0, 0.0))
-    roughness, roughness_reader, channel = _number(shader, "roughness", _DEFAULT_ROUGHNESS)
-    metallic, metallic_reader, metallic_channel = _number(shader, "metallic", 0.0)
-    opacity, opacity_reader, _ = _number(shader, "opacity", 1.0)
-    threshold, _, _ = _number(shader, "opacityThreshold", 0.0)
-    clearcoat, _, _ = _number(shader, "clearcoat", 0.0)
-    _, normal_reader, _ = shader.input("normal")
-    _, occlusion_reader, occlusion_channel = _number(shader, "occlusion", 1.0)
-    return SurfaceLook(
-        colour_rgb=colour,
-        emissive_rgb=emissive,
-        roughness=roughness,
-        metallic=metallic,
-        opacity=opacity,
-        clearcoat=clearcoat,
-        colour_texture=_file(colour_reader),
-        roughness_texture=_file(roughness_reader),
-        roughness_channel=channel,
-        metallic_texture=_file(metallic_reader),
-        metallic_channel=metallic_channel,
-        normal_texture=_file(normal_reader),
-        occlusion_texture=_file(occlusion_reader),
-        occlusion_channel=occlusion_channel,
-        has_alpha=opacity_reader is not None,
-        opacity_threshold=threshold,
-        coordinate_name=_coordinate_name(colour_reader or roughness_reader or normal_reader),
-        name=material.GetPrim().GetName(),
-    )
+class _Given(NamedTuple):
+    """What an input of a surface is: numbers, a texture, or a primvar that has a value at each point."""
+
+    values: tuple[float, ...]
+    texture: Texture | None = None
+    primvar: str = ""
+
+
+class SurfaceReader:
+    """Reads surfaces.
+
+    Parameters
+    ----------
+    remarks
+        Told of what is left out.
+
+    Attributes
+    ----------
+    pictures
+        What textures show.
+    read_a_primvar
+        Whether the surface that was read last depends on the prim that has it.
+    """
+
+    def __init__(self, remarks: Remarks) -> None:
+        self.pictures, self.read_a_primvar = Pictures(), False
+        self._remarks = remarks
+        self._textures = TextureReader(self.pictures, remarks)
+
+    def unbound(self, prim: Usd.Prim) -> SurfaceLook:
+        """The surface of a prim without a material, by what it says of itself."""
+        primvars = UsdGeom.PrimvarsAPI(prim)
+        opacity = primvars.FindPrimvarWithInheritance("displayOpacity")
+        shares = numbers_of(opacity.GetAttr(), np.float64) if opacity and opacity.HasValue() else np.ones(1)
+        share = _within(float(shares.mean()), 1.0) if len(shares) else 1.0
+        colour = primvars.FindPrimvarWithInheritance("displayColor")
+        if not colour or colour.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
+            return SurfaceLook(opacity=share)
+        values = numbers_of(colour.GetAttr(), np.float64, width=3)
+        if not len(values):
+            return SurfaceLook(opacity=share)
+        red, green, blue = np.clip(np.nan_to_num(values), 0, 1).mean(axis=0).tolist()
+        varies = colour.GetInterpolation() != UsdGeom.Tokens.constant and len(values) > 1
+        return SurfaceLook(colour_rgb=(red, green, blue), opacity=share, colour_name="displayColor" if varies else "")
+
+    def surface_of(self, material: UsdShade.Material, prim: Usd.Prim) -> SurfaceLook:
+        """What a material's UsdPreviewSurface says of a prim; `PLAIN` where it has none."""
+        found, _, _ = material.ComputeSurfaceSource()
+        if not found or found.GetIdAttr().Get() != _PREVIEW:
+            self._remarks.add("materials without a UsdPreviewSurface are plain", material.GetPath())
+            return PLAIN
+        self.read_a_primvar = False
+        shader = _Inputs(self, found, prim, frozenset(found.GetPrim().GetAuthoredPropertyNames()))
+        if any(shader.given("displacement", (0.0,)).values):
+            self._remarks.add("displacement is left out", material.GetPath())
+        colour, emissive = shader.colour("diffuseColor", (0.18,) * 3), shader.colour("emissiveColor", (0.0,) * 3)
+        roughness, metallic = shader.number("roughness", _DEFAULT_ROUGHNESS), shader.number("metallic", 0.0)
+        opacity, occlusion = shader.number("opacity", 1.0), shader.number("occlusion", 1.0)
+        clearcoat, coat_roughness = shader.number("clearcoat", 0.0), shader.number("clearcoatRoughness", 0.01)
+        is_specular = shader.number("useSpecularWorkflow", 0.0).values[0] > 0
+        specular = shader.colour("specularColor", (0.0,) * 3) if is_specular else None
+        return SurfaceLook(
+            colour_rgb=_rgb(colour),
+            emissive_rgb=_rgb(emissive),
+            roughness=roughness.values[0],
+            metallic=0.0 if is_specular else metallic.values[0],
+            opacity=opacity.values[0],
+            clearcoat=clearcoat.values[0],
+            clearcoat_roughness=coat_roughness.values[0],
+            occlusion=occlusion.values[0],
+            ior=shader.number("ior", _DEFAULT_IOR, most=_MOST_IOR).values[0],
+            specular_rgb=_rgb(specular) if specular else None,
+            colour_texture=colour.texture,
+            opacity_texture=opacity.texture,
+            roughness_texture=roughness.texture,
+            metallic_texture=None if is_specular else metallic.texture,
+            normal_texture=shader.given("normal", (0.0, 0.0, 1.0)).texture,
+            occlusion_texture=occlusion.texture,
+            emissive_texture=emissive.texture,
+            clearcoat_texture=clearcoat.texture,
+            clearcoat_roughness_texture=coat_roughness.texture,
+            specular_texture=specular.texture if specular else None,
+            colour_name=colour.primvar,
+            opacity_threshold=shader.number("opacityThreshold", 0.0).values[0],
+            name=material.GetPrim().GetName(),
+        )
+
+    def given(self, source: Source, default: tuple[float, ...], prim: Usd.Prim, *, is_colour: bool) -> _Given:
+        """What a source gives to an input."""
+        if source.shader is None:
+            return _Given(_numbers_in(source.attribute, len(default)))
+        if source.node == UV_TEXTURE:
+            read = self._textures.read(source)
+            if not isinstance(read, Texture):
+                return _Given(read[: len(default)])
+            return _Given((1.0,) * len(default), read if is_colour else self._as_numbers(read))
+        if source.node.startswith(PRIMVAR_READER):
+            return self._primvar(source, default, prim)
+        self._remarks.add(
+            "inputs from other nodes than those of UsdPreviewSurface are left out", source.attribute.GetPrimPath()
+        )
+        return _Given(default)
+
+    def _as_numbers(self, texture: Texture) -> Texture:
+        """The same texture for what is no colour: its pixels are numbers unless it says that they are sRGB."""
+        if texture.colour_space != "auto" or texture.band().channel == ALPHA:
+            return texture
+        if self.pictures.is_srgb(texture.file, "auto"):
+            self._remarks.add("numbers in coloured pictures of the colour space auto are read as raw", texture.file)
+        return texture._replace(colour_space="raw")
+
+    def _primvar(self, source: Source, default: tuple[float, ...], prim: Usd.Prim) -> _Given:
+        """What a primvar of a prim gives; the reader's fallback where it has none."""
+        named, fallback = source_of(source.shader, "varname"), source_of(source.shader, "fallback")
+        name = str((named.attribute.Get(READ_AT) if named else "") or "")
+        self.read_a_primvar = True
+        primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name) if name else UsdGeom.Primvar()
+        values = _rows(primvar, len(default)) if primvar and primvar.HasValue() else None
+        if values is None:
+            return _Given(_numbers_in(fallback.attribute, len(default)) if fallback else (0.0,) * len(default))
+        mean = tuple(np.nan_to_num(values).mean(axis=0).tolist())
+        if len(values) == 1 or primvar.GetInterpolation() == UsdGeom.Tokens.constant:
+            return _Given(mean)
+        if source.node in _COLOUR_READERS and len(default) > 1:
+            return _Given(mean, None, name)
+        self._remarks.add("numbers by point are carried as their mean", source.attribute.GetPrimPath())
+        return _Given(mean)
+
+
+class _Inputs(NamedTuple):
+    """The inputs of a surface's shader; most of most are as they are by default."""
+
+    reader: SurfaceReader
+    shader: UsdShade.Shader
+    prim: Usd.Prim
+    said: frozenset[str]
+
+    def given(self, name: str, default: tuple[float, ...], *, is_colour: bool = False) -> _Given:
+        """What an input is."""
+        source = source_of(self.shader, name) if f"inputs:{name}" in self.said else None
+        return _Given(default) if source is None else self.reader.given(source, default, self.prim, is_colour=is_colour)
+
+    def colour(self, name: str, default: Rgb) -> _Given:
+        """A colour from 0 to as bright as can be."""
+        return self._clipped(self.given(name, default, is_colour=True), _BRIGHTEST)
+
+    def number(self, name: str, default: float, *, most: float = 1.0) -> _Given:
+        """A number from 0 to another."""
+        return self._clipped(self.given(name, (default,)), most)
+
+    @staticmethod
+    def _clipped(given: _Given, most: float) -> _Given:
+        return given._replace(values=tuple(_within(value, most) for value in given.values))
 
 
 def stands_alone(material: UsdShade.Material) -> bool:
     """Whether what a material says depends on nothing but itself and what is below it."""
     prim = material.GetPrim()
-    connected = (given for part in Usd.PrimRange(prim) for given in part.GetAuthoredAttributes())
+    parts = Usd.PrimRange(prim, Usd.TraverseInstanceProxies())
+    connected = (given for part in parts for given in part.GetAuthoredAttributes())
     sources = (source for given in connected for source in given.GetConnections())
     return all(source.HasPrefix(prim.GetPath()) for source in sources)
 
 
-class _Shader(NamedTuple):
-    """A shader and the names of what it says."""
-
-    shader: UsdShade.Shader
-    said: frozenset[str]
-
-    def input(self, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
-        """As `_input`; most inputs of most shaders are as they are by default."""
-        return _input(self.shader, name) if f"inputs:{name}" in self.said else (None, None, 0)
+def _rgb(given: _Given) -> Rgb:
+    red, green, blue = given.values
+    return red, green, blue
 
 
-def _colour(shader: _Shader, name: str, default: Rgb) -> tuple[Rgb, UsdShade.Shader | None, int]:
-    given, reader, channel = shader.input(name)
-    if reader is not None:
-        return (1.0, 1.0, 1.0), reader, channel
-    if given is None or not given.HasValue():
-        return default, None, 0
-    ((red, green, blue),) = numbers_of(given, np.float64, width=3).tolist()
-    return (_within(red, _BRIGHTEST), _within(green, _BRIGHTEST), _within(blue, _BRIGHTEST)), None, 0
+def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
+    """Values of a primvar, shape (n, width); None where it has none that wide."""
+    try:
+        values = np.asarray(primvar.ComputeFlattened(READ_AT), dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    if not primvar.GetTypeName().isArray:
+        values = values[None]
+    rows = values.reshape(len(values), -1) if len(values) else values.reshape(0, 1)
+    return rows[:, :width] if len(rows) and rows.shape[1] >= width else None
 
 
-def _number(shader: _Shader, name: str, default: float) -> tuple[float, UsdShade.Shader | None, int]:
-    given, reader, channel = shader.input(name)
-    if reader is not None:
-        return 1.0, reader, channel
-    if given is None or not given.HasValue():
-        return default, None, 0
-    return _within(number_of(given), 1.0), None, 0
+def _numbers_in(attribute: Usd.Attribute, width: int) -> tuple[float, ...]:
+    """The numbers of one value."""
+    values = numbers_of(attribute, np.float64)
+    if len(values) < width:
+        raise lacks(attribute, "numbers")
+    return tuple(values[:width].tolist())
 
 
 def _within(value: float, most: float) -> float:
     """A number of at least 0 and at most another; 0 for what is none."""
     return 0.0 if math.isnan(value) else min(max(value, 0.0), most)
-
-
-def _input(shader: UsdShade.Shader, name: str) -> tuple[Usd.Attribute | None, UsdShade.Shader | None, int]:
-    """What holds an input's value, or the texture reader that it comes from and which channel of it."""
-    given = shader.GetInput(name)
-    if not given:
-        return None, None, 0
-    if not given.GetAttr().HasAuthoredConnections():
-        return given.GetAttr(), None, 0
-    for attribute in given.GetValueProducingAttributes():
-        if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
-            return attribute, None, 0
-        reader = UsdShade.Shader(attribute.GetPrim())
-        if reader and reader.GetIdAttr().Get() == "UsdUVTexture":
-            channel = {"r": 0, "g": 1, "b": 2, "a": 3}.get(UsdShade.Output(attribute).GetBaseName(), 0)
-            return None, reader, channel
-    return None, None, 0
-
-
-def _file(reader: UsdShade.Shader | None) -> str:
-    if reader is None:
-        return ""
-    given, _, _ = _input(reader, "file")
-    value = None if given is None else given.Get(READ_AT)
-    return value.resolvedPath if isinstance(value, Sdf.AssetPath) else ""
-
-
-def _coordinate_name(reader: UsdShade.Shader | None) -> str:
-    given = reader.GetInput("st") if reader is not None else None
-    for attribute in given.GetValueProducingAttributes() if given else ():
-        source = UsdShade.Shader(attribute.GetPrim())
-        if source and source.GetIdAttr().Get() == "UsdPrimvarReader_float2":
-            named, _, _ = _input(source, "varname")
-            return str((named.Get(READ_AT) if named else None) or "st")
-    return "st"

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
+from garage2usd.reading.inheritance import NOTHING, Inherited, handed_down
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject
 from garage2usd.reading.prim_types import PrimType, PrimTypes, is_imageable, is_visible, purpose_of
 from garage2usd.reading.taxonomy import OBJECT_TAXONOMY, SQUARE_TAXONOMY, label_of, labels_name
@@ -63,7 +64,7 @@ class _At:
         Paths of the prim, from the root of the walk on.
     matrix
         From its space to that of the walk's root.
-    square, purpose
+    square, purpose, inherited
         As it inherits them.
     stage_matrix
         From the stage's space to that of the walk's root: where a transform stack begins that is reset.
@@ -83,6 +84,7 @@ class _At:
     stage_matrix: Matrix
     square: str = ""
     purpose: str = UsdGeom.Tokens.default_
+    inherited: Inherited = NOTHING
     holder: PlacedObject | None = None
     within: Matrix = field(default_factory=lambda: _IDENTITY)
     predicate: "Usd._PrimFlagsPredicate" = Usd.PrimDefaultPredicate
@@ -102,7 +104,7 @@ class _Walk:
     def __init__(self, stage: Usd.Stage) -> None:
         self._stage = stage
         self._places = UsdGeom.XformCache(READ_AT)
-        self._prototypes: dict[tuple[Usd.Prim, str, bool], _Prototype] = {}
+        self._prototypes: dict[object, _Prototype] = {}
         self._types = PrimTypes()
         self._has_labels = cache(_has_labels)
         self._resets = cache(_resets)
@@ -131,6 +133,7 @@ class _Walk:
             above.stage_matrix,
             (label_of(prim, SQUARE_TAXONOMY) if _SQUARE in said else "") or above.square,
             purpose_of(prim, above.purpose) if _PURPOSE in said else above.purpose,
+            handed_down(prim, said, above.inherited) if _hands_down(prim, kind) else above.inherited,
             holder,
             within,
             above.predicate,
@@ -150,7 +153,7 @@ class _Walk:
         """Find what a prim draws itself, and what is below it."""
         if kind.draws(prim) and at.purpose in _DRAWN_PURPOSES and at.holder is not None:
             source = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
-            _append(at.holder, [DrawnPart(source, at.path.removeprefix(at.holder.path), at.within)])
+            _append(at.holder, [DrawnPart(source, at.path.removeprefix(at.holder.path), at.within, at.inherited)])
         is_instance = prim.IsInstance()
         if is_instance and not self._resets(prototype := prim.GetPrototype()):
             self._take(self._prototype(prototype, at), at)
@@ -179,25 +182,26 @@ class _Walk:
                 holder = PlacedObject(path, _twin(root), label_of(root) or label or above, at.square, matrix)
                 at.found.append(holder)
                 here = replace(at, path=path, twin=holder.twin, matrix=matrix, holder=holder, within=_IDENTITY)
-                self._take(self._point_prototype(root), here)
+                self._take(self._point_prototype(root, at.inherited if root.IsInPrototype() else NOTHING), here)
 
     def _prototype(self, prototype: Usd.Prim, at: _At) -> _Prototype:
         """What a prototype of instances holds, for an instance that inherits what `at` says."""
-        key = prototype, at.purpose, at.holder is not None
+        inherited = at.inherited.by_instance(at.path)
+        key = prototype, at.purpose, inherited, at.holder is not None
         if key not in self._prototypes:
-            inside = _inside(at.purpose, is_held=at.holder is not None)
+            inside = _inside(at.purpose, inherited, is_held=at.holder is not None)
             for child in prototype.GetChildren():
                 self.visit(child, inside)
             self._prototypes[key] = _held(inside)
         return self._prototypes[key]
 
-    def _point_prototype(self, root: Usd.Prim) -> _Prototype:
+    def _point_prototype(self, root: Usd.Prim, inherited: Inherited) -> _Prototype:
         """What a prototype of a point instancer holds; its own transform is the points'."""
-        key = root, "", True
+        key = root, inherited
         if key not in self._prototypes:
             self._prototypes[key] = _Prototype([], ())  # within itself it draws nothing
             purpose = UsdGeom.Imageable(root).ComputePurpose() if is_imageable(root) else UsdGeom.Tokens.default_
-            inside = _inside(str(purpose), is_held=True)
+            inside = _inside(str(purpose), inherited, is_held=True)
             if is_visible(root) and root.IsA(UsdGeom.PointInstancer):
                 self._visit_points(root, inside, "")
             elif is_visible(root):
@@ -227,7 +231,8 @@ class _Walk:
             return
         after = at.path.removeprefix(at.holder.path)
         _append(
-            at.holder, [DrawnPart(prim, after + path, matrix @ at.within) for prim, path, matrix in prototype.parts]
+            at.holder,
+            [part._replace(path=after + part.path, matrix=part.matrix @ at.within) for part in prototype.parts],
         )
 
     def _place(self, prim: Usd.Prim) -> tuple[Matrix, bool]:
@@ -245,10 +250,15 @@ class _Walk:
         return self._types.of(prim).draws(prim)
 
 
-def _inside(purpose: str, *, is_held: bool) -> _At:
+def _hands_down(prim: Usd.Prim, kind: PrimType) -> bool:
+    """Whether there may be an instance at or below a prim: below nearly nothing that is drawn there is."""
+    return not kind.is_drawn or prim.IsInstance() or bool(prim.GetAllChildrenNames())
+
+
+def _inside(purpose: str, inherited: Inherited, *, is_held: bool) -> _At:
     """The root of a prototype; what is in it is part of the object that holds an instance, if one does."""
     holder = PlacedObject("", "", "", "", _IDENTITY) if is_held else None
-    return _At("", "", _IDENTITY, _IDENTITY, purpose=purpose, holder=holder)
+    return _At("", "", _IDENTITY, _IDENTITY, purpose=purpose, inherited=inherited, holder=holder)
 
 
 def _held(inside: _At) -> _Prototype:

@@ -1,6 +1,6 @@
 """What a stage draws, taken apart: its different shapes, and each place where one of them is drawn."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,7 +65,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
     See `garage2usd.reading.walk.placed_objects` for what is drawn.
     """
     metres = UsdGeom.GetStageMetersPerUnit(stage)
-    numbers: dict[Sdf.Path, int] = {}
+    numbers: dict[Hashable, int] = {}
     shapes: list[Sdf.Path] = []
     materials: set[Sdf.Path] = set()
     domes: list[Sdf.Path] = []
@@ -79,7 +79,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
             if any(part.prim.IsA(dome) for dome in _DOMES):
                 domes.append(twin)
                 continue
-            number = numbers.setdefault(part.prim.GetPath(), len(shapes))
+            number = numbers.setdefault((part.prim.GetPath(), part.inherited), len(shapes))
             if number == len(shapes):
                 shapes.append(twin)
                 materials.update(_materials(stage.GetPrimAtPath(twin)))

@@ -1,6 +1,5 @@
 """The solid surfaces of a composed stage as one mesh that rays are cast at, with what each triangle belongs to."""
 
-import io
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -8,8 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
-from pxr import Ar, Usd, UsdGeom
+from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
 from garage2usd.extras import of_extra
@@ -17,7 +15,8 @@ from garage2usd.objects.sky import KIND as SKY
 from garage2usd.reading.labels import Labels, owner_of
 from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES
-from garage2usd.reading.objects import PlacedObject, once_for_each_look
+from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
+from garage2usd.reading.pictures import Pictures
 from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.walk import placed_objects
 
@@ -62,7 +61,7 @@ class RayScene:
     vertices_m
         float64, shape (v, 3).
     coordinates
-        Of the vertices on textures; float32, shape (v, 2).
+        Of the vertices on the texture that says how opaque they are; float32, shape (v, 2).
     triangles
         Vertices of each triangle; int32, shape (t, 3).
     instance
@@ -75,6 +74,8 @@ class RayScene:
         What they look like.
     placed
         The objects by their ids.
+    pictures
+        What textures show.
     """
 
     vertices_m: NDArray[np.float64]
@@ -85,6 +86,7 @@ class RayScene:
     surface: NDArray[np.int32]
     surfaces: tuple[SurfaceLook, ...]
     placed: Mapping[int, PlacedObject]
+    pictures: Pictures
 
     def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
         """Find what each ray meets first.
@@ -172,9 +174,9 @@ class RayScene:
     def _masks(self) -> dict[int, NDArray[np.float64]]:
         """Opacity of the texture of each surface whose texture has one; 0 to 1, rows from the bottom."""
         return {
-            number: _opacity(look.colour_texture)
+            number: self.pictures.plane(look.opacity_texture.band())[::-1]  # the last row of pixels is v = 0
             for number, look in enumerate(self.surfaces)
-            if look.has_alpha and look.colour_texture
+            if look.opacity_texture
         }
 
 
@@ -209,7 +211,7 @@ def read_ray_scene(
     looks = MeshLooks(is_apart_by_name=True)
 
     def look_of(placed: PlacedObject) -> list[_Piece]:
-        return [piece for part in placed.parts for piece in _pieces(part.prim, part.matrix, part.path, looks)]
+        return [piece for part in placed.parts for piece in _pieces(placed, part, looks)]
 
     remembered = once_for_each_look(look_of)
     owners: dict[str, int] = {}
@@ -245,7 +247,15 @@ def read_ray_scene(
     vertices, coordinates, triangles, instance_of, class_of, surface = map(np.concatenate, zip(*columns, strict=True))
     placed_by_id.pop(0, None)
     return RayScene(
-        vertices, coordinates, triangles, instance_of, class_of, surface, tuple(looks.surfaces.values), placed_by_id
+        vertices,
+        coordinates,
+        triangles,
+        instance_of,
+        class_of,
+        surface,
+        tuple(looks.surfaces.values),
+        placed_by_id,
+        looks.pictures,
     )
 
 
@@ -259,29 +269,24 @@ class _Piece(NamedTuple):
     surface: int
 
 
-def _pieces(prim: Usd.Prim, matrix: NDArray[np.float64], path: str, looks: MeshLooks) -> list[_Piece]:
-    if prim.GetTypeName() not in DRAWN_TYPES:
+def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Piece]:
+    if part.prim.GetTypeName() not in DRAWN_TYPES:
         return []
     found = []
-    for mesh, surface in looks.of_prim(prim):
+    for mesh, surface in looks.of_part(placed, part):
         triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
         if look.opacity > _OPAQUE:
-            places = triangles.positions_m @ matrix[:3, :3] + matrix[3, :3]
-            found.append(_Piece(path, places, triangles.coordinates, triangles.indices.astype(np.int32), surface))
+            places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]
+            mask = look.opacity_texture
+            number = look.sets.index(mask.layout.coordinates) if mask else 0
+            coordinates = triangles.coordinates[:, number]
+            placed_coordinates = mask.layout.placed(coordinates) if mask else coordinates
+            found.append(_Piece(part.path, places, placed_coordinates, triangles.indices.astype(np.int32), surface))
     return found
 
 
 def _is_below(path: str, roots: Collection[str]) -> bool:
     return any(path == root or path.startswith((f"{root}/", f"{root}[")) for root in roots)
-
-
-def _opacity(texture: str) -> NDArray[np.float64]:
-    asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(texture))
-    if not asset:
-        raise StageError(texture, "a texture of the stage, which says what is opaque, cannot be read")
-    with Image.open(io.BytesIO(bytes(asset.GetBuffer()))) as picture:
-        alpha = np.asarray(picture.convert("RGBA").getchannel("A"), dtype=np.float64) / 255
-    return alpha[::-1]  # the last row of pixels is v = 0
 
 
 def _sampled(mask: NDArray[np.float64], coordinates: NDArray[np.floating[Any]]) -> NDArray[np.float64]:

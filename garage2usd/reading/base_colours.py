@@ -1,0 +1,48 @@
+"""The colour and the opacity of a surface as those take them who know one texture for both."""
+
+from typing import NamedTuple
+
+from garage2usd.reading.pictures import Bands, Pictures, factored
+from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.surfaces import Rgb, SurfaceLook
+from garage2usd.reading.textures import Texture
+
+__all__ = ["BaseColour", "base_colour_of"]
+
+
+class BaseColour(NamedTuple):
+    """Factors, and a texture with which they are multiplied.
+
+    Attributes
+    ----------
+    colour_rgb, opacity
+        0 to 1.
+    bands
+        What the texture shows; the fourth is the opacity.
+    texture
+        How it lies on the surface; None for no texture.
+    """
+
+    colour_rgb: Rgb
+    opacity: float
+    bands: Bands
+    texture: Texture | None
+
+
+def base_colour_of(surface: SurfaceLook, pictures: Pictures, remarks: Remarks) -> BaseColour:
+    """What a surface's colour and opacity are together; `remarks` is told where they do not go together."""
+    colour, opacity = surface.colour_texture, surface.opacity_texture
+    factors, share = [min(part, 1.0) for part in surface.colour_rgb], surface.opacity
+    if colour and opacity and colour.layout != opacity.layout:
+        remarks.add("opacity textures that lie unlike the colour's are carried as their mean", opacity.file)
+        share, opacity = min(max(pictures.mean(opacity.band()), 0.0), 1.0), None
+    bands: Bands = (1.0, 1.0, 1.0)
+    if colour:
+        factors, bands = factored(colour.band(channel) for channel in range(3))
+    if opacity:
+        (share,), alpha = factored([opacity.band()])
+        bands += alpha
+    elif colour and surface.is_blended and pictures.has_alpha(colour.file):
+        bands += (1.0,)
+    red, green, blue = factors
+    return BaseColour((red, green, blue), share, bands, colour or opacity)

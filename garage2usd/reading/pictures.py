@@ -1,0 +1,263 @@
+"""Pictures that textures show: their bytes, their pixels, and pictures made of channels of others."""
+
+import io
+import math
+from collections.abc import Iterable
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from pxr import Ar
+
+__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored"]
+
+_PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+"""The kinds of pictures that browsers and glTF take, by their first bytes."""
+_OPENEXR = b"\x76\x2f\x31\x01"
+_BITS_AT = 24
+"""Where a PNG says how many bits a channel has."""
+_SIXTEEN = 16
+_COLOURED = 3
+"""From as many channels on a picture of 8 bits is taken for colours in sRGB."""
+_WHOLE = {"I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0, "F": 1.0}
+ALPHA = 3
+"""The last of the four channels."""
+_KNEE, _SLOPE, _SHIFT, _POWER = 0.0031308, 12.92, 0.055, 2.4
+"""The curve of sRGB (IEC 61966-2-1): straight up to the knee, a power from there on."""
+
+
+class Picture(NamedTuple):
+    """A file of an image: its name, its media type, and its bytes."""
+
+    name: str
+    kind: str
+    data: bytes
+
+
+class Band(NamedTuple):
+    """A channel of a picture, linear, times `scale` plus `bias`.
+
+    Attributes
+    ----------
+    file, channel
+        Resolved path of the picture, and 0 to 3 for red, green, blue and alpha.
+    colour_space
+        ``sRGB``, ``raw`` or ``auto``.
+    """
+
+    file: str
+    channel: int
+    colour_space: str = "raw"
+    scale: float = 1.0
+    bias: float = 0.0
+
+
+class _Pixels(NamedTuple):
+    """Pixels as a file stores them; float32, shape (rows, columns, 4), the first row on top."""
+
+    values: NDArray[np.float32]
+    channels: int
+    are_bytes: bool
+
+
+Bands = tuple[Band | float | None, ...]
+"""Red, green, blue and perhaps alpha: each of a picture, the same everywhere, or read by nobody."""
+
+
+def factored(bands: Iterable[Band]) -> tuple[list[float], tuple[Band, ...]]:
+    """Bands as factors from 0 to 1, and what they are multiplied with."""
+    factors, rest = [], []
+    for band in bands:
+        is_factor = band.bias == 0 and 0 <= band.scale <= 1
+        factors.append(band.scale if is_factor else 1.0)
+        rest.append(band._replace(scale=1.0) if is_factor else band)
+    return factors, tuple(rest)
+
+
+class Pictures:
+    """Reads pictures, each once."""
+
+    def __init__(self) -> None:
+        self._data: dict[str, bytes] = {}
+        self._faults: dict[str, str] = {}
+        self._pixels: dict[str, _Pixels] = {}
+
+    def data(self, file: str) -> bytes:
+        """The bytes of a file; none where it cannot be opened."""
+        if file not in self._data:
+            asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(file))
+            self._data[file] = bytes(asset.GetBuffer()) if asset and asset.GetSize() else b""
+        return self._data[file]
+
+    def fault(self, file: str) -> str:
+        """Why a picture cannot be read, as what it is or lacks; empty where it can."""
+        if file not in self._faults:
+            try:
+                self._read(file)
+            except ModuleNotFoundError:
+                self._faults[file] = "need OpenEXR (pip install 'garage2usd[blender]')"
+            except Exception:  # noqa: BLE001 - decoders of damaged files fail in every way
+                self._faults[file] = "cannot be decoded" if self.data(file) else "are empty"
+            else:
+                self._faults[file] = ""
+        return self._faults[file]
+
+    def _read(self, file: str) -> None:
+        """Decode a file, as nothing less tells whether it is whole, and keep nothing of it."""
+        data = self.data(file)
+        if data.startswith(_OPENEXR):
+            _of_openexr(data)
+            return
+        with Image.open(io.BytesIO(data)) as picture:
+            picture.load()
+
+    def plain_kind(self, file: str) -> str:
+        """The media type of a file that browsers and glTF take as it is; empty for any other."""
+        data = self.data(file)
+        kind = next((kind for magic, kind in _PLAIN_KINDS.items() if data.startswith(magic)), "")
+        if kind == "image/jpeg":
+            with Image.open(io.BytesIO(data)) as picture:  # reads the header alone
+                return kind if picture.mode in {"L", "RGB"} else ""
+        return kind
+
+    def is_srgb(self, file: str, colour_space: str) -> bool:
+        """Whether red, green and blue are stored as sRGB; ``auto`` means colours of 8 bits."""
+        if colour_space in {"sRGB", "raw"}:
+            return colour_space == "sRGB"
+        channels, are_bytes = self._form(file)
+        return are_bytes and channels >= _COLOURED
+
+    def has_alpha(self, file: str) -> bool:
+        """Whether a picture has an alpha that is not opaque everywhere."""
+        return bool((self._pixels_of(file).values[..., ALPHA] < 1).any())
+
+    def _form(self, file: str) -> tuple[int, bool]:
+        """How many channels a picture has, and whether they are of 8 bits."""
+        data = self.data(file)
+        if data.startswith(_OPENEXR):
+            return _COLOURED, False
+        with Image.open(io.BytesIO(data)) as picture:  # reads the header alone
+            has_palette = picture.mode == "P"
+            channels = _COLOURED if has_palette else len(picture.getbands())
+            return channels, picture.mode not in _WHOLE and not _has_sixteen_bits(data)
+
+    def plane(self, band: Band) -> NDArray[np.float64]:
+        """The values of a band; float64, shape (rows, columns), the first row on top."""
+        values = self._pixels_of(band.file).values[..., band.channel].astype(np.float64)
+        if band.channel != ALPHA and self.is_srgb(band.file, band.colour_space):
+            values = _linear(values)
+        return values * band.scale + band.bias
+
+    def mean(self, band: Band) -> float:
+        """The mean of a band."""
+        return float(self.plane(band).mean())
+
+    def _pixels_of(self, file: str) -> _Pixels:
+        if file not in self._pixels:
+            data = self.data(file)
+            self._pixels[file] = _of_openexr(data) if data.startswith(_OPENEXR) else _of_pillow(data)
+        return self._pixels[file]
+
+    def composed(self, bands: Bands, *, is_srgb: bool) -> Picture:
+        """A picture of some bands: the very file where one has them, else a PNG of 8 bits.
+
+        Parameters
+        ----------
+        bands
+            Red, green, blue and, where there are four, alpha; a number for the same everywhere, None for what nobody
+            reads. One of them is a band.
+        is_srgb
+            Whether red, green and blue are to be stored as sRGB.
+        """
+        given = [band for band in bands if isinstance(band, Band)]
+        name = PurePosixPath(given[0].file.rpartition("[")[2].removesuffix("]")).stem
+        if self._are_stored(bands, is_srgb=is_srgb):
+            file = given[0].file
+            return Picture(name, self.plain_kind(file), self.data(file))
+        planes = [band if isinstance(band, float) else self.plane(band) if band else 1.0 for band in bands]
+        rows, columns = max((plane.shape for plane in planes if not isinstance(plane, float)), key=math.prod)
+        size = columns, rows
+        parts = [
+            _stored(_of_size(plane, size), is_srgb=is_srgb and number != ALPHA) for number, plane in enumerate(planes)
+        ]
+        buffer = io.BytesIO()
+        Image.fromarray(np.stack(parts, axis=2)).save(buffer, format="PNG", optimize=True)
+        return Picture(name, "image/png", buffer.getvalue())
+
+    def _are_stored(self, bands: Bands, *, is_srgb: bool) -> bool:
+        """Whether a file has these bands as they are."""
+        files = {band.file if isinstance(band, Band) else "" for band in bands if band is not None}
+        if len(files) > 1 or not self.plain_kind(file := files.pop()):
+            return False
+        is_grey = self._form(file)[0] < _COLOURED
+        return all(
+            (band.scale, band.bias) == (1.0, 0.0)
+            and (band.channel == number or (is_grey and number != ALPHA != band.channel))
+            and (number == ALPHA or self.is_srgb(file, band.colour_space) == is_srgb)
+            for number, band in enumerate(bands)
+            if isinstance(band, Band)
+        )
+
+
+def _linear(stored: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Linear light of values in sRGB."""
+    straight = stored / _SLOPE
+    curved = ((np.maximum(stored, _SLOPE * _KNEE) + _SHIFT) / (1 + _SHIFT)) ** _POWER
+    return np.where(stored <= _SLOPE * _KNEE, straight, curved)
+
+
+def _stored(values: NDArray[np.float64], *, is_srgb: bool) -> NDArray[np.uint8]:
+    """Values as bytes."""
+    kept = np.clip(np.nan_to_num(values), 0.0, 1.0)
+    if is_srgb:
+        curved = (1 + _SHIFT) * np.maximum(kept, _KNEE) ** (1 / _POWER) - _SHIFT
+        kept = np.where(kept <= _KNEE, _SLOPE * kept, curved)
+    stored: NDArray[np.uint8] = np.rint(kept * 255).astype(np.uint8)
+    return stored
+
+
+def _of_size(plane: NDArray[np.float64] | float, size: tuple[int, int]) -> NDArray[np.float64]:
+    if isinstance(plane, float):
+        return np.full(size[::-1], plane)
+    if plane.shape[::-1] == size:
+        return plane
+    resized = Image.fromarray(plane.astype(np.float32)).resize(size, Image.Resampling.BILINEAR)
+    return np.asarray(resized, dtype=np.float64)
+
+
+def _has_sixteen_bits(data: bytes) -> bool:
+    return data.startswith(b"\x89PNG") and data[_BITS_AT] == _SIXTEEN
+
+
+def _of_pillow(data: bytes) -> _Pixels:
+    with Image.open(io.BytesIO(data)) as picture:
+        picture.load()
+        if picture.mode in _WHOLE:
+            grey = np.asarray(picture, dtype=np.float32) / np.float32(_WHOLE[picture.mode])
+            return _Pixels(_four([np.asarray(grey, dtype=np.float32)]), 1, are_bytes=False)
+        channels = _COLOURED if picture.mode in {"P", "CMYK"} else len(picture.getbands())
+        values = np.asarray(picture.convert("RGBA"), dtype=np.float32) / np.float32(255)
+        return _Pixels(values, channels, are_bytes=not _has_sixteen_bits(data))
+
+
+def _of_openexr(data: bytes) -> _Pixels:
+    from tempfile import NamedTemporaryFile  # noqa: PLC0415 - of a format that few stages have
+
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    with NamedTemporaryFile(suffix=".exr") as file:  # it reads files alone
+        file.write(data)
+        file.flush()
+        with OpenEXR.File(file.name, separate_channels=True) as picture:
+            planes = {name: np.array(channel.pixels, dtype=np.float32) for name, channel in picture.channels().items()}
+    red = planes.get("R", next(iter(planes.values())))
+    colours = [red, planes.get("G", red), planes.get("B", red)]
+    return _Pixels(_four(colours, planes.get("A")), _COLOURED, are_bytes=False)
+
+
+def _four(colours: list[NDArray[np.float32]], alpha: NDArray[np.float32] | None = None) -> NDArray[np.float32]:
+    """Red, green, blue and alpha of one channel or three."""
+    three = colours * 3 if len(colours) == 1 else colours
+    return np.stack([*three, np.ones_like(three[0]) if alpha is None else alpha], axis=2)

@@ -1,0 +1,284 @@
+"""Textures as the nodes UsdUVTexture, UsdTransform2d and UsdPrimvarReader_float2 read them."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Sdf, Usd, UsdShade
+
+from garage2usd.reading.pictures import Band, Pictures
+from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.values import READ_AT, number_of, numbers_of
+
+__all__ = [
+    "PRIMVAR_READER",
+    "USUAL_COORDINATES",
+    "UV_TEXTURE",
+    "Coordinates",
+    "Layout",
+    "Source",
+    "Texture",
+    "TextureReader",
+    "source_of",
+]
+
+PRIMVAR_READER = "UsdPrimvarReader_"
+UV_TEXTURE, _TRANSFORM = "UsdUVTexture", "UsdTransform2d"
+_CHANNELS = {"rgb": -1, "r": 0, "g": 1, "b": 2, "a": 3}
+_DEEPEST = 16
+"""How many transforms of coordinates may follow each other: connections may lead in circles."""
+_FIRST_TILE = "1001"
+_WRAPS = {"mirror": "mirror", "clamp": "clamp", "black": "clamp"}
+_SQUARE = 1e-6
+_Number = TypeVar("_Number", bound=np.floating[Any])
+Four = tuple[float, float, float, float]
+
+
+class Coordinates(NamedTuple):
+    """Where a surface is on a texture.
+
+    Attributes
+    ----------
+    name
+        Primvar that says so; empty for none.
+    fallback
+        The place of all that has no such primvar.
+    """
+
+    name: str
+    fallback: tuple[float, float] = (0.0, 0.0)
+
+
+USUAL_COORDINATES = Coordinates("st")
+
+
+class Layout(NamedTuple):
+    """How a texture lies on a surface.
+
+    Attributes
+    ----------
+    coordinates
+        Which they are.
+    scale, rotation_rad, translation
+        What is done to them, in this order; turned counter-clockwise.
+    wrap_s, wrap_t
+        ``repeat``, ``mirror`` or ``clamp``: what is outside of the unit square.
+    """
+
+    coordinates: Coordinates = USUAL_COORDINATES
+    scale: tuple[float, float] = (1.0, 1.0)
+    rotation_rad: float = 0.0
+    translation: tuple[float, float] = (0.0, 0.0)
+    wrap_s: str = "repeat"
+    wrap_t: str = "repeat"
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether anything is done to the coordinates."""
+        return (self.scale, self.rotation_rad, self.translation) != ((1.0, 1.0), 0.0, (0.0, 0.0))
+
+    def placed(self, coordinates: NDArray[_Number]) -> NDArray[_Number]:
+        """Coordinates, shape (..., 2), with all done to them."""
+        if not self.is_moved:
+            return coordinates
+        cos, sin = math.cos(self.rotation_rad), math.sin(self.rotation_rad)
+        scaled = coordinates * np.array(self.scale)
+        turned = scaled @ np.array([[cos, sin], [-sin, cos]]) + np.array(self.translation)
+        placed: NDArray[_Number] = turned.astype(coordinates.dtype)
+        return placed
+
+
+class Texture(NamedTuple):
+    """What an input takes from a picture: each pixel, linear, times `scale` plus `bias`.
+
+    Attributes
+    ----------
+    file
+        Resolved asset path of a picture that can be read.
+    channel
+        0 to 3 for red, green, blue and alpha; -1 for red, green and blue.
+    layout
+        How it lies on the surface.
+    scale, bias
+        Of red, green, blue and alpha.
+    colour_space
+        ``sRGB``, ``raw`` or ``auto``.
+    """
+
+    file: str
+    channel: int = -1
+    layout: Layout = Layout()
+    scale: Four = (1.0, 1.0, 1.0, 1.0)
+    bias: Four = (0.0, 0.0, 0.0, 0.0)
+    colour_space: str = "auto"
+
+    def band(self, channel: int = 0) -> Band:
+        """What it gives as red, green, blue or alpha (0 to 3), or as a number where it gives one."""
+        taken = channel if self.channel < 0 else self.channel
+        return Band(self.file, taken, self.colour_space, self.scale[taken], self.bias[taken])
+
+
+class Source(NamedTuple):
+    """Where the value of an input comes from: an attribute that holds it, or the output of a shader.
+
+    Attributes
+    ----------
+    attribute
+        What holds the value, or the output.
+    shader
+        The shader; None for a value.
+    """
+
+    attribute: Usd.Attribute
+    shader: UsdShade.Shader | None
+
+    @property
+    def node(self) -> str:
+        """The identifier of the shader; empty for a value."""
+        return str(self.shader.GetIdAttr().Get() or "") if self.shader else ""
+
+
+def source_of(shader: UsdShade.ConnectableAPI, name: str) -> Source | None:
+    """Where an input's value comes from, through interfaces of materials and node graphs; None where it has none."""
+    given = shader.GetInput(name)
+    if not given:
+        return None
+    for attribute in given.GetValueProducingAttributes():
+        if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
+            return Source(attribute, None) if attribute.HasValue() else None
+        maker = UsdShade.Shader(attribute.GetPrim())
+        if maker and maker.GetIdAttr().Get():
+            return Source(attribute, maker)
+        if attribute.HasAuthoredValue():
+            return Source(attribute, None)
+    return None
+
+
+class TextureReader:
+    """Reads what UsdUVTextures give.
+
+    Parameters
+    ----------
+    pictures
+        The pictures that they show.
+    remarks
+        Told of what is left out.
+    """
+
+    def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
+        self._pictures, self._remarks = pictures, remarks
+
+    def read(self, source: Source) -> Texture | Four:
+        """The texture that a UsdUVTexture gives; red, green, blue and alpha where it shows its fallback everywhere."""
+        reader = source.shader
+        channel = _CHANNELS.get(UsdShade.Output(source.attribute).GetBaseName(), -1)
+        file = self._file(reader)
+        if not file:
+            fallback = _numbers(reader, "fallback", (0.0, 0.0, 0.0, 1.0))
+            return fallback if channel < 0 else (fallback[channel],) * 4
+        layout = self._layout(reader)._replace(wrap_s=self._wrap(reader, "wrapS"), wrap_t=self._wrap(reader, "wrapT"))
+        scale, bias = _numbers(reader, "scale", (1.0,) * 4), _numbers(reader, "bias", (0.0,) * 4)
+        return Texture(file, channel, layout, scale, bias, _word(reader, "sourceColorSpace", "auto"))
+
+    def _file(self, reader: UsdShade.Shader) -> str:
+        """Resolved path of a texture's picture; empty where none can be read."""
+        source = source_of(reader, "file")
+        value = source.attribute.Get(READ_AT) if source is not None and source.shader is None else None
+        if source is None or not isinstance(value, Sdf.AssetPath) or not value.path:
+            return ""
+        path = value.resolvedPath
+        if UsdShade.UdimUtils.IsUdimIdentifier(value.path):
+            tiles = _tiles(value.path, source.attribute)
+            path = tiles.get(_FIRST_TILE, "")
+            if len(tiles) > 1:
+                self._remarks.add("of textures in tiles (UDIM) the first tile is carried alone", value.path)
+        if not path:
+            self._remarks.add("textures whose file is missing show their fallback", value.path)
+            return ""
+        fault = self._pictures.fault(path)
+        if fault:
+            self._remarks.add(f"pictures that {fault} are left out, and their fallback is shown", value.path)
+            return ""
+        return str(path)
+
+    def _wrap(self, reader: UsdShade.Shader, name: str) -> str:
+        word = _word(reader, name, "useMetadata")
+        if word == "black":
+            self._remarks.add("textures are clamped where they should be black outside", reader.GetPath())
+        return _WRAPS.get(word, "repeat")
+
+    def _layout(self, reader: UsdShade.Shader) -> Layout:
+        """The coordinates that a texture is read at, and what is done to them."""
+        steps: list[Layout] = []
+        node, name = reader, "st"
+        for _ in range(_DEEPEST):
+            source = source_of(node, name)
+            if source is None and node is reader:
+                self._remarks.add("textures without coordinates are read at those of the name st", reader.GetPath())
+                return Layout()
+            if source is None or source.shader is None:
+                fixed = _pair(node, name, (0.0, 0.0))
+                return self._after(Coordinates("", fixed), steps, reader)
+            node, name = source.shader, "in"
+            if source.node == f"{PRIMVAR_READER}float2":
+                wanted = Coordinates(_word(node, "varname", ""), _pair(node, "fallback", (0.0, 0.0)))
+                return self._after(wanted, steps, reader)
+            if source.node != _TRANSFORM:
+                break
+            scale, translation = _pair(node, "scale", (1.0, 1.0)), _pair(node, "translation", (0.0, 0.0))
+            rotation_rad = math.radians(_number(node, "rotation"))
+            steps.append(Layout(scale=scale, rotation_rad=rotation_rad, translation=translation))
+        self._remarks.add("texture coordinates that no primvar gives are left out", reader.GetPath())
+        return Layout(Coordinates(""))
+
+    def _after(self, coordinates: Coordinates, steps: Sequence[Layout], reader: UsdShade.Shader) -> Layout:
+        """What several steps do to coordinates, the last of them first, as one."""
+        if len(steps) <= 1:
+            return (steps[0] if steps else Layout())._replace(coordinates=coordinates)
+        corners = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+        for step in reversed(steps):
+            corners = step.placed(corners)
+        first, second = corners[1:] - corners[0]
+        sizes = float(np.linalg.norm(first)), float(np.linalg.norm(second))
+        if abs(float(first @ second)) > _SQUARE * sizes[0] * sizes[1]:
+            self._remarks.add("transforms of texture coordinates that shear are left out", reader.GetPath())
+            return Layout(coordinates)
+        rotation_rad = math.atan2(first[1], first[0]) if sizes[0] else math.atan2(-second[0], second[1])
+        side = math.copysign(1.0, float(first[0] * second[1] - first[1] * second[0]))
+        scale, origin = (sizes[0], side * sizes[1]), (float(corners[0, 0]), float(corners[0, 1]))
+        return Layout(coordinates, scale, rotation_rad, origin)
+
+
+def _tiles(path: str, attribute: Usd.Attribute) -> dict[str, str]:
+    """Resolved paths of the tiles of a texture, by their numbers."""
+    (opinion, *_) = attribute.GetPropertyStack(READ_AT)
+    return {tile: str(found) for found, tile in UsdShade.UdimUtils.ResolveUdimTilePaths(path, opinion.layer)}
+
+
+def _word(node: UsdShade.Shader, name: str, otherwise: str) -> str:
+    source = source_of(node, name)
+    value = source.attribute.Get(READ_AT) if source is not None and source.shader is None else None
+    return str(value or otherwise)
+
+
+def _number(node: UsdShade.Shader, name: str) -> float:
+    source = source_of(node, name)
+    return number_of(source.attribute) if source is not None and source.shader is None else 0.0
+
+
+def _pair(node: UsdShade.Shader, name: str, otherwise: tuple[float, float]) -> tuple[float, float]:
+    source = source_of(node, name)
+    if source is None or source.shader is not None:
+        return otherwise
+    ((first, second),) = numbers_of(source.attribute, np.float64, width=2).tolist()
+    return first, second
+
+
+def _numbers(node: UsdShade.Shader, name: str, otherwise: Four) -> Four:
+    source = source_of(node, name)
+    if source is None or source.shader is not None:
+        return otherwise
+    ((red, green, blue, alpha),) = numbers_of(source.attribute, np.float64, width=4).tolist()
+    return red, green, blue, alpha
