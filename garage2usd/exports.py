@@ -23,6 +23,7 @@ from garage2usd.processes import each_in_a_copy, without_collector
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
 from garage2usd.reading.objects import PlacedObject
+from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.report import read_report
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
@@ -32,7 +33,9 @@ __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 _REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO = ".json", ".glb", ".osm", ".xodr", ".xosc"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """What needs a module of an extra, and which, by what its files end in."""
-_Write = Callable[["_Source", Path, MapsConfig], Sequence[Path]]
+_Write = Callable[["_Source", Path, MapsConfig, Remarks], Sequence[Path]]
+Notice = Callable[[str], None]
+"""Takes a line on what a format cannot say."""
 
 
 class _Source:
@@ -67,28 +70,28 @@ class _Source:
         return network_of(self.subject)
 
 
-def _glb(source: _Source, path: Path, _settings: MapsConfig) -> Sequence[Path]:
-    write_glb(source.stage, path, objects=source.objects)
+def _glb(source: _Source, path: Path, _settings: MapsConfig, remarks: Remarks) -> Sequence[Path]:
+    write_glb(source.stage, path, objects=source.objects, remarks=remarks)
     return (path,)
 
 
-def _opendrive(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+def _opendrive(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
     write_opendrive(source.subject, path, settings, network=source.network)
     return (path,)
 
 
-def _grid(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+def _grid(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
     return write_grid(source.subject, path, settings.grid)
 
 
-def _lanelet2(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+def _lanelet2(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
     from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
     write_lanelet2(source.subject, path, settings, network=source.network)
     return (path,)
 
 
-def _scenario(source: _Source, path: Path, settings: MapsConfig) -> Sequence[Path]:
+def _scenario(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
     subject, asked = source.subject, settings.scenario
@@ -118,9 +121,16 @@ _WRITERS: dict[str, _Write] = {
 """The longest first: so files are begun, so that those that are written at a time end together."""
 
 
-def _write(source: _Source, path: Path, settings: MapsConfig) -> list[Path]:
+def _write(source: _Source, path: Path, settings: MapsConfig) -> tuple[list[Path], list[str]]:
+    """The files that are written, and what their format cannot say."""
     path.parent.mkdir(exist_ok=True)
-    return list(_WRITERS[path.suffix](source, path, settings))
+    remarks = Remarks()
+    files = list(_WRITERS[path.suffix](source, path, settings, remarks))
+    return files, remarks.lines()
+
+
+def _unheard(_line: str) -> None:
+    """Take no notice."""
 
 
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
@@ -136,6 +146,7 @@ def export(
     scenario: ScenarioConfig | None = None,
     progress: Progress = silent,
     workers: int = 1,
+    notice: Notice = _unheard,
 ) -> tuple[Path, ...]:
     """Write a garage in other formats.
 
@@ -158,6 +169,9 @@ def export(
     workers
         How many files are written at a time, each by a copy of this process; one after the other where it has more than
         one thread, as USD and NumPy start them, and where the system is not Linux. The files are the same.
+    notice
+        Told of what a format cannot say, a line for each reason: the file's name, the reason, how often it came up, and
+        the first few places.
 
     Returns
     -------
@@ -199,8 +213,10 @@ def export(
             opened.read_for(places)
             written = each_in_a_copy([partial(_write, opened, draft, settings) for draft in drafts], workers)
             progress("export", 0, len(places))
-            for number, (draft, files) in enumerate(zip(drafts, written, strict=True)):
+            for number, (draft, (files, lines)) in enumerate(zip(drafts, written, strict=True)):
                 files_of[draft] = files
+                for line in lines:
+                    notice(f"{draft.name}: {line}")
                 progress("export", number + 1, len(places))
         made = [(place.parent, files_of[draft]) for place, draft in zip(places, in_order, strict=True)]
         _refuse_twice([folder / file.name for folder, files in made for file in files])

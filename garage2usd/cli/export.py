@@ -54,6 +54,8 @@ def export(
     PATH is a stage, also one that other tools have edited, which is exported as it stands; or the report of a build,
     whose garage is made again.
 
+    What a scene cannot say of a stage, such as lights with an area, is named on standard error and left out.
+
     The car of a scenario drives from an entrance to a stall, parks, and drives to an exit, as `garage2usd drive
     --stall` has it. Its options, one or more, stand in place of the whole section maps.scenario of the configuration.
 
@@ -72,8 +74,17 @@ def export(
     asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}
     given = {name: value for name, value in asked.items() if value is not None}
     scenario = ScenarioConfig.model_validate(given) if given else None
+    notices: list[str] = []
     with Bars(sys.stderr) as progress:
         files = export_garage(
-            path, outputs, settings=settings, scenario=scenario, progress=progress, workers=workers or cores()
+            path,
+            outputs,
+            settings=settings,
+            scenario=scenario,
+            progress=progress,
+            workers=workers or cores(),
+            notice=notices.append,
         )
+    for notice in notices:
+        click.echo(notice, err=True)
     echo_table(("file", str(file)) for file in files)

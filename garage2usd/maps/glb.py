@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from pxr import Usd
+from pxr import Usd, UsdGeom, UsdLux
 
 from garage2usd.checks.shapes import are_upright
 from garage2usd.errors import StageError
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece
+from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out
 from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles, rigid_inverses
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.stall_facts import StallFacts
@@ -22,7 +23,8 @@ from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
-from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
+from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
+from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.values import metres_y_up
 from garage2usd.reading.walk import placed_objects
 
@@ -34,7 +36,12 @@ _IDENTITY = np.eye(4)
 
 
 def write_glb(
-    stage: Usd.Stage, path: Path, *, labels: Labels | None = None, objects: Iterable[PlacedObject] | None = None
+    stage: Usd.Stage,
+    path: Path,
+    *,
+    labels: Labels | None = None,
+    objects: Iterable[PlacedObject] | None = None,
+    remarks: Remarks | None = None,
 ) -> None:
     """Write a stage as a binary glTF 2.0 file, in metres, Y up, as it is composed now.
 
@@ -48,6 +55,8 @@ def write_glb(
         Which object has which instance id; left out, what `garage2usd.reading.labels.read_labels` finds.
     objects
         What `garage2usd.reading.walk.placed_objects` finds in metres, Y up, if that is known already.
+    remarks
+        Told of what glTF cannot say.
 
     Raises
     ------
@@ -59,22 +68,26 @@ def write_glb(
     Each object is a node with the path of its prim as its name and, as ``extras``, its class, its instance id and, for
     cars and stalls, the stall; what is painted on it is a node below it.
     What it looks like is one mesh, which all objects that look alike share, with primitives by material; what is
-    faceted has no normals, as glTF 2.0 (3.7.2.1) says. Lights are left out, as glTF has none with an area; what glows
-    does. Below the node ``stalls`` each stall is a node in the middle of its outline, whose Z axis leads to its mouth.
+    faceted has no normals, as glTF 2.0 (3.7.2.1) says. Each light is a node of its own, as a point, a spot or a sun;
+    one with an area is left out where the lamp that it belongs to glows, as glTF has none with an area. Below
+    the node ``stalls`` each stall is a node in the middle of its outline, whose Z axis leads to its mouth.
     """
-    glb, looks, file = GlbFile(), _Looks(), stage.GetRootLayer().realPath
+    remarks, file = Remarks() if remarks is None else remarks, stage.GetRootLayer().realPath
+    looks = _Looks(remarks)
+    glb = GlbFile(looks.pictures, remarks)
     labels = labels or read_labels(stage, Path(file) if file else None)
     look_of = once_for_each_look(looks.of)
     objects = placed_objects(stage, metres_y_up(stage)) if objects is None else objects
-    drawn = [(placed, look) for placed in objects if (look := look_of(placed)).pieces]
-    if not drawn:
+    looked_at = [(placed, look_of(placed)) for placed in objects]
+    drawn = [(placed, look) for placed, look in looked_at if look.pieces]
+    if not any(look.pieces or look.lights for _, look in looked_at):
         raise StageError(file, "nothing in it can be drawn")
     stalls = StallFacts(read_lanes(stage).stalls)
     cars = [(placed, look) for placed, look in drawn if placed.label == _CAR]
     grounds = hulls_of([look.on_ground(placed.matrix) for placed, look in cars])
     homes = stalls.park([placed.path for placed, _ in cars], grounds)
     mesh_of = once_for_each_look(lambda placed: glb.add_mesh(look_of(placed).pieces, name=_name(placed)))
-    matrices = np.array([placed.matrix for placed, _ in drawn])
+    matrices = np.array([placed.matrix for placed, _ in drawn]).reshape(-1, 4, 4)
     rigid = are_rigid(matrices)
     inverses = np.zeros_like(matrices)
     inverses[rigid] = rigid_inverses(matrices[rigid])
@@ -99,6 +112,15 @@ def write_glb(
                 piece._replace(triangles=moved_triangles(piece.triangles, placed.matrix)) for piece in look.pieces
             ]
             glb.add_node(placed.path, _IDENTITY, mesh=glb.add_mesh(pieces, name=_name(placed)), extras=extras)
+    units = UsdGeom.GetStageMetersPerUnit(stage)
+    for placed, look in looked_at:
+        for reason, part in look.left_out:
+            remarks.add(reason, placed.path + part.path)
+        for part in look.lights:
+            name, matrix = placed.path + part.path, part.matrix @ placed.matrix
+            light = punctual_light(part.prim, name, matrix, units, remarks)
+            if light is not None:
+                glb.add_light(name if part.path or not look.pieces else f"{name}/light", place_of(matrix), light)
     _add_stalls(glb, stalls)
     path.write_bytes(glb.data({name: str(value) for name, value in stage_facts(stage).items()}))
 
@@ -114,11 +136,17 @@ class _Look(NamedTuple):
         All of it, in the object's space; float, shape (n, 3). None are kept but of cars.
     outline_m
         Corners of their convex outline seen from above; float, shape (k, 3).
+    lights
+        The parts that shine.
+    left_out
+        Why which part is left out.
     """
 
     pieces: Sequence[Piece]
     points_m: NDArray[np.floating[Any]]
     outline_m: NDArray[np.floating[Any]]
+    lights: Sequence[DrawnPart]
+    left_out: Sequence[tuple[str, DrawnPart]]
 
     def on_ground(self, matrix: Matrix) -> NDArray[np.floating[Any]]:
         """Points (x, z) of the ground that holds it, placed by a matrix."""
@@ -130,8 +158,9 @@ class _Look(NamedTuple):
 class _Looks:
     """Reads what objects draw, each mesh and surface of the stage once."""
 
-    def __init__(self) -> None:
-        self._looks = MeshLooks()
+    def __init__(self, remarks: Remarks) -> None:
+        self._looks = MeshLooks(remarks=remarks)
+        self.pictures = self._looks.pictures
         self._facets_of = cache(lambda mesh: tuple(by_facets(self._looks.meshes.values[mesh])))
         self._moved: dict[tuple[Triangles, bytes], Triangles] = {}
         self._joined = cache(joined)
@@ -139,25 +168,34 @@ class _Looks:
 
     def of(self, placed: PlacedObject) -> _Look:
         """One piece for all that has the same surface, apart from what is faceted, which needs no normals."""
-        alike: dict[tuple[int, bool, bool], list[Triangles]] = {}
+        alike: dict[tuple[int, bool, bool, bool], list[Triangles]] = {}
         surfaces = self._looks.surfaces.values
+        left_out: list[tuple[str, DrawnPart]] = []
         for part in placed.parts:
-            if part.prim.GetTypeName() in DRAWN_TYPES:
-                for mesh, surface in self._looks.of_prim(part.prim):
+            kind = part.prim.GetTypeName()
+            if kind in DRAWN_TYPES:
+                for mesh, surface in self._looks.of_part(placed, part):
                     is_bumpy = bool(surfaces[surface].normal_texture)
                     for is_faceted, triangles in self._facets_of(mesh):
                         own = self._placed(triangles, part.matrix)
-                        alike.setdefault((surface, own.double_sided, is_faceted and not is_bumpy), []).append(own)
+                        key = surface, own.double_sided, is_faceted and not is_bumpy, own.colours is not None
+                        alike.setdefault(key, []).append(own)
+            elif not part.prim.HasAPI(UsdLux.LightAPI):
+                left_out.append((f"prims of the type {kind} are left out", part))
         # cars of other paints are the same meshes, which are thus joined and written once
         pieces = [
             Piece(self._joined(tuple(group)), surfaces[surface], is_faceted)
-            for (surface, _, is_faceted), group in alike.items()
+            for (surface, _, is_faceted, _), group in alike.items()
         ]
+        glows = any(any(piece.surface.emissive_rgb) for piece in pieces)
+        lights = [part for part in placed.parts if part.prim.HasAPI(UsdLux.LightAPI)]
+        left_out += [(reason, part) for part in lights if (reason := why_left_out(part.prim, glows=glows))]
+        lights = [part for part in lights if not why_left_out(part.prim, glows=glows)]
         if placed.label != _CAR or not pieces:
-            return _Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)))
+            return _Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)), lights, left_out)
         points_m = np.concatenate([piece.triangles.positions_m for piece in pieces])
         outline = _hull(np.concatenate([self._outline_of(piece.triangles) for piece in pieces]))
-        return _Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1))
+        return _Look(pieces, points_m, np.insert(outline, 1, 0.0, axis=1), lights, left_out)
 
     def _placed(self, triangles: Triangles, matrix: Matrix) -> Triangles:
         """Triangles in the space of the object that they are a part of."""

@@ -10,10 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.json_text import short_json
-from garage2usd.maps.glb_materials import Materials, shortest
+from garage2usd.maps.glb_materials import Materials
 from garage2usd.maps.glb_meshes import Primitive, places_of, primitive_of
+from garage2usd.maps.glb_textures import shortest
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
+from garage2usd.reading.pictures import Pictures
+from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.version import VERSION
 
@@ -26,6 +29,7 @@ _VERTICES, _INDICES = 34962, 34963
 _INDEX_TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4"}
 """Types of indices, the shortest first; the last number of each would restart a primitive."""
 _ALIGNMENT = 4
+_LIGHTS = "KHR_lights_punctual"
 _GLTF, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
@@ -48,18 +52,26 @@ class Piece(NamedTuple):
 class GlbFile:
     """Collects what a file holds: equal numbers, images, materials and meshes once.
 
+    Parameters
+    ----------
+    pictures
+        What textures show.
+    remarks
+        Told of what glTF cannot say.
+
     Notes
     -----
     Names of keys are those of glTF 2.0 (ISO/IEC 12113:2022).
     """
 
-    def __init__(self) -> None:
+    def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
         """Begin an empty file."""
-        self._materials = Materials()
+        self._materials = Materials(pictures, remarks)
         self._numbers = _Numbers()
         self._nodes: list[dict[str, Any]] = []
         self._matrices: list[Matrix] = []
         self._roots: list[int] = []
+        self._lights: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
         self._mesh_of: dict[Hashable, int] = {}
         self._primitive_of: dict[tuple[Triangles, int], dict[str, Any]] = {}
@@ -74,12 +86,12 @@ class GlbFile:
         return self._mesh_of[key]
 
     def _primitive(self, triangles: Triangles, surface: SurfaceLook, is_faceted: bool) -> dict[str, Any]:  # noqa: FBT001 - of a piece
-        material = self._materials.number(surface, double_sided=triangles.double_sided)
+        has_colours = triangles.colours is not None
+        material = self._materials.number(surface, double_sided=triangles.double_sided, has_colours=has_colours)
         key = triangles, material
         if key not in self._primitive_of:
-            textures = self._materials.textures_of(material)
-            is_bumpy = "normalTexture" in textures
-            own = primitive_of(triangles, is_textured=bool(textures), is_bumpy=is_bumpy, is_faceted=is_faceted)
+            sets, normals = self._materials.sets_of(material), self._materials.normals_of(material)
+            own = primitive_of(triangles, sets=sets, normals_set=normals, is_faceted=is_faceted)
             indices, attributes = self._numbers.indices(own.indices), self._attributes(own)
             self._primitive_of[key] = {"attributes": attributes, "indices": indices, "material": material}
         return self._primitive_of[key]
@@ -88,10 +100,12 @@ class GlbFile:
         arrays = {"NORMAL": own.normals, "TANGENT": own.tangents}
         attributes = {"POSITION": self._numbers.vectors(own.positions, with_bounds=True)}
         attributes |= {name: self._numbers.vectors(array) for name, array in arrays.items() if array is not None}
-        if own.coordinates is not None:
-            is_within = bool((own.coordinates >= 0).all() and (own.coordinates <= 1).all())
+        for number, coordinates in enumerate(own.coordinates):
+            is_within = bool((coordinates >= 0).all() and (coordinates <= 1).all())
             numbered = self._numbers.shares if is_within else self._numbers.vectors
-            attributes["TEXCOORD_0"] = numbered(own.coordinates)
+            attributes[f"TEXCOORD_{number}"] = numbered(coordinates)
+        if own.colours is not None:
+            attributes["COLOR_0"] = self._numbers.vectors(own.colours)
         return attributes
 
     def add_node(
@@ -131,22 +145,41 @@ class GlbFile:
         siblings.append(number)
         return number
 
+    def add_light(self, name: str, matrix: Matrix, light: dict[str, Any]) -> None:
+        """Add a node that shines along -Z.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        matrix
+            From its space to that of the scene; a turn and a move.
+        light
+            As KHR_lights_punctual has it.
+        """
+        node = self.add_node(name, matrix)
+        if light not in self._lights:
+            self._lights.append(light)
+        self._nodes[node]["extensions"] = {_LIGHTS: {"light": self._lights.index(light)}}
+
     def data(self, facts: Mapping[str, Any]) -> bytes:
         """The bytes of the file; `facts` is what the scene says of itself."""
         materials, images = self._materials, []
-        for image in materials.images:
+        for image in materials.textures.images:
             view = self._numbers.image(image.data)
             images.append({"name": image.name, "mimeType": image.kind, "bufferView": view})
         buffer, places = self._numbers.buffer(), places_of(np.array(self._matrices))
         document = {
             "asset": {"version": "2.0", "generator": f"garage2usd {VERSION}"},
-            "extensionsUsed": sorted(materials.extensions),
+            "extensionsUsed": sorted(materials.extensions | ({_LIGHTS} if self._lights else set())),
+            "extensions": {_LIGHTS: {"lights": self._lights}} if self._lights else {},
             "scene": 0,
             "scenes": [{"nodes": self._roots, **({"extras": dict(facts)} if facts else {})}],
             "nodes": [node | place for node, place in zip(self._nodes, places, strict=True)],
             "meshes": self._meshes,
             "materials": materials.materials,
-            "textures": materials.textures,
+            "textures": materials.textures.textures,
+            "samplers": materials.textures.samplers,
             "images": images,
             "accessors": self._numbers.accessors,
             "bufferViews": self._numbers.views(),

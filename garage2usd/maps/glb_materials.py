@@ -1,174 +1,240 @@
-"""Surfaces of a stage as materials, textures and images of glTF 2.0."""
+"""Surfaces of a stage as materials of glTF 2.0."""
 
-import io
-from collections.abc import Iterable, Mapping
-from pathlib import PurePosixPath
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
 
-import numpy as np
-from PIL import Image
-from pxr import Ar
-
+from garage2usd.maps.glb_textures import Textures, shortest
+from garage2usd.reading.base_colours import base_colour_of
+from garage2usd.reading.pictures import Band, Bands, Pictures, factored
+from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.reading.textures import Texture
 
-__all__ = ["Materials", "Picture", "shortest"]
+__all__ = ["Materials"]
 
-_Band = tuple[str, int]
-"""A file and one of its channels."""
-_WHITE: _Band = ("", 0)
-_GREEN, _BLUE = 1, 2
-_KINDS = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
-"""The two kinds of pictures that glTF knows, by their first bytes."""
-
-
-class Picture(NamedTuple):
-    """A file of an image: its name, its media type, and its bytes."""
-
-    name: str
-    kind: str
-    data: bytes
+_REFLECTED = 0.04
+"""What a surface reflects in glTF of light that meets it squarely, by its usual index of refraction."""
+_USUAL_IOR = 1.5
+_DIRECTIONS = (2.0, 2.0, 2.0), (-1.0, -1.0, -1.0)
+"""Scale and bias that make a direction of the values of a picture, as glTF does by itself."""
+_SAME = 1e-6
 
 
 class Materials:
-    """Collects the materials of a file: each that differs once, and so each image.
+    """Collects the materials of a file: each that differs once.
+
+    Parameters
+    ----------
+    pictures
+        What the textures of surfaces show.
+    remarks
+        Told of what a material cannot say.
 
     Attributes
     ----------
-    materials, textures
-        As the arrays of glTF's JSON have them.
-    images
-        What the textures show.
-    extensions
-        Those that the materials use.
+    materials
+        As the array of glTF's JSON has them.
+    textures
+        What they refer to.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
         self.materials: list[dict[str, Any]] = []
-        self.textures: list[dict[str, Any]] = []
-        self.images: list[Picture] = []
-        self.extensions: set[str] = set()
-        self._number_of: dict[tuple[SurfaceLook, bool], int] = {}
-        self._texture_of: dict[tuple[_Band, ...], int | None] = {}
+        self.textures = Textures(pictures, remarks)
+        self._extensions: set[str] = set()
+        self._pictures, self._remarks = pictures, remarks
+        self._number_of: dict[tuple[SurfaceLook, bool, bool], int] = {}
+        self._sets: list[tuple[int, ...]] = []
 
-    def number(self, surface: SurfaceLook, *, double_sided: bool) -> int:
-        """Number of the material of a surface."""
-        key = surface, double_sided
+    @property
+    def extensions(self) -> set[str]:
+        """Those that the materials use."""
+        return self._extensions | self.textures.extensions
+
+    def number(self, surface: SurfaceLook, *, double_sided: bool, has_colours: bool = False) -> int:
+        """Number of the material of a surface; `has_colours` says whether its vertices have colours of their own."""
+        key = surface, double_sided, has_colours
         if key not in self._number_of:
             self._number_of[key] = len(self.materials)
-            self.materials.append(self._material(surface, double_sided=double_sided))
+            shown = replace(surface, colour_rgb=(1.0, 1.0, 1.0)) if has_colours else surface
+            made = _Material(shown, self._pictures, self._remarks, self.textures)
+            self.materials.append(made.properties(double_sided=double_sided))
+            self._sets.append(tuple(made.sets))
+            self._extensions |= made.extensions
         return self._number_of[key]
 
-    def textures_of(self, number: int) -> frozenset[str]:
-        """Names of the textures that a material reads."""
-        material = self.materials[number]
-        return frozenset(name for name in {**material, **material["pbrMetallicRoughness"]} if name.endswith("Texture"))
+    def sets_of(self, number: int) -> tuple[int, ...]:
+        """Which of its surface's texture coordinates a material reads, in the order of the sets of its primitives."""
+        return self._sets[number]
 
-    def _material(self, surface: SurfaceLook, *, double_sided: bool) -> dict[str, Any]:
-        material: dict[str, Any] = {"name": surface.name} if surface.name else {}
-        material["pbrMetallicRoughness"] = self._reflection(surface)
-        self._add_texture(material, "normalTexture", _whole(surface.normal_texture))
-        occlusion = surface.occlusion_texture, surface.occlusion_channel
-        # glTF takes the occlusion from red
-        bands = (occlusion,) * 3 if surface.occlusion_channel else _whole(surface.occlusion_texture)
-        self._add_texture(material, "occlusionTexture", bands)
-        if any(surface.emissive_rgb):
-            strength = max(1.0, *surface.emissive_rgb)
-            material["emissiveFactor"] = shortest([part / strength for part in surface.emissive_rgb])
-            if strength > 1:
-                self._extend(material, "KHR_materials_emissive_strength", {"emissiveStrength": strength})
-        if surface.clearcoat:
-            self._extend(material, "KHR_materials_clearcoat", {"clearcoatFactor": surface.clearcoat})
+    def normals_of(self, number: int) -> int | None:
+        """Which of those sets a material's normal map is read at; None without one."""
+        texture = self.materials[number].get("normalTexture")
+        return None if texture is None else int(texture.get("texCoord", 0))
+
+
+class _Material:
+    """A material in the making.
+
+    Attributes
+    ----------
+    sets
+        Which of the surface's texture coordinates it reads.
+    extensions
+        Those that it uses itself.
+    """
+
+    def __init__(self, surface: SurfaceLook, pictures: Pictures, remarks: Remarks, textures: Textures) -> None:
+        self.sets: list[int] = []
+        self.extensions: set[str] = set()
+        self._surface, self._pictures, self._remarks, self._textures = surface, pictures, remarks, textures
+        self._made: dict[str, Any] = {"name": surface.name} if surface.name else {}
+
+    def properties(self, *, double_sided: bool) -> dict[str, Any]:
+        """All that glTF's JSON says of it."""
+        surface, made = self._surface, self._made
+        made["pbrMetallicRoughness"] = self._reflection()
+        self._add_normals()
+        self._add_occlusion()
+        self._add_glow()
+        self._add_coat()
+        self._add_mirror()
         if surface.is_blended:
-            material["alphaMode"] = "MASK" if surface.opacity_threshold else "BLEND"
+            made["alphaMode"] = "MASK" if surface.opacity_threshold else "BLEND"
             if surface.opacity_threshold:
-                material["alphaCutoff"] = surface.opacity_threshold
+                made["alphaCutoff"] = surface.opacity_threshold
         if double_sided:
-            material["doubleSided"] = True
-        return material
+            made["doubleSided"] = True
+        return made
 
-    def _reflection(self, surface: SurfaceLook) -> dict[str, Any]:
-        metallic, roughness = shortest([surface.metallic, surface.roughness])
+    def _reflection(self) -> dict[str, Any]:
+        base = base_colour_of(self._surface, self._pictures, self._remarks)
+        (roughness, metallic), finish, finish_layout = self._finish()
         reflection: dict[str, Any] = {
-            "baseColorFactor": shortest([*surface.colour_rgb, surface.opacity]),
-            "metallicFactor": metallic,
-            "roughnessFactor": roughness,
+            "baseColorFactor": shortest([*base.colour_rgb, base.opacity]),
+            "metallicFactor": shortest([metallic])[0],
+            "roughnessFactor": shortest([roughness])[0],
         }
         # 1 is what glTF takes where nothing is said
         reflection = {name: value for name, value in reflection.items() if value not in (1.0, [1.0] * 4)}
-        self._add_texture(reflection, "baseColorTexture", _whole(surface.colour_texture))
-        self._add_texture(reflection, "metallicRoughnessTexture", _finish(surface))
+        if base.texture:
+            reflection["baseColorTexture"] = self._info(base.bands, base.texture, is_srgb=True)
+        if finish_layout:
+            reflection["metallicRoughnessTexture"] = self._info(finish, finish_layout)
         return reflection
 
-    def _extend(self, material: dict[str, Any], name: str, values: Mapping[str, float]) -> None:
-        material.setdefault("extensions", {})[name] = dict(values)
+    def _finish(self) -> tuple[tuple[float, float], Bands, Texture | None]:
+        """Factors of roughness and metallic, and the texture that has the one in green and the other in blue."""
+        surface = self._surface
+        rough, metal = surface.roughness_texture, surface.metallic_texture
+        roughness, metallic = surface.roughness, surface.metallic
+        if rough and metal and rough.layout != metal.layout:
+            metallic, metal = self._mean(metal, "metallic textures that lie unlike the roughness's"), None
+        # a factor of 0 makes a channel say nothing
+        green: Band | float | None = 1.0 if roughness else None
+        blue: Band | float | None = 1.0 if metallic else None
+        if rough:
+            (roughness,), (green,) = factored([rough.band()])
+        if metal:
+            (metallic,), (blue,) = factored([metal.band()])
+        return (roughness, metallic), (None, green, blue), rough or metal
+
+    def _add_normals(self) -> None:
+        texture = self._surface.normal_texture
+        if texture is None:
+            return
+        scale, bias = texture.scale[:3], texture.bias[:3]
+        if (scale, bias) == ((1.0,) * 3, (0.0,) * 3):
+            self._remarks.add("normal maps without scale and bias are read with those of bytes, 2 and -1", texture.file)
+            scale, bias = _DIRECTIONS
+        strength = scale[0] / 2
+        is_flattened = scale == (scale[0], scale[0], 2.0) and bias == (-strength, -strength, -1.0) and strength > 0
+        if is_flattened:
+            scale, bias = _DIRECTIONS
+        bands = tuple(
+            texture.band(channel)._replace(scale=scale[channel] / 2, bias=(bias[channel] + 1) / 2)
+            for channel in range(3)
+        )
+        self._made["normalTexture"] = self._info(bands, texture)
+        if is_flattened and strength != 1:
+            self._made["normalTexture"]["scale"] = shortest([strength])[0]
+
+    def _add_occlusion(self) -> None:
+        texture = self._surface.occlusion_texture
+        if texture is None:
+            if self._surface.occlusion < 1:
+                self._remarks.add("occlusion that is the same all over is left out", self._surface.name)
+            return
+        band, strength = texture.band(), 1.0
+        if 0 <= band.scale <= 1 and abs(band.scale + band.bias - 1) < _SAME:
+            band, strength = band._replace(scale=1.0, bias=0.0), band.scale
+        self._made["occlusionTexture"] = self._info((band, None, None), texture)  # glTF takes it from red
+        if strength != 1:
+            self._made["occlusionTexture"]["strength"] = shortest([strength])[0]
+
+    def _add_glow(self) -> None:
+        texture, factors = self._surface.emissive_texture, list(self._surface.emissive_rgb)
+        if texture:
+            bands = [texture.band(channel) for channel in range(3)]
+            if all(band.bias == 0 and band.scale >= 0 for band in bands):
+                factors, bands = [band.scale for band in bands], [band._replace(scale=1.0) for band in bands]
+            else:
+                most = max(1.0, *(float(self._pictures.plane(band).max()) for band in bands))
+                factors = [most] * 3
+                bands = [band._replace(scale=band.scale / most, bias=band.bias / most) for band in bands]
+        if not any(factors):
+            return
+        if texture:
+            self._made["emissiveTexture"] = self._info(tuple(bands), texture, is_srgb=True)
+        strength = max(1.0, *factors)
+        self._made["emissiveFactor"] = shortest([part / strength for part in factors])
+        if strength > 1:
+            self._extend("KHR_materials_emissive_strength", {"emissiveStrength": strength})
+
+    def _add_coat(self) -> None:
+        surface = self._surface
+        if not surface.clearcoat:
+            return
+        coat: dict[str, Any] = {"clearcoatFactor": surface.clearcoat}
+        if surface.clearcoat_texture:
+            (coat["clearcoatFactor"],), bands = factored([surface.clearcoat_texture.band()])
+            coat["clearcoatTexture"] = self._info((*bands, None, None), surface.clearcoat_texture)
+        coat["clearcoatRoughnessFactor"] = shortest([surface.clearcoat_roughness])[0]
+        if surface.clearcoat_roughness_texture:
+            texture = surface.clearcoat_roughness_texture
+            (coat["clearcoatRoughnessFactor"],), bands = factored([texture.band()])
+            coat["clearcoatRoughnessTexture"] = self._info((None, *bands, None), texture)
+        self._extend("KHR_materials_clearcoat", coat)
+
+    def _add_mirror(self) -> None:
+        """What it reflects of light that meets it squarely."""
+        surface = self._surface
+        if surface.specular_rgb is None:
+            if surface.ior != _USUAL_IOR:
+                self._extend("KHR_materials_ior", {"ior": shortest([max(surface.ior, 1.0)])[0]})
+            return
+        factors, mirror = list(surface.specular_rgb), dict[str, Any]()
+        if surface.specular_texture:
+            factors, bands = factored([surface.specular_texture.band(channel) for channel in range(3)])
+            mirror["specularColorTexture"] = self._info(bands, surface.specular_texture, is_srgb=True)
+        mirror["specularColorFactor"] = shortest([factor / _REFLECTED for factor in factors])
+        self._extend("KHR_materials_specular", mirror)
+
+    def _info(self, bands: Bands, texture: Texture, *, is_srgb: bool = False) -> dict[str, Any]:
+        """What refers to a texture of some bands that lies as another does."""
+        info = self._textures.info(bands, texture.layout, is_srgb=is_srgb)
+        number = self._surface.sets.index(texture.layout.coordinates)
+        if number not in self.sets:
+            self.sets.append(number)
+        number = self.sets.index(number)
+        return info | ({"texCoord": number} if number else {})
+
+    def _mean(self, texture: Texture, which: str) -> float:
+        """The mean of what a texture gives."""
+        self._remarks.add(f"{which} are carried as their mean", texture.file)
+        return min(max(self._pictures.mean(texture.band()), 0.0), 1.0)
+
+    def _extend(self, name: str, values: Mapping[str, Any]) -> None:
+        self._made.setdefault("extensions", {})[name] = dict(values)
         self.extensions.add(name)
-
-    def _add_texture(self, holder: dict[str, Any], name: str, bands: tuple[_Band, ...]) -> None:
-        """Refer to the texture that consists of these channels; to none where there are none or a file is missing."""
-        if bands and bands not in self._texture_of:
-            image = _image(bands)
-            self._texture_of[bands] = None if image is None else len(self.textures)
-            if image is not None:
-                self.textures.append({"source": len(self.images)})
-                self.images.append(image)
-        texture = self._texture_of.get(bands)
-        if texture is not None:
-            holder[name] = {"index": texture}
-
-
-def shortest(values: Iterable[float]) -> list[float]:
-    """Numbers of single precision in the fewest digits that mean the same."""
-    return [float(np.format_float_positional(np.float32(value), unique=True, trim="0")) for value in values]
-
-
-def _whole(path: str) -> tuple[_Band, ...]:
-    """A file as it is."""
-    return ((path, -1),) if path else ()
-
-
-def _finish(surface: SurfaceLook) -> tuple[_Band, ...]:
-    """Channels of the texture that has roughness in green and metallic in blue."""
-    rough = (surface.roughness_texture, surface.roughness_channel) if surface.roughness_texture else _WHITE
-    metal = (surface.metallic_texture, surface.metallic_channel) if surface.metallic_texture else _WHITE
-    files = {band[0] for band in (rough, metal) if band is not _WHITE}
-    # a factor of 0 makes a channel say nothing
-    fits_green = rough[1] == _GREEN if rough is not _WHITE else not surface.roughness
-    fits_blue = metal[1] == _BLUE if metal is not _WHITE else not surface.metallic
-    if len(files) == 1 and fits_green and fits_blue:
-        return _whole(files.pop())
-    return (_WHITE, rough, metal) if files else ()
-
-
-def _image(bands: tuple[_Band, ...]) -> Picture | None:
-    """An image of glTF: the very bytes of a file where it is a PNG or JPEG, else a PNG; None where nothing is there."""
-    files = {path: _bytes(path) for path, _ in bands if path}
-    if not all(files.values()):
-        return None
-    first, _ = max(bands)
-    name = PurePosixPath(first.rpartition("[")[2].removesuffix("]")).stem
-    if len(bands) == 1:
-        data = files[first]
-        kind = next((kind for magic, kind in _KINDS.items() if data.startswith(magic)), None)
-        return Picture(name, kind, data) if kind else _png(name, _opened(data))
-    pictures = {path: _opened(data) for path, data in files.items()}
-    size = pictures[first].size
-    parts = [
-        pictures[path].convert("RGBA").getchannel(channel).resize(size) if path else Image.new("L", size, 255)
-        for path, channel in bands
-    ]
-    return _png(name, Image.merge("RGB", parts))
-
-
-def _bytes(path: str) -> bytes:
-    asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
-    return bytes(asset.GetBuffer()) if asset else b""
-
-
-def _opened(data: bytes) -> Image.Image:
-    return Image.open(io.BytesIO(data))
-
-
-def _png(name: str, picture: Image.Image) -> Picture:
-    buffer = io.BytesIO()
-    picture.save(buffer, format="PNG", optimize=True)
-    return Picture(name, "image/png", buffer.getvalue())

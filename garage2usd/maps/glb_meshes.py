@@ -40,9 +40,11 @@ class Primitive(NamedTuple):
 
     Attributes
     ----------
-    positions, normals, tangents, coordinates
-        float32, shapes (vertices, 3), (vertices, 3), (vertices, 4) and (vertices, 2), or None where it has none: a
+    positions, normals, tangents, colours
+        float32, shapes (vertices, 3), (vertices, 3), (vertices, 4) and (vertices, 3), or None where it has none: a
         primitive without normals is faceted, as glTF 2.0 says in 3.7.2.1.
+    coordinates
+        Those of each set; float32, shape (vertices, 2) each.
     indices
         uint32, shape (triangles, 3).
     """
@@ -50,36 +52,40 @@ class Primitive(NamedTuple):
     positions: NDArray[np.float32]
     normals: NDArray[np.float32] | None
     tangents: NDArray[np.float32] | None
-    coordinates: NDArray[np.float32] | None
+    colours: NDArray[np.float32] | None
+    coordinates: tuple[NDArray[np.float32], ...]
     indices: NDArray[np.uint32]
 
 
-def primitive_of(mesh: Triangles, *, is_textured: bool, is_bumpy: bool, is_faceted: bool) -> Primitive:
+def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | None, is_faceted: bool) -> Primitive:
     """Triangles as a primitive.
 
     Parameters
     ----------
     mesh
         The triangles.
-    is_textured
-        Whether its material reads a texture, so that it needs coordinates.
-    is_bumpy
-        Whether its material reads a normal map, so that it needs normals and tangents.
+    sets
+        Which of their texture coordinates its material reads.
+    normals_set
+        Which of `sets` a normal map is read at, so that it needs normals and tangents; None without one.
     is_faceted
         Whether the normals of all triangles are their own, so that it needs none.
     """
     # the first row of pixels is v = 0 there and v = 1 in USD
-    coordinates = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32) if is_textured else None
-    if is_bumpy:
-        return Primitive(mesh.positions_m, mesh.normals, _tangents_of(mesh), coordinates, mesh.indices)
+    flipped = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32)
+    coordinates = tuple(np.ascontiguousarray(flipped[:, number]) for number in sets)
+    if normals_set is not None:
+        tangents = _tangents_of(mesh, mesh.coordinates[:, sets[normals_set]])
+        return Primitive(mesh.positions_m, mesh.normals, tangents, mesh.colours, coordinates, mesh.indices)
     if not is_faceted:
-        return Primitive(mesh.positions_m, mesh.normals, None, coordinates, mesh.indices)
-    rows = mesh.positions_m if coordinates is None else np.hstack([mesh.positions_m, coordinates])
+        return Primitive(mesh.positions_m, mesh.normals, None, mesh.colours, coordinates, mesh.indices)
+    rows = np.hstack([mesh.positions_m, *coordinates, *(() if mesh.colours is None else (mesh.colours,))])
     first, inverse = _distinct(rows)
     if len(first) > _WELDED * len(rows):
-        return Primitive(mesh.positions_m, None, None, coordinates, mesh.indices)
+        return Primitive(mesh.positions_m, None, None, mesh.colours, coordinates, mesh.indices)
     indices = inverse[mesh.indices].astype(np.uint32)
-    return Primitive(mesh.positions_m[first], None, None, None if coordinates is None else coordinates[first], indices)
+    colours = None if mesh.colours is None else mesh.colours[first]
+    return Primitive(mesh.positions_m[first], None, None, colours, tuple(own[first] for own in coordinates), indices)
 
 
 def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -118,7 +124,7 @@ def _each(mesh: Triangles) -> NDArray[np.int32]:
 
 
 def joined(meshes: Sequence[Triangles]) -> Triangles:
-    """Several meshes that are seen from the same sides as one."""
+    """Several meshes that are seen from the same sides, all with colours or none, as one."""
     if len(meshes) == 1:
         return meshes[0]
     first = np.cumsum([0, *(len(mesh.positions_m) for mesh in meshes[:-1])])
@@ -129,6 +135,7 @@ def joined(meshes: Sequence[Triangles]) -> Triangles:
         np.concatenate([mesh.indices + np.uint32(start) for mesh, start in zip(meshes, first, strict=True)]),
         np.zeros(sum(len(mesh.indices) for mesh in meshes), np.int32),
         meshes[0].double_sided,
+        None if meshes[0].colours is None else np.concatenate([mesh.colours for mesh in meshes]),
     )
 
 
@@ -194,10 +201,11 @@ def moved_triangles(mesh: Triangles, matrix: Matrix) -> Triangles:
         mesh.indices[:, [0, 2, 1]] if is_mirrored else mesh.indices,
         mesh.face_of,
         mesh.double_sided,
+        mesh.colours,
     )
 
 
-def _tangents_of(mesh: Triangles) -> NDArray[np.float32]:
+def _tangents_of(mesh: Triangles, coordinates: NDArray[np.float32]) -> NDArray[np.float32]:
     """Tangent of each vertex, along which the first texture coordinate grows, and the side of the bitangent.
 
     Returns
@@ -212,7 +220,7 @@ def _tangents_of(mesh: Triangles) -> NDArray[np.float32]:
     Engine Development 2, 7.5).
     """
     corners = mesh.indices.astype(np.int64)
-    points, uv = mesh.positions_m[corners].astype(np.float64), mesh.coordinates[corners].astype(np.float64)
+    points, uv = mesh.positions_m[corners].astype(np.float64), coordinates[corners].astype(np.float64)
     (side_1, side_2), (uv_1, uv_2) = ((at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]) for at in (points, uv))
     winding = np.sign(uv_1[:, 0] * uv_2[:, 1] - uv_2[:, 0] * uv_1[:, 1])[:, None]
     along_u = winding * (side_1 * uv_2[:, 1:] - side_2 * uv_1[:, 1:])

@@ -30,8 +30,9 @@ class Glb:
         size, kind = struct.unpack_from("<II", data, 12)
         assert kind == 0x4E4F534A
         self.json = json.loads(data[20 : 20 + size])
-        binary, kind = struct.unpack_from("<II", data, 20 + size)
-        assert (kind, 28 + size + binary) == (0x004E4942, len(data))
+        if len(data) > 20 + size:
+            binary, kind = struct.unpack_from("<II", data, 20 + size)
+            assert (kind, 28 + size + binary) == (0x004E4942, len(data))
         self.buffer = memoryview(data)[28 + size :]
         self._shapes = {}
         self.parents = {child: number for number, node in enumerate(self.nodes) for child in node.get("children", [])}

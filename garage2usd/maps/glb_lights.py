@@ -1,0 +1,99 @@
+"""Lights of a stage as those of KHR_lights_punctual."""
+
+import math
+from typing import Any
+
+import numpy as np
+from pxr import Usd
+
+from garage2usd.maps.glb_textures import shortest
+from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, unsaid_of
+from garage2usd.reading.objects import Matrix
+from garage2usd.reading.remarks import Remarks
+
+__all__ = ["place_of", "punctual_light", "why_left_out"]
+
+_HALF_ROUND_DEG = 90.0
+_EDGE = 0.999
+"""Inner over outer angle of a cone with a sharp edge: glTF wants it smaller."""
+_FLAT = frozenset({"RectLight", "DiskLight"})
+_PANELS = _FLAT | {"CylinderLight"}
+
+
+def why_left_out(prim: Usd.Prim, *, glows: bool) -> str:
+    """Why a light gets none of glTF; empty where it gets one.
+
+    Parameters
+    ----------
+    prim
+        The light.
+    glows
+        Whether something that it belongs to glows, as the glass of a lamp does.
+    """
+    kind = prim.GetTypeName()
+    if kind in DOMES or kind not in LIGHT_TYPES:
+        return f"lights of the type {kind} are left out"
+    return "lights with an area are left out where their lamp glows" if kind in _PANELS and glows else ""
+
+
+def punctual_light(
+    prim: Usd.Prim, path: str, matrix: Matrix, metres_per_unit: float, remarks: Remarks
+) -> dict[str, Any] | None:
+    """A light as glTF's JSON has it; None where it shines nothing.
+
+    Parameters
+    ----------
+    prim, path
+        The light, and what it is called.
+    matrix
+        From its space to that of the world, in metres.
+    metres_per_unit
+        Of the stage.
+    remarks
+        Told of what is left out or changed.
+    """
+    light = light_of(prim, matrix, metres_per_unit)
+    brightest = max(light.colour_rgb)
+    strength = (light.lux or light.candela) * brightest
+    if not strength > 0:
+        if light.luminance_nit > 0 and brightest > 0 and not light.candela:
+            remarks.add("lights without a size shine nothing unless they are normalized", path)
+        return None
+    for reason in unsaid_of(prim):
+        remarks.add(reason, path)
+    made: dict[str, Any] = {"intensity": shortest([strength])[0]}
+    if light.colour_rgb != (brightest,) * 3:
+        made["color"] = shortest(part / brightest for part in light.colour_rgb)
+    return made | _form(light, path, remarks)
+
+
+def _form(light: LightSource, path: str, remarks: Remarks) -> dict[str, Any]:
+    """Whether it is a sun, a point or a spot, and the angles of that."""
+    if light.kind == "DistantLight":
+        return {"type": "directional"}
+    if light.cone_deg > _HALF_ROUND_DEG:
+        if light.kind == "CylinderLight":
+            remarks.add("cylinder lights shine as points, as strongly as across their axes", path)
+        if light.cone_deg < 2 * _HALF_ROUND_DEG:
+            remarks.add("lights in a cone wider than 90 degrees shine to all sides", path)
+        return {"type": "point"}
+    if light.kind in _FLAT and light.width_m * light.height_m > 0:
+        remarks.add("flat lights shine as spots, as strongly as straight ahead", path)
+    outer = math.radians(light.cone_deg)
+    # a whole half space falls off as what is flat does
+    softness = 1.0 if light.cone_deg == _HALF_ROUND_DEG else light.softness
+    return {"type": "spot", "spot": {"innerConeAngle": outer * min(1 - softness, _EDGE), "outerConeAngle": outer}}
+
+
+def place_of(matrix: Matrix) -> Matrix:
+    """Where a light is and where to it shines, without the size of its prim."""
+    place = np.eye(4)
+    ahead, up = matrix[2, :3], matrix[1, :3]
+    back = ahead / (np.linalg.norm(ahead) or 1.0)
+    side = np.cross(up, back)
+    if np.linalg.norm(side) < np.finfo(np.float32).eps:
+        side = np.cross(np.eye(3)[np.abs(back).argmin()], back)
+    side /= np.linalg.norm(side)
+    place[:3, :3] = side, np.cross(back, side), back
+    place[3, :3] = matrix[3, :3]
+    return place
