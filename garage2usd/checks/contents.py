@@ -7,38 +7,42 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Usd, UsdGeom, UsdLux, UsdPhysics, Vt
+from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.checks.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.errors import StageError
 from garage2usd.objects import PIECE_LABELS
+from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, luminance_of
 from garage2usd.reading.objects import PlacedObject, once_for_each_look
-from garage2usd.reading.values import READ_AT, metres_y_up, number_of, opinions_of
+from garage2usd.reading.values import READ_AT, metres_y_up, opinions_of
 from garage2usd.reading.walk import placed_objects
+from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY, TUBE_COLOUR_RGB
 
 __all__ = ["Contents", "PlacedLight", "read_contents"]
 
 _FARTHEST_M = 1e6
-_LUMINANCE = "garage:light:luminance"
+_CALIBRATED = "garage:light:luminance"
+"""The attribute by which lights of this program are known, whose intensities are scaled."""
+_NOWHERE = "DistantLight"
 
 
 class PlacedLight(NamedTuple):
-    """A rectangle that shines down.
+    """A light that has a place.
 
     Attributes
     ----------
     matrix
         From its coordinates to the world's, for row vectors.
-    width_m, height_m
-        Its extent.
-    luminance_nit
-        cd/m2.
+    source
+        How strongly it shines.
+    nits_per_unit
+        How many candela it shines for each of a white light that the source says, by its colour and by what an
+        intensity of 1 stands for.
     """
 
     matrix: Array
-    width_m: float
-    height_m: float
-    luminance_nit: float
+    source: LightSource
+    nits_per_unit: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +54,7 @@ class Contents:
 
 
 def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = None) -> Contents:
-    """Read all objects of a stage, each with its meshes, and its rectangular lights.
+    """Read all objects of a stage, each with its meshes, and its lights but for suns and skies, which stay outside.
 
     Parameters
     ----------
@@ -71,10 +75,11 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
     """
     things: dict[str, Thing] = {}
     lights: list[PlacedLight] = []
+    units = UsdGeom.GetStageMetersPerUnit(stage)
     look_of = once_for_each_look(partial(_look, shapes=_Shapes()))
     for placed in placed_objects(stage, metres_y_up(stage)) if objects is None else objects:
         look = look_of(placed)
-        lights += [_light(light, matrix @ placed.matrix) for light, matrix in look.lights]
+        lights += [_light(light, matrix @ placed.matrix, units) for light, matrix in look.lights]
         if look.bodies:
             bodies = look.placed(placed.matrix)
             whole = _whole(placed, things)
@@ -100,7 +105,7 @@ class _Look(NamedTuple):
     """What an object consists of in its own space."""
 
     bodies: list[Body]
-    lights: list[tuple[UsdLux.RectLight, Array]]
+    lights: list[tuple[Usd.Prim, Array]]
     matrices: Array
 
     def placed(self, matrix: Array) -> tuple[Body, ...]:
@@ -111,10 +116,10 @@ class _Look(NamedTuple):
 
 def _look(placed: PlacedObject, shapes: "_Shapes") -> _Look:
     bodies: list[Body] = []
-    lights: list[tuple[UsdLux.RectLight, Array]] = []
-    for prim, _, matrix in placed.parts:
-        if prim.IsA(UsdLux.RectLight):
-            lights.append((UsdLux.RectLight(prim), matrix))
+    lights: list[tuple[Usd.Prim, Array]] = []
+    for prim, _, matrix, _ in placed.parts:
+        if prim.GetTypeName() in LIGHT_TYPES - DOMES - {_NOWHERE}:
+            lights.append((prim, matrix))
         elif prim.IsA(UsdGeom.Gprim):
             shape = shapes.of(prim)
             if shape is not None:
@@ -183,10 +188,9 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
     return low, high
 
 
-def _light(light: UsdLux.RectLight, matrix: Array) -> PlacedLight:
-    width_m, height_m = (
-        number_of(attribute) * float(np.linalg.norm(matrix[row, :3]))
-        for row, attribute in enumerate((light.GetWidthAttr(), light.GetHeightAttr()))
-    )
-    luminance = light.GetPrim().GetAttribute(_LUMINANCE)
-    return PlacedLight(matrix, width_m, height_m, number_of(luminance) if luminance else 0.0)
+def _light(prim: Usd.Prim, matrix: Array, metres_per_unit: float) -> PlacedLight:
+    attribute = prim.GetAttribute(_CALIBRATED)
+    is_ours = attribute and attribute.HasAuthoredValue()
+    scale = NITS_PER_INTENSITY / luminance_of(TUBE_COLOUR_RGB) if is_ours else 1.0
+    source = light_of(prim, matrix, metres_per_unit)
+    return PlacedLight(matrix, source, scale * source.brightness)

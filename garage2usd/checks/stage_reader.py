@@ -1,5 +1,6 @@
 """A stage as a subject: read with pxr alone, whoever edited it."""
 
+import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -11,16 +12,21 @@ from garage2usd.checks.contents import PlacedLight, read_contents
 from garage2usd.checks.subject import Subject
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.layout import Placement
-from garage2usd.layout.lighting import direct_lux, lane_points_of
+from garage2usd.layout.lighting import MAINTENANCE, direct_lux, lane_points_of
+from garage2usd.layout.placement import of_spec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.ground import Point
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
+from garage2usd.reading.lights import LightSource
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
 __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
 
+_DISK = "DiskLight"
+_PANELS = frozenset({"RectLight", _DISK})
+_DIGITS = 6
 _LANE_MARGIN_M = 0.7
 """What the sides of a square have over the carriageway between its columns, where no structure tells."""
 
@@ -112,36 +118,68 @@ def _compartments(stage: Usd.Stage, structure: Structure | None) -> NDArray[np.i
 def _illuminances(
     ground: Lanes, lights: Iterable[PlacedLight], structure: Structure | None
 ) -> tuple[float | None, float | None]:
-    """Mean direct light on lanes and stalls, by the method of the layout."""
-    tubes = [
-        Placement(
-            "Light",
-            TubeLightSpec(light.width_m, light.height_m, drop_m=0.0, luminance_nit=light.luminance_nit),
-            (float(light.matrix[3, 0]), float(light.matrix[3, 1]), float(light.matrix[3, 2])),
-            float(np.arctan2(-light.matrix[0, 2], light.matrix[0, 0])),
-        )
-        for light in lights
-        if light.luminance_nit > 0
-    ]
+    """Mean direct light on lanes and stalls: of panels by the method of the layout, of others as points."""
+    shining = [light for light in lights if light.source.candela > 0]
+    panels = [light for light in shining if _is_panel(light.source)]
+    lamps = [light for light in shining if not _is_panel(light.source)]
     lanes = [
         (node.position, _sides_m(square, node.widths_m, structure))
         for node, square in zip(ground.nodes, ground.squares, strict=True)
         if not node.is_portal
     ]
     return (
-        _mean_lux(lane_points_of((*middle, *sides) for middle, sides in lanes), tubes),
-        _mean_lux(np.array([stall.centre for stall in ground.stalls]).reshape(-1, 2), tubes),
+        _mean_lux(lane_points_of((*middle, *sides) for middle, sides in lanes), panels, lamps),
+        _mean_lux(np.array([stall.centre for stall in ground.stalls]).reshape(-1, 2), panels, lamps),
     )
 
 
-def _mean_lux(points: NDArray[np.float64], tubes: list[Placement]) -> float | None:
+def _mean_lux(points: NDArray[np.float64], panels: Iterable[PlacedLight], lamps: Iterable[PlacedLight]) -> float | None:
     if not len(points):
         return None
     total = np.zeros(len(points))
-    for luminance in {tube.spec.luminance_nit for tube in tubes if isinstance(tube.spec, TubeLightSpec)}:
-        alike = [tube for tube in tubes if getattr(tube.spec, "luminance_nit", None) == luminance]
+    tubes = [_tube(panel) for panel in panels]
+    for luminance in dict.fromkeys(spec.luminance_nit for _, spec in of_spec(tubes, TubeLightSpec)):
+        alike = [tube for tube, spec in of_spec(tubes, TubeLightSpec) if spec.luminance_nit == luminance]
         total += luminance * direct_lux(points, alike)
-    return float(total.mean())
+    return float((total + sum(_lamp_lux(points, lamp) for lamp in lamps)).mean())
+
+
+def _is_panel(source: LightSource) -> bool:
+    """Whether a light is flat and has an area."""
+    return source.kind in _PANELS and math.isfinite(source.luminance_nit)
+
+
+def _tube(panel: PlacedLight) -> Placement:
+    """A panel as a rectangle that shines down with what it has in that direction."""
+    matrix, source = panel.matrix, panel.source
+    width_m, height_m = source.width_m, source.height_m
+    if source.kind == _DISK:
+        width_m, height_m = (math.sqrt(math.pi) / 2 * size for size in (width_m, height_m))
+    down = float(np.clip(matrix[2, 1] / (np.linalg.norm(matrix[2, :3]) or 1.0), 0.0, 1.0))
+    luminance = round(down, _DIGITS) * source.luminance_nit * panel.nits_per_unit
+    return Placement(
+        "Light",
+        TubeLightSpec(width_m, height_m, drop_m=0.0, luminance_nit=luminance),
+        (float(matrix[3, 0]), float(matrix[3, 1]), float(matrix[3, 2])),
+        float(np.arctan2(-matrix[0, 2], matrix[0, 0])),
+    )
+
+
+def _lamp_lux(points: NDArray[np.float64], lamp: PlacedLight) -> NDArray[np.float64]:
+    """Maintained illuminance of points (x, z) on the floor by what shines from one place."""
+    x, height_m, z = lamp.matrix[3, :3]
+    if height_m <= 0:
+        return np.zeros(len(points))
+    ways = np.column_stack([points[:, 0] - x, np.full(len(points), -height_m), points[:, 1] - z])
+    far_m = np.linalg.norm(ways, axis=1)
+    ahead = -lamp.matrix[2, :3] / (np.linalg.norm(lamp.matrix[2, :3]) or 1.0)
+    cosine = np.clip(ways @ ahead / far_m, -1.0, 1.0)
+    strength = lamp.source.candela * lamp.nits_per_unit
+    share = np.where(np.degrees(np.arccos(cosine)) <= lamp.source.cone_deg, 1.0, 0.0)
+    if lamp.source.kind in _PANELS:
+        share *= np.maximum(cosine, 0.0)
+    lux: NDArray[np.float64] = MAINTENANCE * strength * share * height_m / far_m**3
+    return lux
 
 
 def _sides_m(square: Point, widths_m: tuple[float, float], structure: Structure | None) -> tuple[float, float]:

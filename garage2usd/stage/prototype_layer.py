@@ -29,14 +29,15 @@ from garage2usd.stage.looks import define_material, label_material, set_glow, se
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["NITS_PER_INTENSITY", "define_mesh", "write_prototype"]
+__all__ = ["NITS_PER_INTENSITY", "TUBE_COLOUR_RGB", "define_mesh", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
+TUBE_COLOUR_RGB = (1.0, 0.97, 0.92)
+"""Linear."""
 
 _ROOT = "Asset"
 """Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
-_TUBE_COLOUR = (1.0, 0.97, 0.92)
 _TYPES = Sdf.ValueTypeNames
 
 
@@ -215,7 +216,7 @@ def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: RectLight) -> None:
     rect = define(layer, path, "RectLight")
     attribute(rect, "inputs:width", _TYPES.Float, light.width_m)
     attribute(rect, "inputs:height", _TYPES.Float, light.depth_m)
-    attribute(rect, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*_TUBE_COLOUR))
+    attribute(rect, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*TUBE_COLOUR_RGB))
     attribute(rect, "inputs:normalize", _TYPES.Bool, value=False)
     attribute(rect, "garage:light:luminance", _TYPES.Float, light.luminance_nit)
     corner_m = np.array([light.width_m, light.depth_m]) / 2
