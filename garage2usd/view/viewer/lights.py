@@ -1,33 +1,34 @@
-"""The lights of a stage."""
+"""The lights of a stage as the viewer takes them."""
 
 import numpy as np
-from pxr import Usd, UsdLux
+from pxr import Usd
 
-from garage2usd.reading.values import number_of, numbers_of
+from garage2usd.reading.lights import light_of
+from garage2usd.reading.objects import Matrix
 from garage2usd.view.viewer.scene import Light
 
-__all__ = ["LIGHT_TYPES", "light_of"]
-
-LIGHT_TYPES = frozenset({"RectLight", "DiskLight", "SphereLight", "CylinderLight", "DistantLight", "DomeLight"})
-"""Types of prims that shine."""
+__all__ = ["placed_light"]
 
 
-def light_of(prim: Usd.Prim) -> Light:
-    """A light in its own space."""
-    light = UsdLux.LightAPI(prim)
-    sizes = [_number(prim, name) for name in ("inputs:width", "inputs:height", "inputs:radius", "inputs:length")]
-    width, height, radius, length = sizes
-    ((red, green, blue),) = np.nan_to_num(numbers_of(light.GetColorAttr(), np.float64, width=3)).tolist()
+def placed_light(prim: Usd.Prim, within: Matrix, to_world: Matrix, metres_per_unit: float) -> Light:
+    """A light in its object's space.
+
+    Parameters
+    ----------
+    prim
+        The light.
+    within, to_world
+        From its space to that of the object, and to the world, in metres.
+    metres_per_unit
+        Of the stage.
+    """
+    source = light_of(prim, to_world, metres_per_unit)
+    sizes = np.maximum(np.linalg.norm(to_world[:2, :3], axis=1), np.finfo(np.float64).tiny)
     return Light(
-        kind=str(prim.GetTypeName()),
-        matrix=np.eye(4),
-        width_m=width or length or 2 * radius,
-        height_m=height or 2 * radius,
-        colour_rgb=(red, green, blue),
-        intensity=_number(prim, "inputs:intensity") * 2 ** _number(prim, "inputs:exposure"),
+        kind=source.kind,
+        matrix=within,
+        width_m=float(source.width_m / sizes[0]),
+        height_m=float(source.height_m / sizes[1]),
+        colour_rgb=source.colour_rgb,
+        candela=source.candela,
     )
-
-
-def _number(prim: Usd.Prim, name: str) -> float:
-    value = number_of(prim.GetAttribute(name)) if prim.HasAttribute(name) else 0.0
-    return float(np.clip(np.nan_to_num(value), -64, 1e9))

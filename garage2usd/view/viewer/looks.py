@@ -1,18 +1,27 @@
 """What the objects of a stage look like: every shape once."""
 
 from collections import Counter
+from functools import partial
 
-from pxr import Usd
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom
 
+from garage2usd.reading.lights import DOMES, LIGHT_TYPES
 from garage2usd.reading.looks import MeshLooks, Numbered
 from garage2usd.reading.meshes import DRAWN_TYPES
 from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
+from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
-from garage2usd.view.viewer.lights import LIGHT_TYPES, light_of
+from garage2usd.view.viewer.lights import placed_light
 from garage2usd.view.viewer.scene import UNLABELLED, Light, Piece, Placed, Shape
+from garage2usd.view.viewer.surfaces import ShownSurface, ShownSurfaces
 
 __all__ = ["Looks"]
+
+NOWHERE = DOMES | {"DistantLight"}
+"""Types of lights that shine from no place."""
 
 
 class Looks:
@@ -22,28 +31,36 @@ class Looks:
     ----------
     drawn
         The meshes and surfaces that they consist of.
-    shapes, palettes
+    shapes, palettes, surfaces
         As `garage2usd.view.viewer.scene.Scene` numbers them.
+    shown
+        The textures of those.
     undrawn
         How many prims of each type cannot be drawn.
+    remarks
+        What else is not shown.
     """
 
     def __init__(self) -> None:
-        self.drawn = MeshLooks()
+        self.remarks = Remarks()
+        self.drawn = MeshLooks(remarks=self.remarks)
+        self.shown = ShownSurfaces(self.drawn.pictures, self.remarks)
+        self.surfaces: list[ShownSurface] = []
         self.shapes: Numbered[Shape] = Numbered()
         self.palettes: Numbered[tuple[int, ...]] = Numbered()
         self.undrawn: Counter[str] = Counter()
 
     def objects(self, stage: Usd.Stage, to_metres: Matrix) -> list[Placed]:
         """Every object of a stage that can be drawn; `to_metres` leads from the stage's space to metres, Y up."""
-        found, numbers_of = [], once_for_each_look(self._shape)
+        units = UsdGeom.GetStageMetersPerUnit(stage)
+        found, numbers_of = [], once_for_each_look(partial(self._shape, metres_per_unit=units))
         for placed in placed_objects(stage, to_metres):
             numbers = numbers_of(placed)
             if numbers is not None:
                 found.append(Placed(placed.path, placed.label or UNLABELLED, placed.square, *numbers, placed.matrix))
         return found
 
-    def _shape(self, placed: PlacedObject) -> tuple[int, int] | None:
+    def _shape(self, placed: PlacedObject, metres_per_unit: float) -> tuple[int, int] | None:
         """Numbers of the shape and the palette of an object; None where nothing of it can be drawn."""
         meshes: list[tuple[int, Matrix, int, str]] = []  # mesh, place, surface, collider
         lights: list[Light] = []
@@ -51,9 +68,12 @@ class Looks:
             kind = part.prim.GetTypeName()
             if kind in DRAWN_TYPES:
                 collider = collider_of(part.prim)
-                meshes += [(own.mesh, part.matrix, own.surface, collider) for own in self.drawn.of_prim(part.prim)]
+                meshes += [(own.mesh, part.matrix, own.surface, collider) for own in self.drawn.of_part(placed, part)]
             elif kind in LIGHT_TYPES:
-                lights.append(light_of(part.prim).moved(part.matrix))
+                to_world = part.matrix @ placed.matrix
+                lights.append(placed_light(part.prim, part.matrix, to_world, metres_per_unit))
+                if kind in NOWHERE:
+                    self.remarks.add(f"lights of the type {kind} are not shown", placed.path + part.path)
             else:
                 self.undrawn[kind] += 1
         return self._numbered(meshes, lights) if meshes or lights else None
@@ -62,9 +82,22 @@ class Looks:
         """Numbers of the shape and the palette that these make."""
         palette = tuple(dict.fromkeys(surface for _, _, surface, _ in meshes))
         pieces, keys = [], []
-        for mesh, matrix, surface, collider in meshes:
-            slot, is_blended = palette.index(surface), self.drawn.surfaces.values[surface].is_blended
-            pieces.append(Piece(self.drawn.meshes.values[mesh], matrix, slot, is_blended, collider))
-            keys.append((mesh, matrix.tobytes(), slot, is_blended, collider))
+        for mesh, matrix, number, collider in meshes:
+            slot, surface, triangles = palette.index(number), self._surface(number), self.drawn.meshes.values[mesh]
+            coordinates = surface.layout.placed(triangles.coordinates[:, surface.set])
+            self._note_wraps(surface, coordinates)
+            pieces.append(Piece(triangles, matrix, coordinates, slot, surface.is_blended, collider))
+            keys.append((mesh, matrix.tobytes(), slot, surface.is_blended, collider, surface.set, surface.layout))
         key = tuple(keys), tuple(light.key() for light in lights)
         return self.shapes.number(Shape(pieces, lights), key), self.palettes.number(palette, palette)
+
+    def _surface(self, number: int) -> ShownSurface:
+        """A surface of what is drawn as the page has it."""
+        for look in self.drawn.surfaces.values[len(self.surfaces) : number + 1]:
+            self.surfaces.append(self.shown.of(look))
+        return self.surfaces[number]
+
+    def _note_wraps(self, surface: ShownSurface, coordinates: NDArray[np.float32]) -> None:
+        wraps = {surface.layout.wrap_s, surface.layout.wrap_t}
+        if wraps != {"repeat"} and (coordinates.min(initial=0) < 0 or coordinates.max(initial=1) > 1):
+            self.remarks.add(f"textures that {' and '.join(sorted(wraps - {'repeat'}))} outside are repeated", "")

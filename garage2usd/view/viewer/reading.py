@@ -39,13 +39,16 @@ def read_scene(stage: Usd.Stage, path: Path) -> Scene:
     if not objects:
         raise StageError(path, "nothing in it can be drawn")
     remarks = [f"{count} prims of type {kind} are not drawn" for kind, count in sorted(looks.undrawn.items())]
+    remarks += looks.remarks.lines()
     return Scene(
         name=path.name,
         facts=_facts(stage),
         objects=objects,
         shapes=looks.shapes.values,
         palettes=looks.palettes.values,
-        surfaces=looks.drawn.surfaces.values,
+        surfaces=looks.surfaces,
+        textures=looks.shown.textures,
+        pictures=looks.drawn.pictures,
         lanes=read_lanes(stage),
         ids=_ids(path),
         bounds_m=_bounds_m(objects, looks.shapes.values),

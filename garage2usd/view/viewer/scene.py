@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from garage2usd.reading.lanes import Lanes
 from garage2usd.reading.meshes import Triangles
-from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.reading.pictures import Bands, Pictures
+from garage2usd.view.viewer.surfaces import ShownSurface
 
 __all__ = ["UNLABELLED", "Light", "Piece", "Placed", "Scene", "Shape", "box_corners", "moved"]
 
@@ -38,6 +39,8 @@ class Piece:
     ----------
     mesh, matrix
         The triangles, and where they stand; float64, shape (4, 4), points as rows.
+    coordinates
+        Where the vertices are on the texture of their surface; float32, shape (vertices, 2).
     slot
         Which of the surfaces of the object's palette it has.
     is_blended
@@ -49,6 +52,7 @@ class Piece:
 
     mesh: Triangles
     matrix: NDArray[np.float64]
+    coordinates: NDArray[np.float32]
     slot: int
     is_blended: bool
     collider: str = ""
@@ -68,8 +72,8 @@ class Light:
         Its sides, or its diameter twice.
     colour_rgb
         Linear.
-    intensity
-        UsdLux intensity with its exposure.
+    candela
+        Along -Z.
     """
 
     kind: str
@@ -77,7 +81,7 @@ class Light:
     width_m: float
     height_m: float
     colour_rgb: tuple[float, float, float]
-    intensity: float
+    candela: float
 
     def moved(self, place: NDArray[np.float64]) -> "Light":
         """The same elsewhere."""
@@ -91,7 +95,7 @@ class Light:
             self.width_m,
             self.height_m,
             self.colour_rgb,
-            self.intensity,
+            self.candela,
         )
 
 
@@ -148,6 +152,8 @@ class Scene:
         Every object.
     shapes, palettes, surfaces
         What they look like: a palette is the numbers of surfaces by slot.
+    textures, pictures
+        What each texture that the surfaces refer to shows, and what that is taken from.
     lanes
         The lane graph and the stalls, as far as they are sound.
     ids
@@ -163,7 +169,9 @@ class Scene:
     objects: Sequence[Placed]
     shapes: Sequence[Shape]
     palettes: Sequence[Sequence[int]]
-    surfaces: Sequence[SurfaceLook]
+    surfaces: Sequence[ShownSurface]
+    textures: Sequence[Bands]
+    pictures: Pictures
     lanes: Lanes
     ids: Mapping[str, int]
     bounds_m: NDArray[np.float64]

@@ -3,18 +3,16 @@
 import http.server
 import re
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from http import HTTPStatus
 from importlib import resources
 from types import TracebackType
 from typing import Self
 from urllib.parse import urlsplit
 
-from pxr import Ar
-
 from garage2usd.errors import OutputError
 from garage2usd.view.viewer.scene import Scene
-from garage2usd.view.viewer.wire import encode_colliders, encode_scene, texture_paths
+from garage2usd.view.viewer.wire import encode_colliders, encode_scene
 
 __all__ = ["ViewerServer", "page_files"]
 
@@ -22,7 +20,6 @@ HOST = "127.0.0.1"
 _TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".txt": "text/plain"}
 _SCENE, _COLLIDERS, _TEXTURES = "/scene.bin", "/colliders.bin", "/textures/"
 _BINARY = "application/octet-stream"
-_IMAGES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _MOST_TEXTURE_BYTES = 1 << 26
 _HEADERS = {
@@ -74,7 +71,6 @@ class ViewerServer:
         self._ready = threading.Event()
         self._scene: Scene | None = None
         self._encoded = b""
-        self._textures: Sequence[str] = ()
         try:
             self._server = _Listener((HOST, port), _Handler)
         except (OSError, OverflowError) as error:
@@ -113,7 +109,6 @@ class ViewerServer:
 
     def show(self, scene: Scene) -> None:
         """Answer requests for the scene, which wait until then."""
-        self._textures = texture_paths(scene)
         self._encoded = encode_scene(scene)
         self._scene = scene
         self._ready.set()
@@ -131,14 +126,13 @@ class ViewerServer:
 
     def _texture(self, number: str) -> _Answer | None:
         self._ready.wait()
-        if not _NUMBER.fullmatch(number) or int(number) >= len(self._textures):
+        scene = self._scene
+        if scene is None or not _NUMBER.fullmatch(number) or int(number) >= len(scene.textures):
             return None
-        asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(self._textures[int(number)]))
-        if not asset or asset.GetSize() > _MOST_TEXTURE_BYTES:
-            return None
-        data = bytes(asset.GetBuffer())
-        kind = next((kind for start, kind in _IMAGES.items() if data.startswith(start)), None)
-        return (kind, data) if kind else None
+        bands = scene.textures[int(number)]
+        # a channel of its own holds a number, and is no colour
+        shown = scene.pictures.composed(bands, is_srgb=all(band is not None for band in bands))
+        return (shown.kind, shown.data) if len(shown.data) <= _MOST_TEXTURE_BYTES else None
 
 
 class _Listener(http.server.ThreadingHTTPServer):

@@ -17,21 +17,10 @@ from garage2usd.reading.lanes import Lanes
 from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import Scene, Shape, moved
 
-__all__ = ["encode_colliders", "encode_scene", "texture_paths"]
+__all__ = ["encode_colliders", "encode_scene"]
 
 _MAGIC = b"G2UV"
 _ALIGNMENT = 4
-
-
-def texture_paths(scene: Scene) -> list[str]:
-    """Resolved paths of all textures; the page asks for them by number."""
-    names = {
-        path: None
-        for surface in scene.surfaces
-        for path in (surface.colour_texture, surface.roughness_texture, surface.metallic_texture)
-        if path
-    }
-    return list(names)
 
 
 def encode_scene(scene: Scene) -> bytes:
@@ -50,7 +39,7 @@ def encode_scene(scene: Scene) -> bytes:
         "boundsM": np.round(scene.bounds_m, 4).tolist(),
         "labels": labels,
         "squares": squares,
-        "textures": len(texture_paths(scene)),
+        "textures": len(scene.textures),
         "surfaces": _surfaces(scene),
         "palettes": [list(palette) for palette in scene.palettes],
         "shapes": shapes,
@@ -119,7 +108,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
             corners = part.indices[:, [0, 2, 1]] if mirrored else part.indices
             positions.append(moved(part.positions_m, matrix))
             normals.append(np.rint(directions * 127).astype(np.int8))
-            coordinates.append(part.coordinates)
+            coordinates.append(piece.coordinates)
             slots.append(np.full(len(part.positions_m), min(piece.slot, 255), np.uint8))
             (blended if piece.is_blended else opaque).append(corners + np.uint32(first))
             first += len(part.positions_m)
@@ -139,7 +128,7 @@ def _shapes(shapes: Sequence[Shape], buffers: _Buffers) -> dict[str, Any]:
                         "matrix": light.matrix[:, :3].T.ravel().tolist(),
                         "size": [light.width_m, light.height_m],
                         "rgb": list(light.colour_rgb),
-                        "intensity": light.intensity,
+                        "candela": light.candela,
                     }
                     for light in shape.lights
                 ],
@@ -161,7 +150,6 @@ def _joined(parts: Sequence[NDArray[Any]], kind: type, *shape: int) -> NDArray[A
 
 
 def _surfaces(scene: Scene) -> list[dict[str, Any]]:
-    number_of = {path: number for number, path in enumerate(texture_paths(scene))}
     return [
         {
             "rgb": list(surface.colour_rgb),
@@ -169,11 +157,12 @@ def _surfaces(scene: Scene) -> list[dict[str, Any]]:
             "roughness": surface.roughness,
             "metallic": surface.metallic,
             "opacity": surface.opacity,
+            "opacityThreshold": surface.opacity_threshold,
             "clearcoat": surface.clearcoat,
-            "colourTexture": number_of.get(surface.colour_texture, -1),
-            "roughnessTexture": number_of.get(surface.roughness_texture, -1),
+            "colourTexture": surface.colour_texture,
+            "roughnessTexture": surface.roughness_texture,
             "roughnessChannel": surface.roughness_channel,
-            "metallicTexture": number_of.get(surface.metallic_texture, -1),
+            "metallicTexture": surface.metallic_texture,
             "metallicChannel": surface.metallic_channel,
             "hasAlpha": surface.has_alpha,
         }

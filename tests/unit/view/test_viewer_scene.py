@@ -147,7 +147,7 @@ def test_every_tube_shines_where_it_hangs(garage):
     shining = [(placed, light) for placed in scene.objects for light in scene.shapes[placed.shape].lights]
     assert len(shining) == len(tubes)
     for placed, light in shining:
-        assert light.intensity > 0
+        assert light.candela > 0
         way = (light.matrix @ placed.matrix)[2, :3]  # a rect light shines along -Z
         assert np.allclose(-way, [0, -1, 0], atol=1e-6)
 
@@ -322,7 +322,7 @@ def test_a_component_is_one_object_with_its_lights_and_colliders(tmp_path, read)
     (placed,) = scene.objects
     (shape,) = scene.shapes
     assert placed.path == "/World/Lamp"
-    assert [light.intensity for light in shape.lights] == [12]
+    assert [light.candela for light in shape.lights] == [pytest.approx(12 * np.pi * 0.5**2)]
     assert [collider.collider for collider in shape.colliders] == ["none"]
 
 

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from support.signals import heed_all
 
@@ -25,7 +26,7 @@ from garage2usd.view.viewer import ViewerServer, read_scene
 @pytest.fixture
 def stage(tmp_path):
     """A cube with a texture that is an image and another with one that is not."""
-    (tmp_path / "good.png").write_bytes(b"\x89PNG\r\n\x1a\nrest")
+    Image.new("RGB", (2, 2), (10, 20, 30)).save(tmp_path / "good.png")
     (tmp_path / "secret.txt").write_text("root:x:0:0")
     path = tmp_path / "cubes.usda"
     usd = Usd.Stage.CreateNew(str(path))

@@ -34,7 +34,7 @@ interface Lamp {
   x: number;
   y: number;
   z: number;
-  /** Candela by metre and its like, in units of the brightest. */
+  /** Candela straight ahead. */
   power: number;
   /** Half of its sides across the plan: (x, z) of each. */
   sides: [number, number, number, number];
@@ -91,7 +91,7 @@ function lampsOf(scene: SceneFile): Lamp[] {
   const lamps: Lamp[] = [];
   for (let object = 0; object < scene.count; object++)
     for (const light of scene.shapes[scene.shape[object]].lights) {
-      if (light.kind === "DistantLight" || light.kind === "DomeLight" || !(light.intensity > 0)) continue;
+      if (light.kind === "DistantLight" || light.kind === "DomeLight" || !(light.candela > 0)) continue;
       const m = scene.matrix.subarray(12 * object, 12 * object + 12);
       const n = light.matrix;
       const place = (x: number, y: number, z: number, w: number) => {
@@ -101,10 +101,9 @@ function lampsOf(scene: SceneFile): Lamp[] {
       const [x, y, z] = place(0, 0, 0, 1);
       const side = place(light.size[0] / 2, 0, 0, 0);
       const other = place(0, light.size[1] / 2, 0, 0);
-      const area = 4 * Math.hypot(...side) * Math.hypot(...other);
       const bright = 0.2126 * light.rgb[0] + 0.7152 * light.rgb[1] + 0.0722 * light.rgb[2];
       const down = light.kind === "RectLight" || light.kind === "DiskLight" ? -place(0, 0, -1, 0)[1] : 0.7;
-      lamps.push({ x, y, z, power: light.intensity * bright * area, sides: [side[0], side[2], other[0], other[2]], down });
+      lamps.push({ x, y, z, power: light.candela * bright, sides: [side[0], side[2], other[0], other[2]], down });
     }
   return lamps;
 }

@@ -8,6 +8,8 @@ export interface Surface {
   roughness: number;
   metallic: number;
   opacity: number;
+  /** What is less opaque is not drawn, and all else is opaque; 0 for no such limit. */
+  opacityThreshold: number;
   clearcoat: number;
   colourTexture: number;
   roughnessTexture: number;
@@ -23,7 +25,7 @@ export interface Light {
   matrix: number[];
   size: [number, number];
   rgb: [number, number, number];
-  intensity: number;
+  candela: number;
 }
 
 /** Ranges are of the first element and the number of elements. */

@@ -67,6 +67,11 @@ void main() {
     colour *= texel.rgb;
     if ((code & 1) == 1) opacity *= texel.a; else roughness *= texel.a;
   }
+  vec4 glow = texelFetch(palette, first + ivec2(2, 0), 0);
+  if (glow.a > 0.0) {
+    if (opacity < glow.a) discard;
+    opacity = 1.0;
+  }
   vec3 shown;
   if (byLabel > 0.5) {
     shown = texelFetch(labels, ivec2(int(vInfo.y + 0.5), 0), 0).rgb * (0.72 + 0.2 * normal.y + 0.08 * normal.x);
@@ -104,7 +109,7 @@ void main() {
     vec3 base = mix(vec3(0.04), colour, metallic);
     vec3 fresnel = base + (max(vec3(1.0 - roughness), base) - base) * grazing;
     float coat = finish.w * (0.04 + 0.96 * grazing) * gloss;
-    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + texelFetch(palette, first + ivec2(2, 0), 0).rgb;
+    shown = colour * (1.0 - metallic) * light * 1.42 + fresnel * mirrored * shade * gloss + coat * clear + glow.rgb;
     shown = filmic(0.82 * shown);
   }
   if (abs(vInfo.z - selected) < 0.5) shown = mix(shown, vec3(1.0, 0.62, 0.08), 0.45);
@@ -170,7 +175,7 @@ export class SurfaceMaterials {
           surface.opacity,
           surface.clearcoat,
           ...surface.emissive,
-          0,
+          surface.opacityThreshold,
         ],
         4 * TEXELS * entry,
       );
