@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, echo_table, profile_option, seed_option
+from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
 
 if TYPE_CHECKING:
     from garage2usd.layout import Layout
@@ -80,6 +80,7 @@ def build(
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
     exports = _exports(output, formats)
+    notices: list[str] = []
     with Bars(sys.stderr) as progress:
         made = build_garage(
             settings,
@@ -94,7 +95,10 @@ def build(
             from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
             from garage2usd.processes import cores  # noqa: PLC0415
 
-            exports = export(made.stage, exports, settings=settings.maps, progress=progress, workers=cores())
+            exports = export(
+                made.stage, exports, settings=settings.maps, progress=progress, workers=cores(), notice=notices.append
+            )
+    echo_notices(notices)
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from garage2usd.cli.bars import Bars
-from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_table
+from garage2usd.cli.parameters import INPUT_FILE, drive_options, echo_notices, echo_table
 
 __all__ = ["export"]
 
@@ -85,6 +85,5 @@ def export(
             workers=workers or cores(),
             notice=notices.append,
         )
-    for notice in notices:
-        click.echo(notice, err=True)
+    echo_notices(notices)
     echo_table(("file", str(file)) for file in files)

@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 
 from garage2usd.errors import ConfigError
 
-__all__ = ["INPUT_FILE", "drive_options", "echo_table", "profile_option", "refuse_seed", "seed_option"]
+__all__ = ["INPUT_FILE", "drive_options", "echo_notices", "echo_table", "profile_option", "refuse_seed", "seed_option"]
 
 INPUT_FILE = click.Path(dir_okay=False, path_type=Path)
 """A file that is read; one that is missing or damaged ends in 1, as whatever reads it says."""
@@ -56,6 +56,12 @@ def echo_table(lines: Iterable[tuple[str, str]]) -> None:
     """Print (name, value) pairs, the names aligned to the right."""
     for name, value in lines:
         click.echo(f"{name:>10}  {value}")
+
+
+def echo_notices(notices: Iterable[str]) -> None:
+    """Print what the formats of exports cannot say, on standard error."""
+    for notice in notices:
+        click.echo(notice, err=True)
 
 
 def refuse_seed(seed: int | None) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from pxr import Usd, UsdGeom
+from support.foreign_materials import RGB, case, material_stage, primvar, texture
 from support.glb_reader import Glb
 from support.label_tables import labelled_objects
 from support.map_reader import read_map
@@ -177,3 +178,19 @@ def test_settings_of_maps_that_cannot_be_are_refused():
         garage2usd.GarageConfig(maps={"grid": {"high_m": 0.05}})
     with pytest.raises(ConfigError, match="latitude"):
         garage2usd.GarageConfig(maps={"latitude_deg": 91.0})
+
+
+def test_what_a_scene_cannot_say_is_named_on_standard_error(tmp_path):
+    said = case(texture("T", "nowhere.png"), primvar(), diffuseColor=RGB, displacement=0.5)
+    material_stage(tmp_path, said)
+    stage = tmp_path / "square.usda"
+    run = CliRunner().invoke(main, ["export", str(stage), "-o", str(tmp_path / "a.glb")])
+    assert run.exit_code == 0
+    assert run.stderr.splitlines() == [
+        "a.glb: displacement is left out (1): /W/M",
+        "a.glb: textures whose file is missing show their fallback (1): nowhere.png",
+    ]
+    assert run.stdout.splitlines() == [f"      file  {tmp_path / 'a.glb'}"]
+    heard = []
+    garage2usd.export(stage, [tmp_path / "b.glb"], notice=heard.append)
+    assert [line.partition(": ")[2] for line in heard] == [line.partition(": ")[2] for line in run.stderr.splitlines()]
