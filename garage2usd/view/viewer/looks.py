@@ -85,7 +85,7 @@ class Looks:
         for mesh, matrix, number, collider in meshes:
             slot, surface, triangles = palette.index(number), self._surface(number), self.drawn.meshes.values[mesh]
             coordinates = surface.layout.placed(triangles.coordinates[:, surface.set])
-            self._note_wraps(surface, coordinates)
+            self._note_wraps(number, coordinates)
             pieces.append(Piece(triangles, matrix, coordinates, slot, surface.is_blended, collider))
             keys.append((mesh, matrix.tobytes(), slot, surface.is_blended, collider, surface.set, surface.layout))
         key = tuple(keys), tuple(light.key() for light in lights)
@@ -97,7 +97,8 @@ class Looks:
             self.surfaces.append(self.shown.of(look))
         return self.surfaces[number]
 
-    def _note_wraps(self, surface: ShownSurface, coordinates: NDArray[np.float32]) -> None:
-        wraps = {surface.layout.wrap_s, surface.layout.wrap_t}
+    def _note_wraps(self, number: int, coordinates: NDArray[np.float32]) -> None:
+        layout, name = self.surfaces[number].layout, self.drawn.surfaces.values[number].name
+        wraps = {layout.wrap_s, layout.wrap_t}
         if wraps != {"repeat"} and (coordinates.min(initial=0) < 0 or coordinates.max(initial=1) > 1):
-            self.remarks.add(f"textures that {' and '.join(sorted(wraps - {'repeat'}))} outside are repeated", "")
+            self.remarks.add(f"textures that {' and '.join(sorted(wraps - {'repeat'}))} outside are repeated", name)
