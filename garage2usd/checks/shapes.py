@@ -1,6 +1,6 @@
 """Meshes as what stands or hangs in a garage: convex pieces with an outline seen from above and two heights."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -9,7 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from garage2usd.checks.convex_parts import convex_outlines
+from garage2usd.checks.outlines import Outlines, outlines_of
 from garage2usd.layout.grounds import hulls_around
+from garage2usd.reading.polygons import dented_polygons, triangulated
 from garage2usd.structure.pieces import joined
 
 __all__ = [
@@ -17,12 +20,10 @@ __all__ = [
     "Face",
     "Facets",
     "MeshShape",
-    "Outlines",
     "Piece",
     "Thing",
     "are_upright",
     "box_shape",
-    "outlines_of",
     "turned_about_y",
 ]
 
@@ -50,25 +51,6 @@ class Piece(NamedTuple):
     outline: Array
     low_m: float
     high_m: float
-
-
-class Outlines(NamedTuple):
-    """Pieces in columns.
-
-    Attributes
-    ----------
-    corners
-        Of the outlines of all pieces, one after the other; float64, shape (n, 2).
-    counts
-        How many corners each piece has; int64, shape (pieces,).
-    low_m, high_m
-        Its least and greatest height; float64, shape (pieces,).
-    """
-
-    corners: Array
-    counts: NDArray[np.int64]
-    low_m: Array
-    high_m: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,15 +93,27 @@ class MeshShape:
         return _pieces(self.points, _ALL_IN_ONE)[0]
 
     @cached_property
+    def is_dented(self) -> bool:
+        """Whether a face is no convex polygon."""
+        return bool(len(dented_polygons(self.points, self.indices, self.counts)))
+
+    @cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The connected pieces."""
+        """The connected pieces; one with dented faces in parts that are convex seen from above."""
         if not len(self.indices):
             return ()
-        used = np.unique(self.indices)
-        first = joined(len(self.points), *self.edges.T)[used]
-        order = np.argsort(first, kind="stable")
-        starts = np.unique(first[order], return_index=True)[1]
-        return _pieces(self.points[used[order]], starts)
+        used, first = np.unique(self.indices), joined(len(self.points), *self.edges.T)
+        order = np.argsort(first[used], kind="stable")
+        starts = np.unique(first[used][order], return_index=True)[1]
+        pieces = _pieces(self.points[used[order]], starts)
+        if not self.is_dented:
+            return pieces
+        corners = self.indices[triangulated(self.points, self.indices, self.counts)[0]]
+        return tuple(
+            part
+            for piece, whole in zip(np.unique(first[used]).tolist(), pieces, strict=True)
+            for part in _parts(whole, self.points[corners[first[corners[:, 0]] == piece]])
+        )
 
     def outlines(self, *, whole: bool) -> Outlines:
         """The connected pieces in columns, or all of it as one."""
@@ -134,16 +128,6 @@ class MeshShape:
         return outlines_of([self.whole[1:]])
 
 
-def outlines_of(pieces: Sequence[tuple[Array, float, float]]) -> Outlines:
-    """Pieces in columns, each given by its outline and its least and greatest height."""
-    return Outlines(
-        np.concatenate([outline for outline, _, _ in pieces]) if pieces else np.zeros((0, 2)),
-        np.array([len(outline) for outline, _, _ in pieces], dtype=np.int64),
-        np.array([low for _, low, _ in pieces], dtype=np.float64),
-        np.array([high for _, _, high in pieces], dtype=np.float64),
-    )
-
-
 def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
     """Pieces of points, each from its start on; the outline of what has none, as a line or a point, is all of it."""
     hulls = hulls_around(points[:, [0, 2]], np.diff(starts, append=len(points)))
@@ -154,6 +138,13 @@ def _pieces(points: Array, starts: NDArray[np.int64]) -> tuple[Piece, ...]:
         Piece(own, own[:, [0, 2]] if is_flat else outline[:-1], float(own[:, 1].min()), float(own[:, 1].max()))
         for own, outline, is_flat in zip(np.split(points, starts[1:]), outlines, are_flat.tolist(), strict=True)
     )
+
+
+def _parts(whole: Piece, triangles: Array) -> Iterator[Piece]:
+    """Convex parts of a piece that consists of triangles, each as high as all of it."""
+    for outline in convex_outlines(triangles[:, :, [0, 2]]):
+        points = [np.insert(outline, 1, height, axis=1) for height in (whole.low_m, whole.high_m)]
+        yield Piece(np.concatenate(points), outline, whole.low_m, whole.high_m)
 
 
 def box_shape(low: Array, high: Array) -> MeshShape:

@@ -32,7 +32,7 @@ def floor_of(subject: Subject) -> Grounds:
     bodies = list(_bodies(subject, _FLOOR))
     if not bodies:
         raise StageError(subject.source, "nothing in it has the class floor, so that nothing says where it ends")
-    tiles = placed_pieces(bodies, np.ones(len(bodies), dtype=bool)).hulls
+    tiles = placed_pieces(bodies, np.array([not body.shape.is_dented for body in bodies])).hulls
     return np.array([*tiles, *ramp_floors(subject)], dtype=object)
 
 

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdShade
 
+from garage2usd.reading.face_sets import face_sets
 from garage2usd.reading.inheritance import NOTHING, Inherited
-from garage2usd.reading.meshes import Triangles, face_sets, triangles_of
+from garage2usd.reading.meshes import Triangles, triangles_of
 from garage2usd.reading.objects import DrawnPart, PlacedObject
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.surfaces import SurfaceLook, SurfaceReader, stands_alone

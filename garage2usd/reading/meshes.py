@@ -1,20 +1,20 @@
 """Meshes and simple shapes of a stage as triangles with one normal and one texture coordinate a vertex."""
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom, UsdShade
+from pxr import Usd, UsdGeom
 
 from garage2usd.reading.polygons import triangulated
 from garage2usd.reading.solid_shapes import solid_faces
 from garage2usd.reading.textures import USUAL_COORDINATES, Coordinates
 from garage2usd.reading.values import READ_AT, numbers_of
 
-__all__ = ["DRAWN_TYPES", "Triangles", "cross", "face_sets", "triangles_of"]
+__all__ = ["DRAWN_TYPES", "Triangles", "cross", "triangles_of"]
 
 DRAWN_TYPES = frozenset({"Mesh", "Cube", "Sphere", "Cylinder", "Cone", "Capsule", "Plane"})
 """Types of prims that have triangles."""
@@ -136,38 +136,6 @@ def cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.fl
     """The cross products of vectors whose first axis is (x, y, z), without the checks of `numpy.cross`."""
     (x, y, z), (other_x, other_y, other_z) = one, other
     return np.stack([y * other_z - z * other_y, z * other_x - x * other_z, x * other_y - y * other_x])
-
-
-def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | None]]:
-    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left.
-
-    Yields
-    ------
-    tuple
-        The prim that the material is bound to, and the numbers of its faces; None for all.
-    """
-    children = prim.GetFilteredChildren(Usd.TraverseInstanceProxies())
-    subsets = [child for child in children if child.IsA(UsdGeom.Subset) and _is_bound(child)]
-    if not subsets:
-        yield prim, None
-        return
-    faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp) for child in subsets]
-    count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64))
-    yield from zip(subsets, faces_of, strict=True)
-    rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
-    if len(rest):
-        yield prim, rest
-
-
-def _is_bound(subset: Usd.Prim) -> bool:
-    """Whether a subset is one of faces and has a material of its own."""
-    if UsdGeom.Subset(subset).GetElementTypeAttr().Get(READ_AT) != UsdGeom.Tokens.face:
-        return False
-    bindings = UsdShade.MaterialBindingAPI(subset)
-    purposes = UsdShade.Tokens.allPurpose, UsdShade.Tokens.preview
-    return any(bindings.GetDirectBindingRel(purpose).HasAuthoredTargets() for purpose in purposes) or any(
-        bindings.GetCollectionBindings(purpose) for purpose in purposes
-    )
 
 
 def _of_solid(prim: Usd.Prim, sets: Sequence[Coordinates]) -> Triangles | None:

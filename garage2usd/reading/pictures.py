@@ -4,14 +4,14 @@ import io
 import math
 from collections.abc import Iterable
 from pathlib import PurePosixPath
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from pxr import Ar
 
-__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored"]
+__all__ = ["ALPHA", "Band", "Bands", "Picture", "Pictures", "factored", "sampled"]
 
 _PLAIN_KINDS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 """The kinds of pictures that browsers and glTF take, by their first bytes."""
@@ -199,6 +199,22 @@ class Pictures:
             for number, band in enumerate(bands)
             if isinstance(band, Band)
         )
+
+
+def sampled(plane: NDArray[np.float64], coordinates: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
+    """Values of a repeated picture between the middles of its pixels, linearly."""
+    upwards = plane[::-1]  # the last row of pixels is v = 0
+    rows, columns = plane.shape
+    across = coordinates[:, 0] * columns - 0.5
+    up = coordinates[:, 1] * rows - 0.5
+    left, low = np.floor(across).astype(int), np.floor(up).astype(int)
+    right_share, high_share = across - left, up - low
+    low_row, high_row = low % rows, (low + 1) % rows
+    left_column, right_column = left % columns, (left + 1) % columns
+    lower = upwards[low_row, left_column] * (1 - right_share) + upwards[low_row, right_column] * right_share
+    upper = upwards[high_row, left_column] * (1 - right_share) + upwards[high_row, right_column] * right_share
+    found: NDArray[np.float64] = lower * (1 - high_share) + upper * high_share
+    return found
 
 
 def _linear(stored: NDArray[np.float64]) -> NDArray[np.float64]:

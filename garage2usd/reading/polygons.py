@@ -1,10 +1,12 @@
 """Polygons of a mesh cut into triangles."""
 
+from typing import Any
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["triangulated"]
+__all__ = ["dented_polygons", "triangulated"]
 
 _FLAT = 1e-9
 """Share of a polygon's area by which a triangle of its fan may be turned over: rounding of single precision."""
@@ -13,7 +15,7 @@ _TRIANGLE = 3
 
 
 def triangulated(
-    points: NDArray[np.float32], corners: NDArray[np.int64], counts: NDArray[np.int64]
+    points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """Cut polygons into triangles that cover each of them once.
 
@@ -39,19 +41,11 @@ def triangulated(
     a fan.
     """
     fans, polygon_of = _fans(counts)
-    if not (counts > _TRIANGLE).any():
-        return fans, polygon_of
-    places = points[np.clip(corners, 0, len(points) - 1)].astype(np.float64)
-    with np.errstate(invalid="ignore", over="ignore"):
-        origins = places[fans[:, 0]]
-        areas = np.cross(places[fans[:, 1]] - origins, places[fans[:, 2]] - origins)
-        normals = np.stack([np.bincount(polygon_of, part, len(counts)) for part in areas.T], axis=1)
-        along = (areas * normals[polygon_of]).sum(axis=1)
-        bent = np.unique(polygon_of[along < -_FLAT * (normals**2).sum(axis=1)[polygon_of]])
+    places, normals, dented = _measured(points, corners, counts)
     starts = np.cumsum(counts) - counts
     kept = np.ones(len(fans), dtype=bool)
     replaced: list[tuple[int, NDArray[np.int64]]] = []
-    for polygon in bent.tolist():
+    for polygon in dented.tolist():
         own = np.arange(starts[polygon], starts[polygon] + counts[polygon])
         is_sound = ((corners[own] >= 0) & (corners[own] < len(points))).all() and np.isfinite(places[own]).all()
         found = _cut(places[own], normals[polygon]) if is_sound else None
@@ -65,6 +59,30 @@ def triangulated(
     polygon_of = np.concatenate([polygon_of[kept], *numbers])
     order = np.argsort(polygon_of, kind="stable")
     return fans[order], polygon_of[order]
+
+
+def dented_polygons(
+    points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Numbers of the polygons whose fan would turn a triangle over; the arguments are those of `triangulated`."""
+    return _measured(points, corners, counts)[2]
+
+
+def _measured(
+    points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+    """Places of the corners, normals of the polygons by Newell's method, twice their areas, and the dented ones."""
+    places = points[np.clip(corners, 0, len(points) - 1)].astype(np.float64)
+    if not (counts > _TRIANGLE).any():
+        return places, np.zeros((0, 3)), np.zeros(0, np.int64)
+    fans, polygon_of = _fans(counts)
+    with np.errstate(invalid="ignore", over="ignore"):
+        origins = places[fans[:, 0]]
+        areas = np.cross(places[fans[:, 1]] - origins, places[fans[:, 2]] - origins)
+        normals = np.stack([np.bincount(polygon_of, part, len(counts)) for part in areas.T], axis=1, dtype=np.float64)
+        along = (areas * normals[polygon_of]).sum(axis=1)
+        dented = np.unique(polygon_of[along < -_FLAT * (normals**2).sum(axis=1)[polygon_of]])
+    return places, normals, dented.astype(np.int64)
 
 
 def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

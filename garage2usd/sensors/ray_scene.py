@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +16,9 @@ from garage2usd.reading.labels import Labels, owner_of
 from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES
 from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
-from garage2usd.reading.pictures import Pictures
+from garage2usd.reading.pictures import Pictures, sampled
 from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.reading.textures import Layout
 from garage2usd.reading.walk import placed_objects
 
 with of_extra("LiDAR"):
@@ -163,7 +164,7 @@ class RayScene:
                     self.vertices_m[corners], places_m[own]
                 )
                 at = (self.coordinates[corners] * weights[:, :, None]).sum(axis=1)
-                through[own] = _sampled(mask, at) <= _OPAQUE
+                through[own] = ~_are_opaque(sampled(mask, at), self.surfaces[number])
         return through
 
     @cached_property
@@ -172,9 +173,9 @@ class RayScene:
 
     @cached_property
     def _masks(self) -> dict[int, NDArray[np.float64]]:
-        """Opacity of the texture of each surface whose texture has one; 0 to 1, rows from the bottom."""
+        """Opacity of the texture of each surface whose texture has one; 0 to 1, the first row on top."""
         return {
-            number: self.pictures.plane(look.opacity_texture.band())[::-1]  # the last row of pixels is v = 0
+            number: self.pictures.plane(look.opacity_texture.band())
             for number, look in enumerate(self.surfaces)
             if look.opacity_texture
         }
@@ -210,10 +211,7 @@ def read_ray_scene(
     metres = UsdGeom.GetStageMetersPerUnit(stage)
     looks = MeshLooks(is_apart_by_name=True)
 
-    def look_of(placed: PlacedObject) -> list[_Piece]:
-        return [piece for part in placed.parts for piece in _pieces(placed, part, looks)]
-
-    remembered = once_for_each_look(look_of)
+    remembered = once_for_each_look(partial(_look, looks=looks))
     owners: dict[str, int] = {}
     placed_by_id: dict[int, PlacedObject] = {}
     columns, first = list[tuple[NDArray[Any], ...]](), 0
@@ -269,36 +267,29 @@ class _Piece(NamedTuple):
     surface: int
 
 
+def _look(placed: PlacedObject, looks: MeshLooks) -> list[_Piece]:
+    return [piece for part in placed.parts for piece in _pieces(placed, part, looks)]
+
+
 def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Piece]:
     if part.prim.GetTypeName() not in DRAWN_TYPES:
         return []
     found = []
     for mesh, surface in looks.of_part(placed, part):
         triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
-        if look.opacity > _OPAQUE:
+        if _are_opaque(np.array(look.opacity), look):
             places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]
-            mask = look.opacity_texture
-            number = look.sets.index(mask.layout.coordinates) if mask else 0
-            coordinates = triangles.coordinates[:, number]
-            placed_coordinates = mask.layout.placed(coordinates) if mask else coordinates
-            found.append(_Piece(part.path, places, placed_coordinates, triangles.indices.astype(np.int32), surface))
+            layout = look.opacity_texture.layout if look.opacity_texture else Layout(look.sets[0])
+            coordinates = layout.placed(triangles.coordinates[:, look.sets.index(layout.coordinates)])
+            found.append(_Piece(part.path, places, coordinates, triangles.indices.astype(np.int32), surface))
     return found
+
+
+def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:
+    """Whether places of a surface stop rays: by its own threshold, if it has one."""
+    opaque: NDArray[np.bool_] = opacity >= look.opacity_threshold if look.opacity_threshold else opacity > _OPAQUE
+    return opaque
 
 
 def _is_below(path: str, roots: Collection[str]) -> bool:
     return any(path == root or path.startswith((f"{root}/", f"{root}[")) for root in roots)
-
-
-def _sampled(mask: NDArray[np.float64], coordinates: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """Values of a repeated picture between the middles of its pixels, linearly."""
-    rows, columns = mask.shape
-    across = coordinates[:, 0] * columns - 0.5
-    up = coordinates[:, 1] * rows - 0.5
-    left, low = np.floor(across).astype(int), np.floor(up).astype(int)
-    right_share, high_share = across - left, up - low
-    low_row, high_row = low % rows, (low + 1) % rows
-    left_column, right_column = left % columns, (left + 1) % columns
-    lower = mask[low_row, left_column] * (1 - right_share) + mask[low_row, right_column] * right_share
-    upper = mask[high_row, left_column] * (1 - right_share) + mask[high_row, right_column] * right_share
-    found: NDArray[np.float64] = lower * (1 - high_share) + upper * high_share
-    return found

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.reading.meshes import Triangles
+from garage2usd.reading.values import READ_AT
 from garage2usd.view.viewer.scene import Piece, box_corners, moved
 
 __all__ = ["collider_lines", "collider_of"]
@@ -21,7 +22,7 @@ def collider_of(prim: Usd.Prim) -> str:
     """How a prim collides, as UsdPhysics' token of approximation; empty where it does not."""
     if "PhysicsCollisionAPI" not in prim.GetAppliedSchemas():
         return ""
-    enabled = prim.GetAttribute("physics:collisionEnabled").Get()
+    enabled = prim.GetAttribute("physics:collisionEnabled").Get(READ_AT)
     if enabled is False:
         return ""
     return str(prim.GetAttribute("physics:approximation").Get() or "none")

@@ -100,6 +100,31 @@ def test_a_texture_says_where_a_sheet_is_looked_through(tmp_path):
     assert ranges == pytest.approx([math.hypot(2, 1, 0.3), 2 * math.hypot(2, 1, 0.3)])
 
 
+def test_a_sheet_is_cut_out_where_its_own_threshold_says(tmp_path):
+    alpha = np.full((8, 8, 4), 100, dtype=np.uint8)  # 0.39, less than half
+    Image.fromarray(alpha).save(tmp_path / "dim.png")
+    for threshold, path in ((0.3, "/Sheet"), (0.4, "/Wall")):
+        stage = in_memory()
+        paint(stage, wall(stage, "/Sheet", 2, label="sheet"), "Sheet", texture=tmp_path / "dim.png")
+        surface = UsdShade.Shader(stage.GetPrimAtPath("/Looks/Sheet/Surface"))
+        surface.CreateInput("opacityThreshold", Sdf.ValueTypeNames.Float).Set(threshold)
+        wall(stage, "/Wall", 4, label="wall")
+        assert met(stage)[1] == [path]
+
+
+def test_rays_pass_the_corner_that_a_polygon_leaves_free():
+    stage = in_memory()
+    mesh = UsdGeom.Mesh.Define(stage, "/Sheet")
+    mesh.CreatePointsAttr([(2, y, z) for y, z in ((3, 0.5), (0.5, 0.5), (0.5, 3), (-3, 3), (-3, -3), (3, -3))])
+    mesh.CreateFaceVertexCountsAttr([6])
+    mesh.CreateFaceVertexIndicesAttr(list(range(6)))
+    mesh.GetPrim().CreateAttribute("semantics:labels:class", Sdf.ValueTypeNames.TokenArray).Set(["sheet"])
+    wall(stage, "/Wall", 4, label="wall", size=20)
+    ways = np.array([(2, 1, 1), (2, -1, 1), (2, 1, -1), (2, 2.5, 2.5), (2, -2, -2)], dtype=float)
+    _, paths = met(stage, ways / np.linalg.norm(ways, axis=1, keepdims=True))
+    assert paths == ["/Wall", "/Sheet", "/Sheet", "/Wall", "/Sheet"]
+
+
 def test_units_instances_and_points_of_instancers_count():
     stage = in_memory(up="Z", metres=0.01)
     wall(stage, "/Prototypes/Thing", 0, size=100)

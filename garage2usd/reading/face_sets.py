@@ -1,0 +1,43 @@
+"""Which faces of a mesh have which material."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd, UsdGeom, UsdShade
+
+from garage2usd.reading.values import READ_AT, numbers_of
+
+__all__ = ["face_sets"]
+
+
+def face_sets(prim: Usd.Prim) -> Iterator[tuple[Usd.Prim, NDArray[np.intp] | None]]:
+    """The mesh as a whole, or each subset of its faces that has a material of its own, and what is left.
+
+    Yields
+    ------
+    tuple
+        The prim that the material is bound to, and the numbers of its faces; None for all.
+    """
+    children = prim.GetFilteredChildren(Usd.TraverseInstanceProxies())
+    subsets = [child for child in children if child.IsA(UsdGeom.Subset) and _is_bound(child)]
+    if not subsets:
+        yield prim, None
+        return
+    faces_of = [numbers_of(UsdGeom.Subset(child).GetIndicesAttr(), np.intp) for child in subsets]
+    count = len(numbers_of(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr(), np.int64))
+    yield from zip(subsets, faces_of, strict=True)
+    rest = np.setdiff1d(np.arange(count), np.concatenate(faces_of))
+    if len(rest):
+        yield prim, rest
+
+
+def _is_bound(subset: Usd.Prim) -> bool:
+    """Whether a subset is one of faces and has a material of its own."""
+    if UsdGeom.Subset(subset).GetElementTypeAttr().Get(READ_AT) != UsdGeom.Tokens.face:
+        return False
+    bindings = UsdShade.MaterialBindingAPI(subset)
+    purposes = UsdShade.Tokens.allPurpose, UsdShade.Tokens.preview
+    return any(bindings.GetDirectBindingRel(purpose).HasAuthoredTargets() for purpose in purposes) or any(
+        bindings.GetCollectionBindings(purpose) for purpose in purposes
+    )
