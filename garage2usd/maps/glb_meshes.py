@@ -72,8 +72,7 @@ def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | Non
         Whether the normals of all triangles are their own, so that it needs none.
     """
     # the first row of pixels is v = 0 there and v = 1 in USD
-    flipped = (mesh.coordinates * (1, -1) + (0, 1)).astype(np.float32)
-    coordinates = tuple(np.ascontiguousarray(flipped[:, number]) for number in sets)
+    coordinates = tuple((mesh.coordinates[:, number] * (1, -1) + (0, 1)).astype(np.float32) for number in sets)
     if normals_set is not None:
         tangents = _tangents_of(mesh, mesh.coordinates[:, sets[normals_set]])
         return Primitive(mesh.positions_m, mesh.normals, tangents, mesh.colours, coordinates, mesh.indices)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pxr import Sdf, Usd, UsdLux
 
 from garage2usd.reading.objects import Matrix
-from garage2usd.reading.values import READ_AT, number_of, numbers_of
+from garage2usd.reading.values import READ_AT, number_of, vector_of
 
 __all__ = ["DOMES", "LIGHT_TYPES", "LightSource", "light_of", "luminance_of", "unsaid_of"]
 
@@ -153,11 +153,11 @@ def _cone(prim: Usd.Prim) -> tuple[float, float]:
 
 
 def _colour(light: UsdLux.LightAPI) -> tuple[float, float, float]:
-    colour = np.maximum(np.nan_to_num(numbers_of(light.GetColorAttr(), np.float64, width=3)), 0.0)
+    colour = np.maximum(vector_of(light.GetColorAttr(), 3), 0.0)
     if light.GetEnableColorTemperatureAttr().Get(READ_AT):
         kelvin = number_of(light.GetColorTemperatureAttr())
         colour = colour * np.array(UsdLux.BlackbodyTemperatureAsRgb(kelvin))
-    ((red, green, blue),) = colour.tolist()
+    red, green, blue = colour.tolist()
     return red, green, blue
 
 

@@ -20,7 +20,7 @@ from garage2usd.reading.textures import (
     TextureReader,
     source_of,
 )
-from garage2usd.reading.values import READ_AT, lacks, numbers_of
+from garage2usd.reading.values import READ_AT, numbers_of, vector_of
 
 __all__ = ["PLAIN", "Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
 
@@ -151,11 +151,11 @@ class SurfaceReader:
 
     def surface_of(self, material: UsdShade.Material, prim: Usd.Prim) -> SurfaceLook:
         """What a material's UsdPreviewSurface says of a prim; `PLAIN` where it has none."""
+        self.read_a_primvar = False
         found, _, _ = material.ComputeSurfaceSource()
         if not found or found.GetIdAttr().Get() != _PREVIEW:
             self._remarks.add("materials without a UsdPreviewSurface are plain", material.GetPath())
             return PLAIN
-        self.read_a_primvar = False
         shader = _Inputs(self, found, prim, frozenset(found.GetPrim().GetAuthoredPropertyNames()))
         if any(shader.given("displacement", (0.0,)).values):
             self._remarks.add("displacement is left out", material.GetPath())
@@ -194,7 +194,7 @@ class SurfaceReader:
     def given(self, source: Source, default: tuple[float, ...], prim: Usd.Prim, *, is_colour: bool) -> _Given:
         """What a source gives to an input."""
         if source.shader is None:
-            return _Given(_numbers_in(source.attribute, len(default)))
+            return _Given(vector_of(source.attribute, len(default)))
         if source.node == UV_TEXTURE:
             read = self._textures.read(source)
             if not isinstance(read, Texture):
@@ -223,7 +223,7 @@ class SurfaceReader:
         primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name) if name else UsdGeom.Primvar()
         values = _rows(primvar, len(default)) if primvar and primvar.HasValue() else None
         if values is None:
-            return _Given(_numbers_in(fallback.attribute, len(default)) if fallback else (0.0,) * len(default))
+            return _Given(vector_of(fallback.attribute, len(default)) if fallback else (0.0,) * len(default))
         mean = tuple(np.nan_to_num(values).mean(axis=0).tolist())
         if len(values) == 1 or primvar.GetInterpolation() == UsdGeom.Tokens.constant:
             return _Given(mean)
@@ -283,14 +283,6 @@ def _rows(primvar: UsdGeom.Primvar, width: int) -> NDArray[np.float64] | None:
         values = values[None]
     rows = values.reshape(len(values), -1) if len(values) else values.reshape(0, 1)
     return rows[:, :width] if len(rows) and rows.shape[1] >= width else None
-
-
-def _numbers_in(attribute: Usd.Attribute, width: int) -> tuple[float, ...]:
-    """The numbers of one value."""
-    values = numbers_of(attribute, np.float64)
-    if len(values) < width:
-        raise lacks(attribute, "numbers")
-    return tuple(values[:width].tolist())
 
 
 def _within(value: float, most: float) -> float:

@@ -10,7 +10,7 @@ from pxr import Sdf, Usd, UsdShade
 
 from garage2usd.reading.pictures import Band, Pictures
 from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.values import READ_AT, number_of, numbers_of
+from garage2usd.reading.values import READ_AT, vector_of
 
 __all__ = [
     "PRIMVAR_READER",
@@ -143,7 +143,8 @@ class Source(NamedTuple):
 def source_of(shader: UsdShade.ConnectableAPI, name: str) -> Source | None:
     """Where an input's value comes from, through interfaces of materials and node graphs; None where it has none."""
     given = shader.GetInput(name)
-    if not given:
+    # most inputs of most shaders are as they are by default
+    if not given or not given.GetAttr().IsAuthored():
         return None
     for attribute in given.GetValueProducingAttributes():
         if UsdShade.Utils.GetType(attribute.GetName()) == UsdShade.AttributeType.Input:
@@ -264,21 +265,20 @@ def _word(node: UsdShade.Shader, name: str, otherwise: str) -> str:
 
 
 def _number(node: UsdShade.Shader, name: str) -> float:
-    source = source_of(node, name)
-    return number_of(source.attribute) if source is not None and source.shader is None else 0.0
+    (number,) = _vector(node, name, (0.0,))
+    return number
 
 
 def _pair(node: UsdShade.Shader, name: str, otherwise: tuple[float, float]) -> tuple[float, float]:
-    source = source_of(node, name)
-    if source is None or source.shader is not None:
-        return otherwise
-    ((first, second),) = numbers_of(source.attribute, np.float64, width=2).tolist()
+    first, second = _vector(node, name, otherwise)
     return first, second
 
 
 def _numbers(node: UsdShade.Shader, name: str, otherwise: Four) -> Four:
-    source = source_of(node, name)
-    if source is None or source.shader is not None:
-        return otherwise
-    ((red, green, blue, alpha),) = numbers_of(source.attribute, np.float64, width=4).tolist()
+    red, green, blue, alpha = _vector(node, name, otherwise)
     return red, green, blue, alpha
+
+
+def _vector(node: UsdShade.Shader, name: str, otherwise: tuple[float, ...]) -> tuple[float, ...]:
+    source = source_of(node, name)
+    return vector_of(source.attribute, len(otherwise)) if source is not None and source.shader is None else otherwise

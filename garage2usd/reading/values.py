@@ -8,7 +8,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
 
-__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of", "opinions_of"]
+__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of", "opinions_of", "vector_of"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
@@ -55,6 +55,20 @@ def numbers_of(attribute: Usd.Attribute, dtype: type[_Scalar], *, width: int = 1
         return numbers.reshape(-1, width) if width > 1 else numbers.reshape(-1)
     except (TypeError, ValueError, OverflowError):
         raise lacks(attribute, "numbers") from None
+
+
+def vector_of(attribute: Usd.Attribute, width: int) -> tuple[float, ...]:
+    """The first numbers that an attribute holds, each finite.
+
+    Raises
+    ------
+    StageError
+        If it holds fewer, or something else.
+    """
+    values = numbers_of(attribute, np.float64)
+    if len(values) < width:
+        raise lacks(attribute, "numbers")
+    return tuple(np.nan_to_num(values[:width], posinf=0.0, neginf=0.0).tolist())
 
 
 def opinions_of(prim: Usd.Prim) -> tuple[tuple[str, str], ...]:
