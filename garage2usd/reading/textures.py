@@ -170,18 +170,29 @@ class TextureReader:
 
     def __init__(self, pictures: Pictures, remarks: Remarks) -> None:
         self._pictures, self._remarks = pictures, remarks
+        self._whole: dict[Sdf.Path, Texture | Four] = {}
 
     def read(self, source: Source) -> Texture | Four:
         """The texture that a UsdUVTexture gives; red, green, blue and alpha where it shows its fallback everywhere."""
         reader = source.shader
         channel = _CHANNELS.get(UsdShade.Output(source.attribute).GetBaseName(), -1)
+        # several inputs read channels of one texture
+        path = source.attribute.GetPrimPath()
+        if path not in self._whole:
+            self._whole[path] = self._of(reader)
+        whole = self._whole[path]
+        if isinstance(whole, Texture):
+            return whole._replace(channel=channel)
+        return whole if channel < 0 else (whole[channel],) * 4
+
+    def _of(self, reader: UsdShade.Shader) -> Texture | Four:
+        """All channels of a texture."""
         file = self._file(reader)
         if not file:
-            fallback = _numbers(reader, "fallback", (0.0, 0.0, 0.0, 1.0))
-            return fallback if channel < 0 else (fallback[channel],) * 4
+            return _numbers(reader, "fallback", (0.0, 0.0, 0.0, 1.0))
         layout = self._layout(reader)._replace(wrap_s=self._wrap(reader, "wrapS"), wrap_t=self._wrap(reader, "wrapT"))
         scale, bias = _numbers(reader, "scale", (1.0,) * 4), _numbers(reader, "bias", (0.0,) * 4)
-        return Texture(file, channel, layout, scale, bias, _word(reader, "sourceColorSpace", "auto"))
+        return Texture(file, -1, layout, scale, bias, _word(reader, "sourceColorSpace", "auto"))
 
     def _file(self, reader: UsdShade.Shader) -> str:
         """Resolved path of a texture's picture; empty where none can be read."""
