@@ -108,6 +108,7 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
         import_visible_only=False,
         import_guide=False,
         import_render=True,
+        mtl_purpose="MTL_PREVIEW",
     )
     scene = bpy.context.scene
     name = job["property"]

@@ -124,6 +124,6 @@ def write_shapes(stage: Usd.Stage, scene: DrawnPrims, path: Path) -> None:
 def _materials(prim: Usd.Prim) -> Iterator[Sdf.Path]:
     parts = UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim))
     for bound in (prim, *(part.GetPrim() for part in parts)):
-        material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial()
+        material, _ = UsdShade.MaterialBindingAPI(bound).ComputeBoundMaterial(UsdShade.Tokens.preview)
         if material:
             yield material.GetPath()

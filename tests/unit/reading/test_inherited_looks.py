@@ -130,6 +130,10 @@ STAGES = {
 }
 
 
+UNBOUND = {"colours": {(0, 1, 0), (0, 0, 1), (1, 0, 0)}}
+"""Colours that come from no material."""
+
+
 def opened(tmp_path, about):
     path = tmp_path / "stage.usda"
     path.write_text(stage_text(*STAGES[about]))
@@ -192,6 +196,8 @@ def test_every_reader_shows_what_usd_computes(about, tmp_path):
     drawn = read_drawn_prims(stage, {})
     rendered = sorted(colour_of(stage.GetPrimAtPath(drawn.shapes[shape])) for shape in drawn.shape)
     assert rendered == [pytest.approx(colour) for colour in many]
+    bound = {COLOURS[path.name] for path in drawn.materials}
+    assert bound == {colour for colour in many if colour in COLOURS.values()} - UNBOUND.get(about, set())
 
 
 def test_subsets_inherit_too(tmp_path):
