@@ -14,7 +14,7 @@ from garage2usd.errors import StageError
 from garage2usd.objects import PIECE_LABELS
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, luminance_of
 from garage2usd.reading.objects import PlacedObject, once_for_each_look
-from garage2usd.reading.values import READ_AT, metres_y_up, opinions_of
+from garage2usd.reading.values import READ_AT, metres_per_unit, metres_y_up, opinions_of
 from garage2usd.reading.walk import placed_objects
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY, TUBE_COLOUR_RGB
 
@@ -75,7 +75,7 @@ def read_contents(stage: Usd.Stage, objects: Iterable[PlacedObject] | None = Non
     """
     things: dict[str, Thing] = {}
     lights: list[PlacedLight] = []
-    units = UsdGeom.GetStageMetersPerUnit(stage)
+    units = metres_per_unit(stage)
     look_of = once_for_each_look(partial(_look, shapes=_Shapes()))
     for placed in placed_objects(stage, metres_y_up(stage)) if objects is None else objects:
         look = look_of(placed)

@@ -11,6 +11,7 @@ from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 from garage2usd.reading.files import usd_text
 from garage2usd.reading.taxonomy import LABELS, LABELS_SCHEMA, labels_of
+from garage2usd.reading.values import metres_per_unit
 
 __all__ = ["BOOK"]
 
@@ -42,7 +43,7 @@ def _units(subject: Subject, _: Profile) -> Iterator[Miss]:
     stage = subject.stage
     if stage is None:
         return
-    metres, axis = UsdGeom.GetStageMetersPerUnit(stage), UsdGeom.GetStageUpAxis(stage)
+    metres, axis = metres_per_unit(stage), UsdGeom.GetStageUpAxis(stage)
     if not UsdGeom.LinearUnitsAre(metres, UsdGeom.LinearUnits.meters):
         yield Miss("/", None, "the stage is not in metres", metres, 1.0)
     if axis != UsdGeom.Tokens.y:

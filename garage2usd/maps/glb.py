@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom, UsdLux
+from pxr import Usd, UsdLux
 
 from garage2usd.checks.shapes import are_upright
 from garage2usd.errors import StageError
@@ -25,7 +25,7 @@ from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
 from garage2usd.reading.remarks import Remarks
-from garage2usd.reading.values import metres_y_up
+from garage2usd.reading.values import metres_per_unit, metres_y_up
 from garage2usd.reading.walk import placed_objects
 
 __all__ = ["write_glb"]
@@ -112,7 +112,7 @@ def write_glb(
                 piece._replace(triangles=moved_triangles(piece.triangles, placed.matrix)) for piece in look.pieces
             ]
             glb.add_node(placed.path, _IDENTITY, mesh=glb.add_mesh(pieces, name=_name(placed)), extras=extras)
-    units = UsdGeom.GetStageMetersPerUnit(stage)
+    units = metres_per_unit(stage)
     for placed, look in looked_at:
         for reason, part in look.left_out:
             remarks.add(reason, placed.path + part.path)

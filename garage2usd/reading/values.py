@@ -8,7 +8,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
 
-__all__ = ["READ_AT", "lacks", "metres_y_up", "number_of", "numbers_of", "opinions_of", "vector_of"]
+__all__ = ["READ_AT", "lacks", "metres_per_unit", "metres_y_up", "number_of", "numbers_of", "opinions_of", "vector_of"]
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 READ_AT = Usd.TimeCode.EarliestTime()
@@ -21,9 +21,14 @@ def metres_y_up(stage: Usd.Stage) -> NDArray[np.float64]:
     matrix = np.eye(4)
     if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z:
         matrix = _Z_UP_TO_Y_UP.copy()
-    scale = UsdGeom.GetStageMetersPerUnit(stage)
+    scale = metres_per_unit(stage)
     matrix[:3, :3] *= scale if scale > 0 else 1.0
     return matrix
+
+
+def metres_per_unit(stage: Usd.Stage) -> float:
+    """Metres in a unit of a stage; UsdGeom's own function refuses what some programs write, single precision."""
+    return float(stage.GetMetadata(UsdGeom.Tokens.metersPerUnit))
 
 
 def number_of(attribute: Usd.Attribute) -> float:

@@ -12,6 +12,7 @@ from garage2usd.output import check_writable, publish, staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
+from garage2usd.reading.values import metres_per_unit
 from garage2usd.render.birds_eye_views import OVERHEAD
 from garage2usd.render.blender_process import check_blender
 from garage2usd.render.cameras import View, find_views
@@ -140,6 +141,6 @@ def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[lis
     up = 1 if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else 2
     ceilings = [stage.GetPrimAtPath(path) for path in labels.paths_of(_CEILING)]
     tops = [boxes.ComputeWorldBound(prim).ComputeAlignedRange().GetMax()[up] for prim in ceilings if prim]
-    top_m = max(tops, default=np.inf) * UsdGeom.GetStageMetersPerUnit(stage)
+    top_m = max(tops, default=np.inf) * metres_per_unit(stage)
     overhead = [labels.ids[path] for path in labels.paths_of(OVERHEAD)]
     return [overhead if view.camera_to_world[up, 3] > top_m else [] for view in views]

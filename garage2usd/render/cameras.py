@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
+from garage2usd.reading.values import metres_per_unit
 from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.lenses import Fisheye, Pinhole
 from garage2usd.sensors.lenses import Lens as SensorLens
@@ -212,7 +213,7 @@ def _view(camera: UsdGeom.Camera, path: str, name: str, frame: float | None, siz
     time = Usd.TimeCode.EarliestTime() if frame is None else Usd.TimeCode(frame)
     if camera.GetProjectionAttr().Get(time) != UsdGeom.Tokens.perspective:
         raise ConfigError("camera", path, "cameras in perspective")
-    metres = UsdGeom.GetStageMetersPerUnit(camera.GetPrim().GetStage())
+    metres = metres_per_unit(camera.GetPrim().GetStage())
     seen = camera.GetCamera(time)
     width = seen.horizontalAperture
     lens = Lens(

@@ -10,6 +10,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdLux, UsdShade
 
 from garage2usd.reading.labels import owner_of
 from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
+from garage2usd.reading.values import metres_per_unit
 from garage2usd.reading.walk import placed_objects
 
 __all__ = ["SHAPE_PROPERTY", "DrawnPrims", "read_drawn_prims", "write_shapes"]
@@ -64,7 +65,7 @@ def read_drawn_prims(stage: Usd.Stage, ids: Mapping[str, int]) -> DrawnPrims:
     -----
     See `garage2usd.reading.walk.placed_objects` for what is drawn.
     """
-    metres = UsdGeom.GetStageMetersPerUnit(stage)
+    metres = metres_per_unit(stage)
     numbers: dict[Hashable, int] = {}
     shapes: list[Sdf.Path] = []
     materials: set[Sdf.Path] = set()
@@ -107,7 +108,7 @@ def write_shapes(stage: Usd.Stage, scene: DrawnPrims, path: Path) -> None:
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
     over = Usd.Stage.Open(layer)
     UsdGeom.SetStageUpAxis(over, UsdGeom.GetStageUpAxis(stage))
-    UsdGeom.SetStageMetersPerUnit(over, UsdGeom.GetStageMetersPerUnit(stage))
+    UsdGeom.SetStageMetersPerUnit(over, metres_per_unit(stage))
     with Sdf.ChangeBlock():
         for number, shape in enumerate(scene.shapes):
             for parent in shape.GetPrefixes():

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom
+from pxr import Usd
 
 from garage2usd.errors import StageError
 from garage2usd.extras import of_extra
@@ -19,6 +19,7 @@ from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_lo
 from garage2usd.reading.pictures import Pictures, sampled
 from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.textures import Layout
+from garage2usd.reading.values import metres_per_unit
 from garage2usd.reading.walk import placed_objects
 
 with of_extra("LiDAR"):
@@ -208,7 +209,7 @@ def read_ray_scene(
     sides, without being subdivided. What is less than half opaque as a whole is left out. Curves, points and volumes
     have no surface and are left out too.
     """
-    metres = UsdGeom.GetStageMetersPerUnit(stage)
+    metres = metres_per_unit(stage)
     looks = MeshLooks(is_apart_by_name=True)
 
     remembered = once_for_each_look(partial(_look, looks=looks))

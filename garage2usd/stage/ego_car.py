@@ -5,7 +5,7 @@ from pathlib import Path
 from pxr import Gf, Sdf, Usd, UsdGeom
 
 from garage2usd.config.vehicles import CarBody
-from garage2usd.reading.values import metres_y_up
+from garage2usd.reading.values import metres_per_unit, metres_y_up
 from garage2usd.stage.authoring import define, operation, order_operations, save_file
 from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset
 from garage2usd.stage.prototype_layer import define_mesh
@@ -28,7 +28,7 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody) -> None:
         layer.timeCodesPerSecond = stage.GetTimeCodesPerSecond()
         root = layer.pseudoRoot
         root.SetInfo(UsdGeom.Tokens.upAxis, UsdGeom.GetStageUpAxis(stage))
-        root.SetInfo(UsdGeom.Tokens.metersPerUnit, UsdGeom.GetStageMetersPerUnit(stage))
+        root.SetInfo(UsdGeom.Tokens.metersPerUnit, metres_per_unit(stage))
         for prim in stage.GetPseudoRoot().GetChildren():
             driving = prim.GetPath().AppendChild(CAR_NAME)
             if stage.GetPrimAtPath(driving):

@@ -5,13 +5,14 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Usd, UsdGeom
+from pxr import Usd
 
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES
 from garage2usd.reading.looks import MeshLooks, Numbered
 from garage2usd.reading.meshes import DRAWN_TYPES
 from garage2usd.reading.objects import Matrix, PlacedObject, once_for_each_look
 from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.values import metres_per_unit
 from garage2usd.reading.walk import placed_objects
 from garage2usd.view.viewer.colliders import collider_of
 from garage2usd.view.viewer.lights import placed_light
@@ -52,7 +53,7 @@ class Looks:
 
     def objects(self, stage: Usd.Stage, to_metres: Matrix) -> list[Placed]:
         """Every object of a stage that can be drawn; `to_metres` leads from the stage's space to metres, Y up."""
-        units = UsdGeom.GetStageMetersPerUnit(stage)
+        units = metres_per_unit(stage)
         found, numbers_of = [], once_for_each_look(partial(self._shape, metres_per_unit=units))
         for placed in placed_objects(stage, to_metres):
             numbers = numbers_of(placed)
