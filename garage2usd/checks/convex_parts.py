@@ -4,10 +4,35 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["convex_outlines"]
+__all__ = ["are_dented", "convex_outlines"]
 
+_TRIANGLE = 3
+_FLAT = 1e-6
+"""Share of the square of a normal, which is twice the area, by which sides may turn back: rounding of their places."""
 _SAME = 1e-6
 """Share of a convex outline's area that may be missing."""
+
+
+def are_dented(
+    begin: NDArray[np.float64], end: NDArray[np.float64], after: NDArray[np.int64], counts: NDArray[np.int64]
+) -> bool:
+    """Whether one of several polygons somewhere turns against its normal.
+
+    Parameters
+    ----------
+    begin, end
+        The ends of their sides, one polygon after the other; shape (sides, 3).
+    after
+        The side after each.
+    counts
+        How many sides each polygon has.
+    """
+    if not (counts > _TRIANGLE).any():
+        return False
+    sides, starts = end - begin, np.cumsum(counts) - counts
+    normals = np.repeat(np.add.reduceat(np.cross(begin, end), starts), counts, axis=0)
+    turns = (np.cross(sides, sides[after]) * normals).sum(axis=1)
+    return bool((turns < -_FLAT * (normals**2).sum(axis=1)).any())
 
 
 def convex_outlines(triangles: NDArray[np.float64]) -> list[NDArray[np.float64]]:

@@ -9,10 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from garage2usd.checks.convex_parts import convex_outlines
+from garage2usd.checks.convex_parts import are_dented, convex_outlines
 from garage2usd.checks.outlines import Outlines, outlines_of
 from garage2usd.layout.grounds import hulls_around
-from garage2usd.reading.polygons import dented_polygons, triangulated
+from garage2usd.reading.polygons import triangulated
 from garage2usd.structure.pieces import joined
 
 __all__ = [
@@ -70,12 +70,17 @@ class MeshShape:
     indices: NDArray[np.int64]
 
     @cached_property
-    def edges(self) -> NDArray[np.int64]:
-        """Points of each side of each face; shape (I, 2)."""
+    def _after(self) -> NDArray[np.int64]:
+        """The corner after each corner of each face; shape (I,)."""
         after = np.arange(len(self.indices)) + 1
         ends = np.cumsum(self.counts)
         after[ends - 1] = ends - self.counts
-        return np.stack([self.indices, self.indices[after]], axis=1)
+        return after
+
+    @cached_property
+    def edges(self) -> NDArray[np.int64]:
+        """Points of each side of each face; shape (I, 2)."""
+        return np.stack([self.indices, self.indices[self._after]], axis=1)
 
     @cached_property
     def lowest(self) -> float:
@@ -95,7 +100,8 @@ class MeshShape:
     @cached_property
     def is_dented(self) -> bool:
         """Whether a face is no convex polygon."""
-        return bool(len(dented_polygons(self.points, self.indices, self.counts)))
+        begin, end = (self.points[self.edges[:, side]] for side in (0, 1))
+        return are_dented(begin, end, self._after, self.counts)
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["dented_polygons", "triangulated"]
+__all__ = ["triangulated"]
 
 _FLAT = 1e-9
 """Share of a polygon's area by which a triangle of its fan may be turned over: rounding of single precision."""
@@ -59,13 +59,6 @@ def triangulated(
     polygon_of = np.concatenate([polygon_of[kept], *numbers])
     order = np.argsort(polygon_of, kind="stable")
     return fans[order], polygon_of[order]
-
-
-def dented_polygons(
-    points: NDArray[np.floating[Any]], corners: NDArray[np.int64], counts: NDArray[np.int64]
-) -> NDArray[np.int64]:
-    """Numbers of the polygons whose fan would turn a triangle over; the arguments are those of `triangulated`."""
-    return _measured(points, corners, counts)[2]
 
 
 def _measured(

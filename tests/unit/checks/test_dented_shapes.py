@@ -11,14 +11,15 @@ from garage2usd.maps.occupied_ground import floor_of
 L_SHAPE = [(10, 4), (4, 4), (4, 10), (0, 10), (0, 0), (10, 0)]
 
 
-def stage_of(label, height):
-    """A slab in the form of an L, or a sheet."""
+def stage_of(label, height, begin=0):
+    """A slab in the form of an L, or a sheet; its outline may begin at any corner."""
+    outline = L_SHAPE[begin:] + L_SHAPE[:begin]
     stage = Usd.Stage.CreateInMemory()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     UsdGeom.SetStageMetersPerUnit(stage, 1)
     mesh = UsdGeom.Mesh.Define(stage, "/L")
     count = len(L_SHAPE)
-    points = [(x, 0, z) for x, z in L_SHAPE] + [(x, height, z) for x, z in L_SHAPE]
+    points = [(x, 0, z) for x, z in outline] + [(x, height, z) for x, z in outline]
     faces = [list(range(count))[::-1], list(range(count, 2 * count))] if height else [list(range(count))]
     if height:
         faces += [[k, (k + 1) % count, (k + 1) % count + count, k + count] for k in range(count)]
@@ -31,8 +32,9 @@ def stage_of(label, height):
     return stage
 
 
-def test_a_wall_leaves_its_corner_free():
-    subject = subject_of_stage(stage_of("wall", 3.0), source="stage", is_judged=False)
+@pytest.mark.parametrize("begin", range(6))
+def test_a_wall_leaves_its_corner_free(begin):
+    subject = subject_of_stage(stage_of("wall", 3.0, begin), source="stage", is_judged=False)
     solids = list(subject.solids.between(0, 3))
     assert shapely.union_all([solid.footprint for solid in solids]).area == pytest.approx(64)
     assert {(solid.bottom_m, solid.top_m) for solid in solids} == {(0.0, 3.0)}
