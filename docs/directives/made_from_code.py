@@ -176,9 +176,13 @@ class ProfileTables(MadeFromCode):
         for name in PROFILE_NAMES:
             profile = load_profile(name)
             yield from (f"## {name}", "", f"{profile.title}.", "")
-            yield from ("| clause | in words | source | confidence | to miss it |", "|---|---|---|---|---|")
+            yield from (
+                "| clause | in words | source | read there | confidence | to miss it |",
+                "|---|---|---|---|---|---|",
+            )
             for key, clause in profile.clauses():
-                cells = (f"`{key}`", _cell(clause.text), _cell(clause.source), clause.confidence)
+                read = "yes" if clause.verified else ""
+                cells = (f"`{key}`", _cell(clause.text), _cell(clause.source), read, clause.confidence)
                 yield f"| {' | '.join(cells)} | {clause.severity} |"
             yield ""
 

@@ -52,6 +52,8 @@ class Clause(Settings):
     """Where the value was found."""
     confidence: Confidence
     """'high': several sources agree, 'medium': one or two, 'low': a weak one."""
+    verified: bool = False
+    """Whether the value was read in the wording of the source, not in what others say of it."""
     severity: Severity = Severity.ERROR
     """'error', 'warning' or 'info': what a finding of this clause is."""
     text: str = Field("", max_length=2000)
