@@ -25,12 +25,14 @@ from garage2usd.checks.plan_reader import plan_subject
 from garage2usd.checks.rule import Rule
 from garage2usd.checks.stage_reader import profile_name, stage_subject
 from garage2usd.checks.subject import Subject
+from garage2usd.checks.unmet import not_checked_lines, unmet_clauses
 from garage2usd.config import GarageConfig
 from garage2usd.documents import is_file
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
+from garage2usd.reading.report import UnmetClause
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = [
@@ -44,6 +46,9 @@ __all__ = [
     "check",
     "check_file",
     "check_layout",
+    "judged_layout",
+    "not_checked",
+    "not_checked_lines",
     "read_subject",
 ]
 
@@ -78,6 +83,20 @@ def check(subject: Subject, profile: Profile) -> list[Finding]:
     return sorted(findings, key=Finding.sort_key)
 
 
+def not_checked(subject: Subject, profile: Profile) -> dict[str, str]:
+    """The clauses of a profile that no rule can check on a garage, each with the reason.
+
+    A clause that bounds what a garage has none of, as the slope of ramps, is kept.
+    """
+    reasons = {}
+    for clause, _ in profile.clauses():
+        rules = [rule for rule in RULES if clause in rule.clauses[: rule.asking]]
+        hindrances = [rule.hindrance(subject, profile) for rule in rules]
+        if hindrances and all(hindrances):
+            reasons[clause] = hindrances[0]
+    return reasons
+
+
 def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list[Finding]:
     """What a garage that was just made misses of its profile, errors first.
 
@@ -85,9 +104,17 @@ def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list
     -----
     Without what takes a stage or long: the rules of USD, and the proof that a car gets into each stall.
     """
+    return judged_layout(layout, graph, config)[0]
+
+
+def judged_layout(
+    layout: Layout, graph: LaneGraph, config: GarageConfig
+) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
+    """As `check_layout`, with the clauses that the garage is not designed to."""
     subject = layout_subject(layout, graph, source="", kind="report")
-    findings = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(subject, config.standard))
-    return sorted(findings, key=Finding.sort_key)
+    found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(subject, config.standard))
+    findings = sorted(found, key=Finding.sort_key)
+    return findings, unmet_clauses(findings, not_checked(subject, config.standard))
 
 
 def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:

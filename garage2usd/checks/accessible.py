@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
@@ -15,7 +15,7 @@ BOOK = RuleBook()
 _BESIDE_M = 0.1
 
 
-@BOOK.rule("accessible-count", "accessible_stalls", asks="there are enough accessible stalls")
+@BOOK.rule("accessible-count", "accessible_stalls", asks="there are enough accessible stalls", hindrance=where_laid_out)
 def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.accessible_stalls is None or not subject.things:
         return
@@ -47,22 +47,33 @@ def _aisle(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(stall.name, stall.centre, message, measured, profile.access_aisle_width.amount)
 
 
+def _vans_are_told(_: Subject, profile: Profile) -> str:
+    """How many stalls take vans, and which ones do, are clauses of their own."""
+    if profile.stalls_per_van_stall is None:
+        return "the profile has no stalls_per_van_stall"
+    if profile.van_stall_width is None and profile.van_access_aisle_width is None:
+        return "the profile has neither van_stall_width nor van_access_aisle_width"
+    return ""
+
+
 @BOOK.rule(
     "van-count",
     "stalls_per_van_stall",
     "van_stall_width",
     "van_access_aisle_width",
     asks="enough accessible stalls take vans",
+    asking=3,
+    hindrance=_vans_are_told,
 )
 def _vans(subject: Subject, profile: Profile) -> Iterator[Miss]:
     stalls = _accessible(subject)
-    if profile.stalls_per_van_stall is None or profile.van_stall_width is None or not stalls:
+    if profile.stalls_per_van_stall is None or _vans_are_told(subject, profile) or not stalls:
         return
-    wide, aisle = profile.van_stall_width.amount, profile.van_access_aisle_width
+    wide, aisle = profile.van_stall_width, profile.van_access_aisle_width
     taking = [
         stall
         for stall in stalls
-        if stall.width_m >= wide - ROUNDING_M
+        if (wide is not None and stall.width_m >= wide.amount - ROUNDING_M)
         or (aisle is not None and _aisle_beside(stall, subject) >= aisle.amount - ROUNDING_M)
     ]
     required = math.ceil(len(stalls) / profile.stalls_per_van_stall.amount)

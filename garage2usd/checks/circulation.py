@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_structure_is_known
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 from garage2usd.reading.ground import LaneNode, Point
@@ -14,7 +14,12 @@ BOOK = RuleBook()
 _BESIDE = ((0, 0), (0, 1), (1, 0), (1, 1))
 
 
-@BOOK.rule("dead-end-depth", "dead_end_depth", asks="no dead end with its branches is too deep")
+@BOOK.rule(
+    "dead-end-depth",
+    "dead_end_depth",
+    asks="no dead end with its branches is too deep",
+    hindrance=where_structure_is_known,
+)
 def _depth(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.dead_end_depth is None or subject.circulation is None:
         return
@@ -25,7 +30,9 @@ def _depth(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
 
 
-@BOOK.rule("loop", "loops", asks="the lanes of a garage with many stalls form a loop")
+@BOOK.rule(
+    "loop", "loops", asks="the lanes of a garage with many stalls form a loop", hindrance=where_structure_is_known
+)
 def _loops(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.loops is None or subject.circulation is None:
         return
@@ -36,7 +43,12 @@ def _loops(subject: Subject, profile: Profile) -> Iterator[Miss]:
         yield Miss("", None, message, measured, required)
 
 
-@BOOK.rule("stretch-length", "stretch_length", asks="no stretch of lanes between two junctions is too long")
+@BOOK.rule(
+    "stretch-length",
+    "stretch_length",
+    asks="no stretch of lanes between two junctions is too long",
+    hindrance=where_structure_is_known,
+)
 def _stretches(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.stretch_length is None or subject.circulation is None:
         return
@@ -47,7 +59,7 @@ def _stretches(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
 
 
-@BOOK.rule("lane-field", "lane_field_width", asks="lanes do not lie side by side")
+@BOOK.rule("lane-field", "lane_field_width", asks="lanes do not lie side by side", hindrance=where_structure_is_known)
 def _fields(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.lane_field_width is None or subject.circulation is None:
         return

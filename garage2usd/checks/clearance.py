@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.solids import Solid
 from garage2usd.checks.subject import Subject
 from garage2usd.layout.grounds import Grounds, grounds_of
@@ -30,8 +30,7 @@ class _ParkedCars:
     """The design car in each stall that cars park in."""
 
     subject: Subject
-    length_m: float
-    width_m: float
+    profile: Profile
 
     @property
     def stalls(self) -> tuple[StallOutline, ...]:
@@ -42,8 +41,8 @@ class _ParkedCars:
         """The ground of each car, and as much more on both sides and behind; shape (stalls,)."""
         outwards = np.array([stall.outwards for stall in self.stalls]).reshape(-1, 2)
         nose = np.array([stall.mouth for stall in self.stalls]).reshape(-1, 2)
-        across = np.stack([-outwards[:, 1], outwards[:, 0]], axis=1) * (self.width_m / 2 + beside_m)
-        rear = nose - outwards * (self.length_m + behind_m)
+        across = np.stack([-outwards[:, 1], outwards[:, 0]], axis=1) * (self.profile.car_width_m / 2 + beside_m)
+        rear = nose - outwards * (self.profile.car_length_m + behind_m)
         return grounds_of(np.stack([nose + across, nose - across, rear - across, rear + across], axis=1))
 
 
@@ -53,10 +52,11 @@ class _ParkedCars:
     "design_car_length",
     "design_car_width",
     asks="the design car in a stall keeps away from columns",
+    hindrance=where_laid_out,
 )
 def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _parked(subject, profile), profile.column_clearance
-    if cars and clause:
+    cars, clause = _ParkedCars(subject, profile), profile.column_clearance
+    if clause:
         near = subject.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
         yield from _closest(cars, near, {"column"}, clause.amount, "a column")
 
@@ -67,11 +67,13 @@ def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
     "design_car_length",
     "design_car_width",
     asks="the design car in a stall keeps away from the walls beside it",
+    hindrance=where_laid_out,
 )
 def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _parked(subject, profile), profile.wall_clearance
-    if cars and clause:
-        near = subject.solids.standing_at_each(cars.grounds(beside_m=clause.amount))
+    cars, clause = _ParkedCars(subject, profile), profile.wall_clearance
+    if clause:
+        # a wall that the rear touches is not beside the car
+        near = subject.solids.standing_at_each(cars.grounds(beside_m=clause.amount, behind_m=-ROUNDING_M))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall beside")
 
 
@@ -81,16 +83,20 @@ def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     "design_car_length",
     "design_car_width",
     asks="the design car in a stall keeps away from what stands behind it",
+    hindrance=where_laid_out,
 )
 def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _parked(subject, profile), profile.end_clearance
-    if cars and clause:
+    cars, clause = _ParkedCars(subject, profile), profile.end_clearance
+    if clause:
         near = subject.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall behind")
 
 
 @BOOK.rule(
-    "column-spacing", "column_spacing", asks="columns stand as far apart as the grid wants where cars park between"
+    "column-spacing",
+    "column_spacing",
+    asks="columns stand as far apart as the grid wants where cars park between",
+    hindrance=where_laid_out,
 )
 def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.column_spacing is None:
@@ -121,12 +127,6 @@ def _between_columns(stall: StallOutline, places: NDArray[np.float64]) -> float 
     along = (offset @ np.array([-outwards[1], outwards[0]]))[beside]
     left, right = along[along < 0], along[along > 0]
     return float(right.min() - left.max()) if len(left) and len(right) else None
-
-
-def _parked(subject: Subject, profile: Profile) -> _ParkedCars | None:
-    """A car in each stall; None where a profile has no design car."""
-    length, width = profile.design_car_length, profile.design_car_width
-    return _ParkedCars(subject, length.amount, width.amount) if length and width else None
 
 
 def _closest(

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from garage2usd.checks.core_reader import core_doors
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out, where_structure_is_known
 from garage2usd.checks.subject import Subject
 from garage2usd.layout.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
@@ -20,13 +20,33 @@ BOOK = RuleBook()
 _MM2_PER_M2 = 1_000_000
 
 
+def _floor_is_told(subject: Subject, profile: Profile) -> str:
+    return where_laid_out(subject, profile) or where_structure_is_known(subject, profile)
+
+
+def _area_applies(subject: Subject, profile: Profile) -> str:
+    """A profile without a clause for no sprinklers asks for nothing there."""
+    told = _floor_is_told(subject, profile)
+    return told or _applies(subject, plain=profile.fire_compartment_area is not None)
+
+
+def _distance_applies(subject: Subject, profile: Profile) -> str:
+    return where_laid_out(subject, profile) or _applies(subject, plain=profile.exit_distance is not None)
+
+
+def _applies(subject: Subject, *, plain: bool) -> str:
+    return "" if plain or _has_sprinklers(subject) else "the garage has no sprinklers"
+
+
 @BOOK.rule(
     "fire-compartment",
     "fire_compartment_area",
+    "fire_compartment_area_sprinklered",
     asks="each fire compartment, or the floor where none are declared, is small enough",
+    hindrance=_floor_is_told,
 )
 def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if subject.things and not _has_sprinklers(subject):
+    if subject.things and not (_has_sprinklers(subject) and profile.fire_compartment_area_sprinklered):
         yield from _too_large(subject, profile.fire_compartment_area)
 
 
@@ -34,13 +54,19 @@ def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     "fire-compartment-sprinklered",
     "fire_compartment_area_sprinklered",
     asks="each fire compartment, or the floor where none are declared, is small enough with sprinklers",
+    hindrance=_area_applies,
 )
 def _sprinklered_compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if _has_sprinklers(subject):
         yield from _too_large(subject, profile.fire_compartment_area_sprinklered)
 
 
-@BOOK.rule("personnel-exits", "personnel_exits", asks="people have enough exits in each fire compartment")
+@BOOK.rule(
+    "personnel-exits",
+    "personnel_exits",
+    asks="people have enough exits in each fire compartment",
+    hindrance=where_laid_out,
+)
 def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.personnel_exits is None or not subject.things:
         return
@@ -51,20 +77,27 @@ def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(name, None, "too few doors of stair cores onto lanes", count, profile.personnel_exits.amount)
 
 
-@BOOK.rule("exit-distance", "exit_distance", asks="no stall is too far from an exit for people")
+@BOOK.rule(
+    "exit-distance",
+    "exit_distance",
+    "exit_distance_sprinklered",
+    asks="no stall is too far from an exit for people",
+    hindrance=where_laid_out,
+)
 def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if subject.things and not _has_sprinklers(subject):
-        yield from _too_far(subject, profile.exit_distance)
+    if subject.things and not (_has_sprinklers(subject) and profile.exit_distance_sprinklered):
+        yield from _too_far(subject, profile.exit_distance, profile)
 
 
 @BOOK.rule(
     "exit-distance-sprinklered",
     "exit_distance_sprinklered",
     asks="no stall is too far from an exit for people where there are sprinklers",
+    hindrance=_distance_applies,
 )
 def _sprinklered_distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if _has_sprinklers(subject):
-        yield from _too_far(subject, profile.exit_distance_sprinklered)
+        yield from _too_far(subject, profile.exit_distance_sprinklered, profile)
 
 
 def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
@@ -82,7 +115,7 @@ def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
             yield Miss(name, None, f"{what} needs {parts} fire compartments", measured, clause.amount)
 
 
-def _too_far(subject: Subject, clause: Length | None) -> Iterator[Miss]:
+def _too_far(subject: Subject, clause: Length | None, profile: Profile) -> Iterator[Miss]:
     """The stall of each compartment that is farthest from its exits, as the crow flies, if it is too far."""
     if clause is None or not subject.stalls:
         return
@@ -95,7 +128,10 @@ def _too_far(subject: Subject, clause: Length | None) -> Iterator[Miss]:
     for number, own in stalls.items():
         doors = exits[number]
         if not doors:
-            continue  # that itself is found by the rule of their number
+            if profile.personnel_exits is None:  # else that is found by the rule of their number
+                name = compartment_name(number) if number > 0 else ""
+                yield Miss(name, None, "no door of a stair core is there to be reached")
+            continue
         farthest = max(own, key=lambda stall: _nearest(stall.centre, doors))
         measured = _nearest(farthest.centre, doors)
         if measured > clause.amount + ROUNDING_M:

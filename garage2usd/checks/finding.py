@@ -6,7 +6,7 @@ from typing import Any
 
 from garage2usd.profiles import Severity
 
-__all__ = ["Finding", "Severity", "as_json", "as_table"]
+__all__ = ["Finding", "Severity", "as_json", "as_table", "figure"]
 
 _WHOLE_FROM = 1000
 _ORDER = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
@@ -34,6 +34,8 @@ class Finding:
         Who asks for it.
     message
         What is wrong, in words.
+    clause
+        Name of the clause that asks for it; empty where no profile does.
     """
 
     rule: str
@@ -45,6 +47,7 @@ class Finding:
     required: float | None = None
     unit: str = ""
     source: str = "garage2usd"
+    clause: str = ""
 
     def sort_key(self) -> tuple[int, str, str]:
         """Errors first, then by rule and place."""
@@ -70,8 +73,8 @@ def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[st
                 finding.rule,
                 finding.place or "garage",
                 "" if finding.position_m is None else "{:.2f}, {:.2f}".format(*finding.position_m),
-                _figure(finding.measured, finding.unit),
-                _figure(finding.required, finding.unit),
+                figure(finding.measured, finding.unit),
+                figure(finding.required, finding.unit),
                 finding.source,
                 finding.message,
             )
@@ -84,7 +87,8 @@ def as_table(findings: Iterable[Finding], *, most: int | None = None) -> list[st
     return lines + [f"... and {count} more of {rule}" for rule, count in left.items()]
 
 
-def _figure(value: float | None, unit: str) -> str:
+def figure(value: float | None, unit: str) -> str:
+    """A value with its unit as people read it; empty without one."""
     if value is None:
         return ""
     digits = f"{value:.0f}" if abs(value) >= _WHOLE_FROM else f"{value:.4g}"

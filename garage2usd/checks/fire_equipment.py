@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.layout.nearness import Points, distances_m
 from garage2usd.objects import MOUNTED, Mounted
@@ -52,10 +52,16 @@ for _mounted in MOUNTED:
         _mounted.clause,
         asks=f"every stall and lane has {_mounted.count} {_mounted.kind.label.replace('_', ' ')}"
         f"{'s' if _mounted.count > 1 else ''} near enough",
+        hindrance=where_laid_out,
     )(partial(_out_of_reach, _mounted))
 
 
-@BOOK.rule("hydrant-spacing", "hydrant_spacing", asks="a fire hydrant is near enough to the next one")
+@BOOK.rule(
+    "hydrant-spacing",
+    "hydrant_spacing",
+    asks="a fire hydrant is near enough to the next one",
+    hindrance=where_laid_out,
+)
 def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
     hydrants = _places_of(subject, _HYDRANT)
     if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one

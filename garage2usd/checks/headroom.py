@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import shapely
 
 from garage2usd.checks.feasibility import way_in, way_out
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.layout import StallUse
 from garage2usd.profiles import Profile
@@ -18,7 +18,12 @@ _DOOR_REACH_M = 8.0
 """How far the door of a portal stands from the middle of its square, at most."""
 
 
-@BOOK.rule("headroom", "clear_height", asks="nothing hangs below the clear height, doors included")
+@BOOK.rule(
+    "headroom",
+    "clear_height",
+    asks="nothing hangs below the clear height, doors included",
+    hindrance=where_laid_out,
+)
 def _clear_height(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.clear_height is None:
         return
@@ -36,6 +41,7 @@ def _clear_height(subject: Subject, profile: Profile) -> Iterator[Miss]:
     "van_clear_height",
     "clear_height",
     asks="nothing hangs low on the ways to and from the accessible stalls that take vans",
+    hindrance=where_laid_out,
 )
 def _van_height(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.van_clear_height is None:

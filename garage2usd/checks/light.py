@@ -12,14 +12,29 @@ BOOK = RuleBook()
 _ROUNDING = 0.99
 
 
-@BOOK.rule("lane-illuminance", "lane_illuminance", asks="the lanes' floor is bright enough")
+def _lights_are_told(subject: Subject, _: Profile) -> str:
+    """A plan that could not be laid out has no lights, and not every stage of others has."""
+    return "" if subject.lane_lux is not None else "no illuminance of the floor is known"
+
+
+@BOOK.rule(
+    "lane-illuminance",
+    "lane_illuminance",
+    asks="the lanes' floor is bright enough",
+    hindrance=_lights_are_told,
+)
 def _lanes(subject: Subject, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.lane_illuminance, subject.lane_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
         yield Miss("", None, "the lanes are too dark", measured, required.amount)
 
 
-@BOOK.rule("stall-illuminance", "stall_illuminance", asks="the stalls' floor is bright enough")
+@BOOK.rule(
+    "stall-illuminance",
+    "stall_illuminance",
+    asks="the stalls' floor is bright enough",
+    hindrance=_lights_are_told,
+)
 def _stalls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.stall_illuminance, subject.stall_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from itertools import combinations
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 from garage2usd.reading.ground import Point
@@ -41,7 +41,7 @@ def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
             yield Miss(first.name, first.position, message, measured, profile.portal_distance.amount)
 
 
-@BOOK.rule("portal-width", "portal_width", asks="a vehicle entrance or exit is wide enough")
+@BOOK.rule("portal-width", "portal_width", asks="a vehicle entrance or exit is wide enough", hindrance=where_laid_out)
 def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.portal_width is None:
         return

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from garage2usd.checks.rule import Miss, RuleBook
+from garage2usd.checks.rule import Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 
@@ -13,7 +13,7 @@ _SLOPE_ROUNDING = 0.15
 _RUN_ROUNDING_M = 0.06
 
 
-@BOOK.rule("ramp-slope", "ramp_slope", asks="a straight ramp is not too steep")
+@BOOK.rule("ramp-slope", "ramp_slope", asks="a straight ramp is not too steep", hindrance=where_laid_out)
 def _slope(subject: Subject, profile: Profile) -> Iterator[Miss]:
     if profile.ramp_slope is None:
         return
@@ -28,14 +28,14 @@ def _slope(subject: Subject, profile: Profile) -> Iterator[Miss]:
     "ramp_transition_length",
     "ramp_transition_slope",
     asks="a steep ramp has pieces of half its slope at its foot and its top",
+    asking=2,
+    hindrance=where_laid_out,
 )
 def _transition(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.ramp_transition_length is None or profile.ramp_transition_slope is None:
-        return
-    required = profile.ramp_transition_length.amount
+    required = profile.transition_length_m
     for ramp in subject.ramps:
         steepest = max((stretch.slope_percent for stretch in ramp.stretches), default=0.0)
-        if steepest <= profile.ramp_transition_slope.amount + _SLOPE_ROUNDING:
+        if steepest <= profile.transition_slope_percent + _SLOPE_ROUNDING:
             continue
         for end, where in ((ramp.stretches[0], "foot"), (ramp.stretches[-1], "top")):
             gentle = end.slope_percent <= steepest / 2 + _SLOPE_ROUNDING

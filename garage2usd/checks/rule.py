@@ -1,4 +1,4 @@
-"""A rule: an id, what it asks for, the clauses that it reads, and how it finds what misses it."""
+"""A rule: an id, what it asks for, the clauses that it reads, how it finds what misses it, and when it cannot tell."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Clause, Length, LengthRange, Profile
 from garage2usd.reading.ground import Point
 
-__all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook"]
+__all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook", "always", "where_laid_out", "where_structure_is_known"]
 
 ROUNDING_M = 1e-3
 """Lengths that differ by less are the same."""
@@ -33,6 +33,23 @@ class Miss(NamedTuple):
 
 
 Find = Callable[[Subject, Profile], Iterable[Miss]]
+Hindrance = Callable[[Subject, Profile], str]
+"""Why a rule cannot be checked; empty where it can."""
+
+
+def always(_: Subject, __: Profile) -> str:
+    """Nothing hinders it."""
+    return ""
+
+
+def where_laid_out(subject: Subject, _: Profile) -> str:
+    """A plan that could not be laid out has no objects."""
+    return "" if subject.things else "there are no objects, only a plan"
+
+
+def where_structure_is_known(subject: Subject, _: Profile) -> str:
+    """The stages of others have no S, R and C."""
+    return "" if subject.structure is not None else "the stage does not tell S, R and C"
 
 
 @dataclass(frozen=True)
@@ -46,10 +63,14 @@ class Rule:
     asks
         What it asks for, in words.
     clauses
-        The clauses of a profile that it reads. Without the first one in a profile it asks for nothing; unit, source and
-        severity are that one's.
+        The clauses of a profile that it reads.
+    asking
+        How many of them, from the first on, ask for something; without all of these in a profile it asks for nothing.
+        Unit, source and severity are those of the first one that there is.
     find
         Gives every place that misses it.
+    hindrance
+        Why it cannot be checked.
     severity
         Of a rule that reads no clause.
     """
@@ -59,16 +80,31 @@ class Rule:
     clauses: tuple[str, ...]
     find: Find
     severity: Severity
+    asking: int = 1
+    hindrance: Hindrance = always
+
+    def asked_by(self, profile: Profile) -> dict[str, Clause]:
+        """The clauses of a profile that ask for it, by name."""
+        asking = {name: getattr(profile, name) for name in self.clauses[: self.asking]}
+        return {name: clause for name, clause in asking.items() if clause is not None}
+
+    def applies(self, profile: Profile) -> bool:
+        """Whether it asks for anything."""
+        return not self.clauses or bool(self.asked_by(profile))
+
+    def severity_in(self, profile: Profile) -> Severity:
+        """How grave it is to miss it."""
+        return next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
 
     def findings(self, subject: Subject, profile: Profile) -> Iterator[Finding]:
         """What misses the rule."""
-        clause: Clause | None = getattr(profile, self.clauses[0]) if self.clauses else None
-        if self.clauses and clause is None:
+        if not self.applies(profile):
             return
+        name, clause = next(iter(self.asked_by(profile).items()), ("", None))
         for miss in self.find(subject, profile):
             yield Finding(
                 rule=self.name,
-                severity=clause.severity if clause else self.severity,
+                severity=self.severity_in(profile),
                 place=miss.place,
                 message=miss.message,
                 position_m=miss.position,
@@ -76,6 +112,7 @@ class Rule:
                 required=None if miss.required is None else round(miss.required, 4),
                 unit="" if miss.measured is None else _unit(clause),
                 source=f"{clause.source} ({clause.confidence})" if clause else "garage2usd",
+                clause=name,
             )
 
 
@@ -86,11 +123,19 @@ class RuleBook:
         """An empty one."""
         self.rules: list[Rule] = []
 
-    def rule(self, name: str, *clauses: str, asks: str, severity: Severity = Severity.ERROR) -> Callable[[Find], Find]:
-        """Make a rule of the function that finds what misses it."""
+    def rule(
+        self,
+        name: str,
+        *clauses: str,
+        asks: str,
+        asking: int = 1,
+        hindrance: Hindrance = always,
+        severity: Severity = Severity.ERROR,
+    ) -> Callable[[Find], Find]:
+        """Make a rule of the function that finds what misses it; for the rest see `Rule`."""
 
         def added(find: Find) -> Find:
-            self.rules.append(Rule(name, asks, clauses, find, severity))
+            self.rules.append(Rule(name, asks, clauses, find, severity, asking, hindrance))
             return find
 
         return added

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
+from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Length, Profile
 
@@ -93,12 +93,22 @@ def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
             yield Miss(stall.name, stall.centre, f"{both[0]} and {both[1]} stand in one stall", things=both)
 
 
-@BOOK.rule("wheel-stop-height", "wheel_stop_height", asks="a wheel stop is low enough for a car's front")
+@BOOK.rule(
+    "wheel-stop-height",
+    "wheel_stop_height",
+    asks="a wheel stop is low enough for a car's front",
+    hindrance=where_laid_out,
+)
 def _wheel_stops(subject: Subject, profile: Profile) -> Iterator[Miss]:
     return _too_high(subject, profile.wheel_stop_height, "wheel_stop")
 
 
-@BOOK.rule("speed-bump-height", "speed_bump_height", asks="a speed bump is low enough for a car's floor")
+@BOOK.rule(
+    "speed-bump-height",
+    "speed_bump_height",
+    asks="a speed bump is low enough for a car's floor",
+    hindrance=where_laid_out,
+)
 def _speed_bumps(subject: Subject, profile: Profile) -> Iterator[Miss]:
     return _too_high(subject, profile.speed_bump_height, "speed_bump")
 

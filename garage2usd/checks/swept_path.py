@@ -56,8 +56,7 @@ def design_car(profile: Profile) -> DesignCar:
         If no car of that size turns so tightly.
     """
     usual = DesignCar()
-    length_m = _amount(profile.design_car_length, usual.length_m)
-    width_m = _amount(profile.design_car_width, usual.width_m)
+    length_m, width_m = profile.car_length_m, profile.car_width_m
     return DesignCar(
         length_m=length_m,
         width_m=width_m,
@@ -72,9 +71,7 @@ def _reported(subject: Subject, profile: Profile) -> list[Miss]:
     """What the rules of stalls, aisles, clearances and routes report as errors."""
     faults = []
     for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
-        clause = getattr(profile, rule.clauses[0]) if rule.clauses else None
-        severity = clause.severity if clause else rule.severity
-        if severity is Severity.ERROR and not (rule.clauses and clause is None):
+        if rule.applies(profile) and rule.severity_in(profile) is Severity.ERROR:
             faults += rule.find(subject, profile)
     return faults
 

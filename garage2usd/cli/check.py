@@ -25,6 +25,7 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
 
     PATH is a stage, also one that other tools have edited, the report of a build, a configuration with a structure, or
     a structure as text, JSON, .npy or .npz. The exit code is 1 if there are errors, whatever the warnings and remarks.
+    A clause that cannot be checked, as those on vans of a profile that does not say how many, is named with the reason.
 
     \b
     Examples:
@@ -35,7 +36,8 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
     from garage2usd.profiles import load_profile  # noqa: PLC0415
 
     with Bars(sys.stderr):
-        findings, against = checks.check_file(path, profile=None if profile is None else load_profile(profile))
+        subject, against = checks.read_subject(path, profile=None if profile is None else load_profile(profile))
+        findings, not_checked = checks.check(subject, against), checks.not_checked(subject, against)
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:
         document = {
@@ -43,10 +45,13 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
             "checked_against": against.name,
             "counts": {severity.value: counts[severity.value] for severity in checks.Severity},
             "findings": checks.as_json(findings),
+            "not_checked": [{"clause": clause, "reason": reason} for clause, reason in not_checked.items()],
         }
         click.echo(json.dumps(document, indent=1))
     else:
         for line in checks.as_table(findings, most=_MOST_OF_A_RULE):
+            click.echo(line)
+        for line in checks.not_checked_lines(not_checked):
             click.echo(line)
         figures = ", ".join(f"{counts[severity.value]} {severity.value}" for severity in checks.Severity)
         click.echo(f"checked against {against.name}: {figures}")

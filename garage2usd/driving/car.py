@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from garage2usd.errors import ConfigError
+from garage2usd.profiles.profile import USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M
 
 __all__ = ["DesignCar", "Point", "Pose"]
 
@@ -70,8 +71,8 @@ class DesignCar:
         If a measure is not positive, or such a car cannot turn so tightly.
     """
 
-    length_m: float = 4.8
-    width_m: float = 1.8
+    length_m: float = USUAL_CAR_LENGTH_M
+    width_m: float = USUAL_CAR_WIDTH_M
     wheelbase_m: float = 2.7
     rear_overhang_m: float = 1.2
     track_m: float = 1.55

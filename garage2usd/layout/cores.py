@@ -25,8 +25,8 @@ _FROM_COLUMN_M = 0.08
 _LEAST_WIDTH_M, _MOST_WIDTH_M = 2.6, 4.6
 _LEAST_DEPTH_M = 3.0
 _MOST_STALLS = 2
-_CAR_WIDTH_M, _WALL_CLEARANCE_M = 1.8, 0.6
-"""Of a car and beside it, where the profile asks for nothing."""
+_WALL_CLEARANCE_M = 0.6
+"""Beside a car, where the profile asks for nothing."""
 _DOOR_SIDES = (Edge.DOWN, Edge.UP, Edge.LEFT, Edge.RIGHT)
 
 
@@ -189,9 +189,8 @@ def _core(structure: Structure, row: StallRow, place: tuple[float, float, float]
 
 def _gap_to_stalls_m(stall_width_m: float, profile: Profile) -> float:
     """What a core leaves beside the next stall's line, so that a car in its middle keeps its distance."""
-    car_m = profile.design_car_width.amount if profile.design_car_width else _CAR_WIDTH_M
     wall_m = profile.wall_clearance.amount if profile.wall_clearance else _WALL_CLEARANCE_M
-    return max(wall_m - (stall_width_m - car_m) / 2, 0.0)
+    return max(wall_m - (stall_width_m - profile.car_width_m) / 2, 0.0)
 
 
 def _is_inside(structure: Structure, square: Square) -> bool:

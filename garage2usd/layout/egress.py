@@ -74,13 +74,12 @@ def plan_egress(structure: Structure, graph: LaneGraph, config: GarageConfig, *,
     have a door in reach is kept.
     """
     profile = config.standard
-    area = profile.fire_compartment_area_sprinklered if sprinklered else profile.fire_compartment_area
-    compartments = compartments_of(structure, area)
+    compartments = compartments_of(structure, profile.compartment_area(sprinklered=sprinklered))
     cores = obstacle_cores(structure)
     if not config.fittings.stair_cores:
         return Egress(compartments, cores)
     exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS
-    reach = profile.exit_distance_sprinklered if sprinklered else profile.exit_distance
+    reach = profile.way_out(sprinklered=sprinklered)
     stalls = _stalls_by_compartment(structure, graph, config, compartments)
     places = _places_by_compartment(structure, graph, config, compartments)
     budget = sum(len(points) for points in stalls.values()) // _STALLS_FOR_ONE

@@ -7,7 +7,12 @@ from pydantic import Field
 from garage2usd.profiles.clauses import Area, Clause, Count, Illuminance, Length, LengthRange, Ratio, Steps
 from garage2usd.settings import Settings
 
-__all__ = ["Profile"]
+__all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
+
+USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M = 4.8, 1.8
+"""Of the design car where a profile gives none: JGJ 100's small car."""
+_TRANSITION_SLOPE_PERCENT, _TRANSITION_LENGTH_M = 10.0, 3.6
+"""Where a profile gives only one of the two."""
 
 
 class Profile(Settings):
@@ -123,3 +128,34 @@ class Profile(Settings):
             clause = getattr(self, name)
             if isinstance(clause, Clause):
                 yield name, clause
+
+    @property
+    def car_length_m(self) -> float:
+        """Length of the design car."""
+        return self.design_car_length.amount if self.design_car_length else USUAL_CAR_LENGTH_M
+
+    @property
+    def car_width_m(self) -> float:
+        """Its width, without mirrors."""
+        return self.design_car_width.amount if self.design_car_width else USUAL_CAR_WIDTH_M
+
+    @property
+    def transition_slope_percent(self) -> float:
+        """Slope over which a ramp needs gentler pieces, if it needs any."""
+        clause = self.ramp_transition_slope
+        return clause.amount if clause else _TRANSITION_SLOPE_PERCENT
+
+    @property
+    def transition_length_m(self) -> float:
+        """Least length of each of those; 0 where none are asked for."""
+        if self.ramp_transition_length:
+            return self.ramp_transition_length.amount
+        return _TRANSITION_LENGTH_M if self.ramp_transition_slope else 0.0
+
+    def compartment_area(self, *, sprinklered: bool) -> Area | None:
+        """The clause on the largest fire compartment; sprinklers change nothing where it has no clause for them."""
+        return (self.fire_compartment_area_sprinklered if sprinklered else None) or self.fire_compartment_area
+
+    def way_out(self, *, sprinklered: bool) -> Length | None:
+        """The clause on the distance to an exit on foot, likewise."""
+        return (self.exit_distance_sprinklered if sprinklered else None) or self.exit_distance

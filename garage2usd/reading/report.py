@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from pydantic import AliasChoices, Field, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
@@ -20,6 +20,7 @@ __all__ = [
     "Report",
     "ReportedStall",
     "StairCore",
+    "UnmetClause",
     "read_report",
     "report_of",
 ]
@@ -30,7 +31,9 @@ class PlanFigures(Record):
 
     value: float
     stalls: int
-    area_per_stall_m2: float
+    area_per_planned_stall_m2: float = Field(
+        validation_alias=AliasChoices("area_per_planned_stall_m2", "area_per_stall_m2")  # as it was called before
+    )
 
 
 class LearningFigures(Record):
@@ -89,6 +92,17 @@ class ReportedStall(Record):
     occupied: bool | None = None
 
 
+class UnmetClause(Record):
+    """A clause of the profile that the garage misses in some places, or that nothing checks, which has none."""
+
+    clause: str
+    places: int
+    reason: str
+    measured: float | None = None
+    required: float | None = None
+    unit: str = ""
+
+
 class Report(Record):
     """A report, key by key in the order of the file.
 
@@ -112,8 +126,10 @@ class Report(Record):
     principles: Principles | None = None
     circulation: CirculationFigures | None = None
     area_per_stall_m2: float | None = None
+    parking_stalls: int | None = None
     stall_uses: dict[str, int] | None = None
     illuminance: LightLevels | None = None
+    not_designed_to: tuple[UnmetClause, ...] | None = None
     lane_kinds: dict[str, int] | None = None
     object_counts: dict[str, int] | None = None
     unreachable_stalls: tuple[str, ...] = ()
