@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from garage2usd.checks import Finding, check_layout
+from garage2usd.checks import Finding, judged_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import without_unreachable
@@ -20,6 +20,7 @@ from garage2usd.output import check_name, check_writable, publish, staging_folde
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.processes import without_collector
 from garage2usd.progress import Progress, silent
+from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
 from garage2usd.site.room import check_room
@@ -33,7 +34,7 @@ from garage2usd.view.raster import to_image, write_png
 
 __all__ = ["Build", "Garage", "build", "generate", "generate_plan", "stage_metadata"]
 
-_MOST_CHECKED_STALLS = 1000
+_MOST_CHECKED_STALLS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +82,9 @@ class Build:
         Seconds that each step took.
     findings
         What the garage misses of its profile by the rules that are quick (see `garage2usd.checks.check_layout`), errors
-        first; None for more than 1000 stalls, which take longer.
+        first; None for more than 10,000 stalls, which take longer.
+    unmet
+        The clauses of its profile that it is not designed to: that it misses, or that nothing checks; None likewise.
     """
 
     garage: Garage
@@ -93,6 +96,7 @@ class Build:
     shared_assets: Path | None
     seconds: dict[str, float]
     findings: tuple[Finding, ...] | None = None
+    unmet: tuple[UnmetClause, ...] | None = None
 
 
 def generate(
@@ -202,20 +206,25 @@ def build(
         for picture, image in zip(drawn, pictures.values(), strict=True):
             write_png(image, picture)
         seconds["stage"] = time.perf_counter() - start
+        start = time.perf_counter()
+        findings, unmet = _judged(garage)
+        seconds["check"] = time.perf_counter() - start
         report = staging / f"{path.stem}_report.json"
         write_report(
             report,
             make_report(
-                config=garage.config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds=seconds
+                config=garage.config,
+                plan=garage.plan,
+                graph=garage.graph,
+                layout=garage.layout,
+                seconds=seconds,
+                unmet=unmet,
             ),
         )
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
         files = [*filter(None, [made.assets]), *drawn, labels, report, made.stage]
         place_of = dict(zip(files, publish(files, path.parent), strict=True))
-    start = time.perf_counter()
-    findings = _findings(garage)
-    seconds["check"] = time.perf_counter() - start
     return Build(
         garage=garage,
         stage=place_of[made.stage],
@@ -226,6 +235,7 @@ def build(
         shared_assets=shared,
         seconds=seconds,
         findings=findings,
+        unmet=unmet,
     )
 
 
@@ -274,11 +284,12 @@ def _plan(site: Structure, config: GarageConfig, *, tape: str | None, progress: 
     return plan_lanes(site, plan=config.plan, bay=config.bay, seed=config.seed, progress=progress)
 
 
-def _findings(garage: Garage) -> tuple[Finding, ...] | None:
-    """What a garage misses of its profile, where that is found in a moment."""
+def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClause, ...] | None]:
+    """What a garage misses of its profile, and of which clauses, where that is found in a moment."""
     if len(garage.layout.stalls) > _MOST_CHECKED_STALLS:
-        return None
-    return tuple(check_layout(garage.layout, garage.graph, garage.config))
+        return None, None
+    findings, unmet = judged_layout(garage.layout, garage.graph, garage.config)
+    return tuple(findings), unmet
 
 
 def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:

@@ -1,7 +1,7 @@
 """The report of a build written: what was made and what reproduces it (see `garage2usd.reading.report`)."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +31,7 @@ from garage2usd.reading.report import (
     Report,
     ReportedStall,
     StairCore,
+    UnmetClause,
 )
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph
@@ -57,6 +58,7 @@ def make_report(
     layout: Layout,
     seconds: Mapping[str, float],
     learning: LearningFigures | None = None,
+    unmet: Sequence[UnmetClause] | None = None,
 ) -> Report:
     """The report of a garage; but for ``seconds`` the same configuration, seed and version give the same one.
 
@@ -68,6 +70,8 @@ def make_report(
         What each step took.
     learning
         What learning found, for a plan that no longer has it.
+    unmet
+        The clauses of its profile that it is not designed to; None where that is not known.
 
     Notes
     -----
@@ -93,9 +97,11 @@ def make_report(
         learning=learning or learning_figures(plan, config),
         principles=principles(structure, bay=config.bay),
         circulation=_circulation(structure, config),
-        area_per_stall_m2=round(layout.area_per_stall_m2, 3),
+        area_per_stall_m2=round(layout.area_per_stall_m2, 3) if layout.parking_stalls else None,
+        parking_stalls=layout.parking_stalls,
         stall_uses={str(use): count for use, count in sorted(Counter(s.use for s in layout.stalls).items())},
         illuminance=layout.illuminance,
+        not_designed_to=None if unmet is None else tuple(unmet),
         lane_kinds=graph.kind_counts(),
         object_counts=layout.counts(),
         unreachable_stalls=tuple(sorted(layout.unreachable)),
@@ -139,11 +145,11 @@ def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None
     score = evaluate(found, bay=config.bay, plan=config.plan)
     area_m2 = round(area_per_stall_m2(found, config.bay), 3)
     return LearningFigures(
-        learnt=PlanFigures(value=score.value, stalls=score.stalls, area_per_stall_m2=area_m2),
+        learnt=PlanFigures(value=score.value, stalls=score.stalls, area_per_planned_stall_m2=area_m2),
         polish=PlanFigures(
             value=plan.score.value - score.value,
             stalls=plan.score.stalls - score.stalls,
-            area_per_stall_m2=round(area_per_stall_m2(plan.structure, config.bay) - area_m2, 3),
+            area_per_planned_stall_m2=round(area_per_stall_m2(plan.structure, config.bay) - area_m2, 3),
         ),
         episodes=len(plan.learning_curve),
         steps=plan.steps,
@@ -153,7 +159,7 @@ def learning_figures(plan: Plan, config: GarageConfig) -> LearningFigures | None
 def _compartments(layout: Layout) -> tuple[FireCompartment, ...]:
     structure, numbers = layout.structure, layout.compartments
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / 1e6
-    on = numbers[tuple(layout.stalls.square.T)]
+    on = numbers[tuple(layout.stalls.square[layout.stalls.takes_cars].T)]
     doors = Counter(int(numbers[core.lane]) for core in layout.cores)
     return tuple(
         FireCompartment(

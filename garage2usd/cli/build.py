@@ -67,6 +67,9 @@ def build(
     classes and bounds of all objects (a_labels.json) and, unless it is a .usdz, what it refers to (a_assets/); meshes
     and textures go into a folder that many garages share instead if the configuration says so (stage.assets).
 
+    It is designed to every clause of its profile that can be kept together with the settings that are given. Those that
+    it misses all the same are named on stderr, a line each, and under not_designed_to in the report.
+
     \b
     Examples:
       garage2usd build --seed 7 --output garage.usdz
@@ -99,6 +102,8 @@ def build(
                 made.stage, exports, settings=settings.maps, progress=progress, workers=cores(), notice=notices.append
             )
     echo_notices(notices)
+    for entry in made.unmet or ():
+        click.echo(f"not designed to {entry.clause}: {entry.reason}", err=True)
     _describe(made)
     echo_table(("export", str(file)) for file in exports)
 
@@ -116,14 +121,14 @@ def _describe(made: "Build") -> None:
     garage, layout, score = made.garage, made.garage.layout, made.garage.plan.score
     rows, cols = layout.structure.shape
     counts = layout.counts()
-    uses = ", ".join(f"{count} {use}" for use, count in Counter(stall.use for stall in layout.stalls).most_common())
     count = int(layout.compartments.max())
     parts = f"{count} fire compartment{'s' if count > 1 else ''}"
     figures = f"N_S {score.stalls}, T_S {score.parking_time_squares:.2f} squares, U_S {score.unused_squares}"
     lines = [
         ("squares", f"{rows} x {cols}, {counts['floor']} inside"),
-        ("stalls", f"{len(layout.stalls)} ({uses}), {counts['car']} with a car"),
+        ("stalls", f"{layout.parking_stalls} ({layout.uses_in_words()}), {counts['car']} with a car"),
         ("cores", f"{len(layout.cores)} in the place of {_displaced(layout)} stalls; {parts}"),
+        ("light", _lit(made)),
         ("m2/stall", f"{layout.area_per_stall_m2:.1f}"),
         ("score", f"{score.value:.2f} ({figures})"),
         *_learnt(made),
@@ -144,15 +149,33 @@ def _describe(made: "Build") -> None:
 
 def _learnt(made: "Build") -> list[tuple[str, str]]:
     """What learning alone found, and what polish made of it."""
-    from garage2usd.planning import area_per_stall_m2, dimensioned  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.planning import dimensioned, evaluate  # noqa: PLC0415 - keeps --help instant
 
-    plan, bay = made.garage.plan, made.garage.config.bay
+    plan, config = made.garage.plan, made.garage.config
     if plan.learnt is None:
         return []
-    found = dimensioned(plan.learnt.structure, bay)
-    floors = [f"{area_per_stall_m2(structure, bay):.1f} m2 a stall" for structure in (found, plan.structure)]
-    polished = "polish kept it" if plan.learnt.structure == plan.archive[0].structure else f"polish made it {floors[1]}"
-    return [("learning", f"found a plan of {floors[0]}; {polished}")]
+    found = dimensioned(plan.learnt.structure, config.bay)
+    stalls = evaluate(found, bay=config.bay, plan=config.plan).stalls
+    learnt, made_it = (
+        f"N_S {count} on {structure.floor_m2:.0f} m2"
+        for count, structure in ((stalls, found), (plan.score.stalls, plan.structure))
+    )
+    polished = "polish kept it" if plan.learnt.structure == plan.archive[0].structure else f"polish made it {made_it}"
+    return [("learning", f"found a plan of {learnt}; {polished}")]
+
+
+def _lit(made: "Build") -> str:
+    """How bright lanes and stalls are, what was wanted, and which of the two decides how bright the tubes are."""
+    light, fittings = made.garage.layout.illuminance, made.garage.config.fittings
+    both = (("lane", light.lanes, fittings.lane_lux), ("stall", light.stalls, fittings.stall_lux))
+    lit = [(name, lux.mean, wanted) for name, lux, wanted in both if lux and lux.mean]
+    if not lit:
+        return "no tubes over lanes or stalls"
+    decides = min(lit, key=lambda part: part[1] / part[2])[0]
+    return ", ".join(
+        f"{name}s {mean:.0f} lx ({name}_lux asks for {wanted:g}{', which decides' if name == decides else ''})"
+        for name, mean, wanted in lit
+    )
 
 
 def _displaced(layout: "Layout") -> int:

@@ -5,20 +5,29 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from garage2usd.config.fittings import CEILING_ROOM_M, FittingsConfig
-from garage2usd.config.site import CARRIAGEWAY_MARGIN_M, DEFAULT_SIDE_M, BayConfig, SiteConfig
+from garage2usd.config.plan import PlanConfig
+from garage2usd.config.site import DEFAULT_SIDE_M, BayConfig, SiteConfig
 from garage2usd.profiles import Length, Profile
+from garage2usd.profiles.access import least_stall_width_m
 from garage2usd.profiles.clauses import Illuminance
+from garage2usd.profiles.profile import USUAL_CAR_WIDTH_M
 from garage2usd.settings import Settings
 
 __all__ = ["designed_settings"]
 
 _Sections = Mapping[str, Mapping[str, Any]]
 """What the user gives, by section and key."""
-_MODELS: dict[str, type[Settings]] = {"bay": BayConfig, "fittings": FittingsConfig, "site": SiteConfig}
+_MODELS: dict[str, type[Settings]] = {
+    "bay": BayConfig,
+    "fittings": FittingsConfig,
+    "plan": PlanConfig,
+    "site": SiteConfig,
+}
 _CARS_BETWEEN_COLUMNS = 3
-_STEP_M = 0.01
+_STEP_M, _FINE_STEP_M = 0.01, 0.001
 _WIDEST_DOOR_M = 5.8
 """A vehicle door is made 6 m wide at most, and is clear between the posts of its frame."""
+_DRAWN = ("contour", "structure", "structure_file", "entrance_cells", "exit_cells")
 _LARGEST = 1e6
 """No setting of a size is larger; what is larger is refused where it is validated."""
 
@@ -60,26 +69,41 @@ def _given(section: object) -> Mapping[str, Any]:
 
 def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]]:
     """Section, key and value of each setting whose default does not satisfy the profile."""
-    width_m = _or_default(profile.stall_width, "bay", "stall_width_m")
-    length_m = _or_default(profile.stall_length, "bay", "stall_length_m")
+    width_m, length_m = _stall_m(profile)
     column_m = _number(given, "bay", "column_size_m")
     aisle_m = _at_least(profile.aisle_width, "bay", "aisle_width_m")
-    side_m = max(
-        DEFAULT_SIDE_M,
-        _rounded_up(column_m + _CARS_BETWEEN_COLUMNS * width_m),
-        _rounded_up(aisle_m + column_m + 2 * CARRIAGEWAY_MARGIN_M),
+    wall_gap_m = _wall_gap_m(profile, column_m, _number(given, "bay", "stall_width_m", width_m))
+    bay = BayConfig(
+        **{
+            key: _within("bay", key, value)
+            for key, value in {
+                "stall_width_m": width_m,
+                "stall_length_m": length_m,
+                "column_size_m": column_m,
+                "aisle_width_m": aisle_m,
+                "wall_gap_m": wall_gap_m,
+                "portal_width_m": min(_at_least(profile.portal_width, "bay", "portal_width_m"), _WIDEST_DOOR_M),
+            }.items()
+        }
     )
+    row_m = bay.row_m(_CARS_BETWEEN_COLUMNS)
+    side_m = max(DEFAULT_SIDE_M, _rounded_up(row_m), _rounded_up(bay.aisle_side_m))
+    grid_m = _grid_m(profile, bay, side_m)
+    exits = _exits(profile, given, side_m, column_m, width_m)
     clear_m = max(
         _at_least(profile.clear_height, "fittings", "clear_height_m"),
         _at_least(profile.van_clear_height, "fittings", "clear_height_m"),
     )
+    longest_m = grid_m or max(row_m, bay.aisle_side_m, bay.portal_side_m, length_m)
     chosen = {
         ("bay", "stall_width_m"): width_m,
         ("bay", "stall_length_m"): length_m,
         ("bay", "aisle_width_m"): aisle_m,
-        ("bay", "wall_gap_m"): _wall_gap_m(profile, _number(given, "bay", "stall_width_m", width_m)),
-        ("bay", "square_side_m"): side_m,
-        ("bay", "portal_width_m"): min(_at_least(profile.portal_width, "bay", "portal_width_m"), _WIDEST_DOOR_M),
+        ("bay", "wall_gap_m"): wall_gap_m,
+        ("bay", "square_side_m"): grid_m or side_m,
+        ("bay", "portal_width_m"): bay.portal_width_m,
+        ("plan", "dead_end_cells"): _dead_end_cells(profile, longest_m),
+        ("plan", "longest_stretch_cells"): _stretch_cells(profile, longest_m),
         ("fittings", "clear_height_m"): clear_m,
         ("fittings", "ceiling_height_m"): max(
             _default("fittings", "ceiling_height_m"),
@@ -91,25 +115,81 @@ def _design(profile: Profile, given: _Sections) -> Iterator[tuple[str, str, Any]
             _default("fittings", "ramp_slope_percent"),
             profile.ramp_slope.amount if profile.ramp_slope else math.inf,
         ),
-        ("fittings", "ramp_transition_m"): _at_least(profile.ramp_transition_length, "fittings", "ramp_transition_m"),
-        ("site", "exits"): _exits(profile, given, side_m, column_m, width_m),
+        ("fittings", "ramp_transition_m"): max(
+            _default("fittings", "ramp_transition_m"), _rounded_up(profile.transition_length_m)
+        ),
+        ("site", "exits"): exits,
+        ("site", "min_portal_distance_cells"): _portal_cells(profile, given, grid_m or length_m, exits),
     }
-    if side_m != DEFAULT_SIDE_M and "square_side_m" not in given["bay"]:
-        # a side that only the profile asks for is not a wish for a uniform grid
-        yield "bay", "dimensioned", _default("bay", "dimensioned")
+    if (grid_m or side_m != DEFAULT_SIDE_M) and "square_side_m" not in given["bay"]:
+        # a side that only the profile asks for is no wish for a uniform grid, unless it asks for that too
+        yield "bay", "dimensioned", grid_m is None
     for (section, key), value in chosen.items():
-        if value != _default(section, key):
-            yield section, key, value
+        allowed = _within(section, key, value)
+        if allowed != _default(section, key):
+            yield section, key, allowed
 
 
-def _wall_gap_m(profile: Profile, stall_width_m: float) -> float:
-    """What a stall's line keeps from a wall, so that the design car in the middle keeps its distance."""
-    default = float(_default("bay", "wall_gap_m"))
-    if profile.wall_clearance is None or profile.design_car_width is None:
+def _stall_m(profile: Profile) -> tuple[float, float]:
+    """Width and length of a stall that holds the design car, and of two that hold an accessible one and its aisle."""
+    width_m = _or_default(profile.stall_width, "bay", "stall_width_m")
+    length_m = _or_default(profile.stall_length, "bay", "stall_length_m")
+    if profile.design_car_width and not profile.stall_width:
+        width_m = max(width_m, _rounded_up(profile.car_width_m + width_m - USUAL_CAR_WIDTH_M))
+    behind_m = profile.end_clearance.amount if profile.end_clearance else 0.0
+    length_m = max(length_m, _rounded_up(profile.car_length_m + behind_m))
+    return max(width_m, _rounded_up(least_stall_width_m(profile))), length_m
+
+
+def _wall_gap_m(profile: Profile, column_m: float, stall_width_m: float) -> float:
+    """What a stall's line keeps from walls and columns, so that the design car in the middle keeps its distance."""
+    beside_car_m = (stall_width_m - profile.car_width_m) / 2
+    gaps = [float(_default("bay", "wall_gap_m"))]
+    if profile.wall_clearance:
+        gaps.append(_rounded_up(profile.wall_clearance.amount - beside_car_m))
+    if profile.column_clearance:
+        gaps.append(_rounded_up(column_m / 2 + profile.column_clearance.amount - beside_car_m))
+    return max(gaps)
+
+
+def _grid_m(profile: Profile, bay: BayConfig, side_m: float) -> float | None:
+    """Side of the uniform grid that the clause on columns asks for; None where all squares keep it, or no grid does."""
+    if profile.column_spacing is None:
+        return None
+    least_m, most_m = profile.column_spacing.bounds
+    rows_m = [bay.row_m(count) for count in range(1, _CARS_BETWEEN_COLUMNS + 1)]
+    sides_m = [bay.stall_length_m, bay.aisle_side_m, bay.portal_side_m, *rows_m[1:]]
+    if least_m <= min(sides_m) and max(sides_m) <= most_m:
+        return None
+    needed_m = max(bay.stall_length_m, bay.aisle_side_m, bay.portal_side_m)
+    fitting = (max(least_m, needed_m, row_m) for row_m in (side_m, *reversed(rows_m)))
+    return next((_rounded_up(grid_m, _FINE_STEP_M) for grid_m in fitting if grid_m <= most_m), None)
+
+
+def _dead_end_cells(profile: Profile, longest_m: float) -> int:
+    """How many of the longest squares deep a dead end may be."""
+    default = int(_default("plan", "dead_end_cells"))
+    return min(default, int(profile.dead_end_depth.amount / longest_m)) if profile.dead_end_depth else default
+
+
+def _stretch_cells(profile: Profile, longest_m: float) -> int | None:
+    """How many of the longest squares a stretch without a junction may have; one at least, as 0 stands for any."""
+    return max(int(profile.stretch_length.amount / longest_m), 1) if profile.stretch_length else None
+
+
+def _portal_cells(profile: Profile, given: _Sections, shortest_m: float, exits: int) -> int:
+    """Least Manhattan distance of portals in squares with which doors around a corner of the site are apart enough.
+
+    Of doors that many squares apart those are nearest that lie as far from the corner, half a square more each. It is
+    never more than what any draw on a rectangle finds, and not asked of sites that are not plain ones.
+    """
+    default = int(_default("site", "min_portal_distance_cells"))
+    is_plain = all(given["site"].get(key) is None for key in _DRAWN) and not _number(given, "site", "rectangles")
+    if profile.portal_distance is None or not is_plain:
         return default
-    return max(
-        default, _rounded_up(profile.wall_clearance.amount - (stall_width_m - profile.design_car_width.amount) / 2)
-    )
+    portals = _whole(given, "exits", exits) + _whole(given, "entrances", int(_default("site", "entrances")))
+    needed = math.ceil(math.sqrt(2) * profile.portal_distance.amount / shortest_m - 1)
+    return max(default, min(needed, sum(_shape(given)) // portals - 1))
 
 
 def _exits(profile: Profile, given: _Sections, side_m: float, column_m: float, width_m: float) -> int:
@@ -121,8 +201,7 @@ def _exits(profile: Profile, given: _Sections, side_m: float, column_m: float, w
     default = int(_default("site", "exits"))
     if profile.portals is None:
         return default
-    height, width = SiteConfig().shape
-    rows, cols = _whole(given, "height_cells", height), _whole(given, "width_cells", width)
+    rows, cols = _shape(given)
     contour = given["site"].get("contour")
     if isinstance(contour, str):
         rows, cols = 1, contour.count(".")
@@ -130,6 +209,12 @@ def _exits(profile: Profile, given: _Sections, side_m: float, column_m: float, w
     most_stalls = (2 * rows * cols + 2) // 3 * in_a_square
     entrances = _whole(given, "entrances", int(_default("site", "entrances")))
     return max(default, profile.portals.required(most_stalls) - entrances)
+
+
+def _shape(given: _Sections) -> tuple[int, int]:
+    """Rows and columns of a site that is not drawn."""
+    height, width = SiteConfig().shape
+    return _whole(given, "height_cells", height), _whole(given, "width_cells", width)
 
 
 def _whole(given: _Sections, key: str, fallback: int) -> int:
@@ -158,8 +243,18 @@ def _lux(clause: Illuminance | None, key: str) -> float:
     return max(default, clause.amount) if clause else default
 
 
-def _rounded_up(length_m: float) -> float:
-    return round(max(math.ceil(length_m / _STEP_M - 1e-6), 1) * _STEP_M, 6)
+def _rounded_up(length_m: float, step_m: float = _STEP_M) -> float:
+    return round(max(math.ceil(length_m / step_m - 1e-6), 1) * step_m, 6)
+
+
+def _within(section: str, key: str, value: float | None) -> Any:  # noqa: ANN401
+    """The nearest value that the setting allows."""
+    if value is None:
+        return None
+    bounds = _MODELS[section].model_fields[key].metadata
+    least = max((bound.ge for bound in bounds if hasattr(bound, "ge")), default=-math.inf)
+    most = min((bound.le for bound in bounds if hasattr(bound, "le")), default=math.inf)
+    return min(max(value, least), most)
 
 
 def _default(section: str, key: str) -> Any:  # noqa: ANN401

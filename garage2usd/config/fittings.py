@@ -36,7 +36,8 @@ class FittingsConfig(Settings):
     tubes_per_cell: int = Field(2, ge=0, le=6)
     """Tube lights over each lane square; squares with stalls carry one."""
     lane_lux: float = Field(50.0, gt=0, le=2000)
-    """Wanted mean direct illuminance on the lanes' floor; tubes get the luminance for it."""
+    """Least mean direct illuminance wanted on the lanes' floor: all tubes are as bright as this or `stall_lux` needs,
+    whichever needs more; `build` says which of the two decides."""
     stall_lux: float = Field(30.0, gt=0, le=2000)
     """The same on the stalls."""
     beams: bool = True

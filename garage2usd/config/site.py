@@ -171,6 +171,15 @@ class BayConfig(Settings):
         return max(self.column_size_m, 2 * self.wall_gap_m)
 
     @property
+    def aisle_side_m(self) -> float:
+        """Side across an aisle of `aisle_width_m` of a line of squares."""
+        return self.aisle_width_m + 2 * self.carriageway_setback_m
+
+    def row_m(self, stalls: int) -> float:
+        """Side of a square along the edge with so many stalls between columns."""
+        return stalls * self.stall_width_m + self.row_ends_m
+
+    @property
     def portal_side_m(self) -> float:
         """Least side of a square along the edge with a door of `portal_width_m`."""
         return self.portal_width_m + 2 * (DOOR_JAMB_M + DOOR_FRAME_M)

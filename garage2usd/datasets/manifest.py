@@ -52,7 +52,7 @@ class ManifestRow(Record):
     squares
         How many are inside.
     stalls, standard_stalls, ev_stalls, accessible_stalls, cars
-        How many.
+        How many. Stalls are those that cars park in: these three kinds.
     loops, longest_dead_end_m, area_per_stall_m2, stair_cores, mean_lux
         As its report has them.
     difficulty, difficulty_score

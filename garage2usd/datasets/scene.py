@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from garage2usd.checks import Severity, check_layout
+from garage2usd.checks import Severity, judged_layout
 from garage2usd.datasets.difficulty import garage_difficulty, stall_difficulties
 from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.manifest import FileEntry, ManifestRow
@@ -67,8 +67,15 @@ def make_scene(
     config, alternatives = recipe.drawn(drawn.seed)
     garage = generate(config, plan=replanned(drawn, config))
     stem = f"{drawn.number:0{_DIGITS}}"
+    found, unmet = judged_layout(garage.layout, garage.graph, config)
     report = make_report(
-        config=config, plan=garage.plan, graph=garage.graph, layout=garage.layout, seconds={}, learning=drawn.learning
+        config=config,
+        plan=garage.plan,
+        graph=garage.graph,
+        layout=garage.layout,
+        seconds={},
+        learning=drawn.learning,
+        unmet=unmet,
     )
     write_report(folder / f"{stem}.report.json", report)
     make, difficulty = recipe.make, dict[str, str | int | float]()
@@ -81,7 +88,7 @@ def make_scene(
             record_drives(stage, make.drives, proofs, seed=drawn.seed, settings=config.maps.drive)
     if make.gzip:
         _compress(folder, stem)
-    findings = Counter(finding.severity for finding in check_layout(garage.layout, garage.graph, config))
+    findings = Counter(finding.severity for finding in found)
     return ManifestRow(
         number=drawn.number,
         key=key_of(shard, drawn.number),
@@ -152,14 +159,14 @@ def _figures(garage: Garage, report: Report) -> dict[str, str | int | float]:
         "rows": layout.structure.shape[0],
         "cols": layout.structure.shape[1],
         "squares": counts["floor"],
-        "stalls": len(layout.stalls),
+        "stalls": layout.parking_stalls,
         "standard_stalls": uses[StallUse.STANDARD],
         "ev_stalls": uses[StallUse.EV],
         "accessible_stalls": uses[StallUse.ACCESSIBLE],
         "cars": counts["car"],
         "loops": circulation.circulation.loops,
         "longest_dead_end_m": circulation.dead_end_m,
-        "area_per_stall_m2": round(layout.area_per_stall_m2, 3),
+        "area_per_stall_m2": report.area_per_stall_m2 or 0.0,
         "stair_cores": len(layout.cores),
         "mean_lux": light.stalls.mean if light and light.stalls else 0.0,
     }

@@ -1,5 +1,7 @@
 """From squares to metres: every object of a garage as a placement, free of any file format."""
 
+import math
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,7 +30,7 @@ from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, whee
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.stains import floor_stains
-from garage2usd.layout.stall_table import StallTable
+from garage2usd.layout.stall_table import STALL_USES, StallTable
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zone_plates import zone_plates
@@ -36,7 +38,7 @@ from garage2usd.layout.zones import Zones, stall_numbers, with_numbers
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
-from garage2usd.structure.dead_ends import dead_ends
+from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 
@@ -54,7 +56,6 @@ __all__ = [
 
 _ORDINAL_BITS = 16
 """Of the number of a stall on its square."""
-_MM2_PER_M2 = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,10 +129,28 @@ class Layout:
         return keys
 
     @property
+    def parking_stalls(self) -> int:
+        """How many stalls cars park in: what is told as the number of stalls everywhere.
+
+        Stalls that are kept free, as access aisles and for turning, are not among them.
+        """
+        return int(self.stalls.takes_cars.sum())
+
+    @property
     def area_per_stall_m2(self) -> float:
-        """Floor inside the contour, obstacles apart, over the number of stalls that stair cores leave."""
-        areas = np.outer(self.structure.row_depths_mm, self.structure.column_widths_mm)
-        return float(areas[self.structure.cells != Cell.OBSTACLE].sum()) / _MM2_PER_M2 / len(self.stalls)
+        """Floor inside the contour, obstacles apart, for each stall that cars park in; infinite without any."""
+        return self.structure.floor_m2 / self.parking_stalls if self.parking_stalls else math.inf
+
+    def uses_in_words(self) -> str:
+        """How many stalls are for what, those that cars park in first."""
+        counts = Counter(STALL_USES[use] for use in self.stalls.use.tolist())
+        told = [
+            ", ".join(
+                f"{count} {use.replace('_', ' ')}" for use, count in counts.most_common() if use.takes_cars is taken
+            )
+            for taken in (True, False)
+        ]
+        return "; kept free: ".join(filter(None, told))
 
     def of_kind(self, kind: str) -> tuple[Placement, ...]:
         """All objects of one kind, by its name."""
@@ -188,7 +207,7 @@ def lay_out(
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
         crossings = _crossings(grid, cores)
-        bumps = speed_bumps(grid, graph, fittings, seed=seed, crossings=crossings)
+        bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
         with_bump = {bump.square for bump in bumps}
         floors = [
             floor_panel(
@@ -204,7 +223,7 @@ def lay_out(
         yield floors
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls)
-        yield wheel_stops(stalls, fittings)
+        yield wheel_stops(stalls, fittings, config.standard)
         yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, fittings)
@@ -252,7 +271,9 @@ def _used_stalls(
         for stall in stalls_of(grid, graph, config.bay)
     )
     if config.plan.dead_ends is DeadEnds.STANDARD:
-        long_ends = [end for end in dead_ends(grid.structure) if end.needs_turning_stall]
+        clause = config.standard.dead_end_length
+        limit_mm = min(DEAD_END_LIMIT_MM, round(clause.amount * 1000) if clause else DEAD_END_LIMIT_MM)
+        long_ends = [end for end in dead_ends(grid.structure, limit_mm) if end.needs_turning_stall]
         stalls = with_turning_stalls(stalls, grid, long_ends)
     return with_designated_stalls(stalls, _foot_exits(grid, cores), config.parking, config.standard)
 

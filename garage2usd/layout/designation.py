@@ -9,11 +9,12 @@ import shapely
 
 from garage2usd.config import ParkingConfig
 from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.placement import Placement, Stall, StallUse, rounded
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.profiles import Profile
+from garage2usd.profiles.access import AccessWidths, access_widths, van_stalls
 
 __all__ = ["chargers", "use_symbol", "with_designated_stalls"]
 
@@ -22,6 +23,7 @@ _ACCESSIBLE_FROM_STALLS = 25
 """Garages with at least this many stalls have an accessible one."""
 _CHARGER_FROM_REAR_M = 0.055
 _SYMBOL_Z_M = 0.35
+_ROUNDING_M = 1e-6
 
 
 def with_designated_stalls(
@@ -34,7 +36,8 @@ def with_designated_stalls(
     An accessible stall needs an access aisle of 1.2 m (GB 50763, 3.14.3) or 60 in (ADA 502.3) beside it. Between the
     columns there is no such room but another stall's: the standard stall beside becomes the aisle, and where one more
     accessible stall is wanted, it is the one on the aisle's other side. A stall without such a neighbour in its row
-    is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's.
+    is not made accessible. An aisle stays among the stalls, with its use, so that their number is the plan's; it gives
+    the accessible stalls beside it what their standard, or that of vans, asks for more than a stall's width.
     """
     far_m = Points(list(anchors)).nearest_m(np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)).tolist()
     accessible = _accessible_count(len(stalls), parking, profile)
@@ -44,22 +47,62 @@ def with_designated_stalls(
         key=lambda index: (round(far_m[index], 6), index),
     )
     uses = [stall.use for stall in stalls]
+    vans = van_stalls(profile, accessible)
+    divided: dict[int, Stall] = {}
     for index in order:
         if accessible <= 0:
             break
         aisle = _access_aisle(index, stalls, uses)
-        if uses[index] is StallUse.STANDARD and aisle is not None:
-            shared = 2 * aisle - index
-            uses[index], uses[aisle] = StallUse.ACCESSIBLE, StallUse.ACCESS_AISLE
-            accessible -= 1
-            if accessible and _is_standard_beside(aisle, shared, stalls, uses):
-                uses[shared] = StallUse.ACCESSIBLE
-                accessible -= 1
+        if uses[index] is not StallUse.STANDARD or aisle is None:
+            continue
+        shared = 2 * aisle - index
+        is_shared = accessible > 1 and _is_standard_beside(aisle, shared, stalls, uses)
+        row, widths = _divided([index, aisle, shared] if is_shared else [index, aisle], stalls, profile, vans)
+        uses[aisle] = StallUse.ACCESS_AISLE
+        for taken in row[::2]:
+            uses[taken] = StallUse.ACCESSIBLE
+        accessible -= len(row) - 1
+        vans -= min(vans, len(row) - 1)
+        divided.update(zip(row, _redrawn([stalls[taken] for taken in row], widths), strict=True))
     for index in [index for index in order if uses[index] is StallUse.STANDARD][:charging]:
         uses[index] = StallUse.EV
     return tuple(
-        stall if use is stall.use else replace(stall, use=use) for stall, use in zip(stalls, uses, strict=True)
+        stall if use is stall.use else replace(divided.get(index, stall), use=use)
+        for index, (stall, use) in enumerate(zip(stalls, uses, strict=True))
     )
+
+
+def _divided(
+    row: list[int], stalls: tuple[Stall, ...], profile: Profile, vans: int
+) -> tuple[list[int], AccessWidths | None]:
+    """An accessible stall, its aisle and, where there is room, the one beyond it, with their widths.
+
+    Stalls that take vans come first. Where not even one finds room, all stay as they are.
+    """
+    width_m = stalls[row[0]].width_m
+    for most_vans in dict.fromkeys((vans, 0)):
+        for taken in (row, row[:2]) if len(row) > 2 else (row,):  # noqa: PLR2004 - the aisle between two
+            count = len(taken) - 1
+            widths = access_widths(profile, width_m, stalls=count, vans=min(most_vans, count))
+            if widths:
+                return taken, widths
+    return row, None
+
+
+def _redrawn(row: list[Stall], widths: AccessWidths | None) -> list[Stall]:
+    """The stalls of a row from its first one on with other widths, on the same ground."""
+    if widths is None or math.isclose(widths.aisle_m, row[0].width_m, abs_tol=_ROUNDING_M):
+        return row
+    first, *others = widths.stalls_m
+    (x, z), (beside_x, beside_z) = row[0].centre_m, row[1].centre_m
+    step_x, step_z = (beside_x - x) / row[0].width_m, (beside_z - z) / row[0].width_m
+    done_m, redrawn = -row[0].width_m / 2, []
+    for stall, width_m in zip(row, (first, widths.aisle_m, *others), strict=True):
+        middle_m = done_m + width_m / 2
+        centre = rounded((x + step_x * middle_m, z + step_z * middle_m))
+        redrawn.append(replace(stall, width_m=round(width_m, 6), centre_m=centre))
+        done_m += width_m
+    return redrawn
 
 
 def _accessible_count(stalls: int, parking: ParkingConfig, profile: Profile) -> int:
@@ -82,7 +125,9 @@ def _is_standard_beside(index: int, other: int, stalls: tuple[Stall, ...], uses:
     if not 0 <= other < len(stalls) or uses[other] is not StallUse.STANDARD:
         return False
     first, second = stalls[index], stalls[other]
-    return (first.square, first.edge) == (second.square, second.edge)
+    # of three, the one in the middle may be left out
+    is_next = abs(first.ordinal - second.ordinal) == 1
+    return is_next and (first.square, first.edge) == (second.square, second.edge)
 
 
 def use_symbol(use: StallUse) -> tuple[Marking, ...]:

@@ -1,5 +1,6 @@
 """What hangs over single squares or stands on them: tube lights, speed bumps, cones."""
 
+import math
 from collections.abc import Collection, Container, Iterable, Mapping
 
 import numpy as np
@@ -12,8 +13,9 @@ from garage2usd.layout.placement import Placement, Stall, StallUse, placed
 from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
-from garage2usd.objects.speed_bump import SpeedBumpSpec
+from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
 from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.profiles import Profile
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
@@ -30,6 +32,7 @@ _CONES_FROM_MOUTH_M = 0.9
 _CONES_FROM_EDGE_M = 0.95
 _TUBE_GAP_M = 0.1
 _JUNCTION_TUBE_OFFSET_M = 1.2
+_LOWEST_BUMP_M = 0.02
 
 
 def tube_lights(
@@ -74,9 +77,22 @@ def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
 
 
 def speed_bumps(
-    grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, *, seed: int, crossings: Collection[Square] = ()
+    grid: TileGrid,
+    graph: LaneGraph,
+    fittings: FittingsConfig,
+    profile: Profile,
+    *,
+    seed: int,
+    crossings: Collection[Square] = (),
 ) -> list[Placement]:
-    """Speed bumps across straight lanes, never on two squares in a row and never on a crossing."""
+    """Speed bumps across straight lanes, never on two squares in a row and never on a crossing.
+
+    There are none where they would have to be too low to be felt.
+    """
+    clause = profile.speed_bump_height
+    height_m = min(SPEED_BUMP_HEIGHT_M, clause.amount if clause else math.inf)
+    if height_m < _LOWEST_BUMP_M:
+        return []
     rng = generator(seed, Step.SPEED_BUMPS)
     bumps: dict[Square, Placement] = {}
     for tile in grid:
@@ -87,7 +103,7 @@ def speed_bumps(
         wanted = rng.random() < fittings.speed_bump_rate
         if not wanted or tile.square in crossings or (row - 1, col) in bumps or (row, col - 1) in bumps:
             continue
-        spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3))
+        spec = SpeedBumpSpec(round(grid.clear_width_m(tile) - 0.2, 3), height_m)
         yaw = _QUARTER_TURN if tile.axis_is_x else 0.0
         bumps[tile.square] = Placement("SpeedBump", spec, (tile.x_m, 0.0, tile.z_m), yaw, tile.square)
     return list(bumps.values())

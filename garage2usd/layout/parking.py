@@ -18,7 +18,8 @@ from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.panel import Surface
 from garage2usd.objects.stall import StallSpec
-from garage2usd.objects.wheel_stop import WheelStopSpec
+from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M, WheelStopSpec
+from garage2usd.profiles import Profile
 from garage2usd.randomness import Step
 from garage2usd.structure.dead_ends import DeadEnd
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -27,7 +28,7 @@ __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turn
 
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
-_WHEEL_STOP_LENGTH_M, _WHEEL_STOP_WIDTH_M, _WHEEL_STOP_HEIGHT_M = 1.65, 0.15, 0.10
+_WHEEL_STOP_LENGTH_M, _LOWEST_WHEEL_STOP_M = 1.65, 0.05
 _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
@@ -114,14 +115,16 @@ def _stall_panel(width_m: float, length_m: float, use: StallUse) -> StallSpec:
     return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
-def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig) -> list[Placement]:
-    """A wheel stop near the rear of each stall that cars park in."""
-    if not fittings.wheel_stops:
+def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
+    """A wheel stop near the rear of each stall that cars park in, unless that would be too low to stop a wheel."""
+    clause = profile.wheel_stop_height
+    height_m = min(WHEEL_STOP_HEIGHT_M, clause.amount if clause else math.inf)
+    if not fittings.wheel_stops or height_m < _LOWEST_WHEEL_STOP_M:
         return []
     return [
         stall.placement(
             "WheelStop",
-            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3))),
+            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)), height_m),
             (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
         )
         for stall in stalls
@@ -198,8 +201,8 @@ def _room_m(stall: Stall, body: CarBody, *, is_reversed: bool) -> float:
     """Length of a stall that a car may take: short of its mouth, and with the tyres before the wheel stop."""
     overhang_m = body.length_m - body.wheelbase_m - body.front_overhang_m if is_reversed else body.front_overhang_m
     # half the chord of a tyre at the stop's height
-    tyre_m = math.sqrt((2 * body.wheel_radius_m - _WHEEL_STOP_HEIGHT_M) * _WHEEL_STOP_HEIGHT_M)
-    axle_m = WHEEL_STOP_FROM_REAR_M + _WHEEL_STOP_WIDTH_M / 2 + tyre_m
+    tyre_m = math.sqrt((2 * body.wheel_radius_m - WHEEL_STOP_HEIGHT_M) * WHEEL_STOP_HEIGHT_M)
+    axle_m = WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2 + tyre_m
     return stall.length_m - _LINE_CLEARANCE_M - max(_REAR_CLEARANCE_M, axle_m - overhang_m)
 
 

@@ -52,6 +52,11 @@ class StallTable(Table[Stall]):
         return len(self.edge)
 
     @property
+    def takes_cars(self) -> NDArray[np.bool_]:
+        """Whether cars park in each one; bool, shape (n,)."""
+        return np.array([use.takes_cars for use in STALL_USES])[self.use]
+
+    @property
     def access_square(self) -> NDArray[np.int32]:
         """(row, col) of the lane square beyond each one's mouth; int32, shape (n, 2)."""
         beyond: NDArray[np.int32] = self.square + np.array(NEIGHBOUR_STEPS, dtype=np.int32)[self.edge]

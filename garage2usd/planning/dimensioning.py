@@ -25,9 +25,8 @@ _ROUNDING_M2 = 1e-9
 
 def area_per_stall_m2(structure: Structure, bay: BayConfig) -> float:
     """Floor inside the contour, obstacles apart, over the number of stalls; infinite without stalls."""
-    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm)[structure.cells != Cell.OBSTACLE]
     stalls = int(square_capacity(structure, bay).sum())
-    return float(areas.sum()) / _MM_PER_M**2 / stalls if stalls else float("inf")
+    return structure.floor_m2 / stalls if stalls else math.inf
 
 
 def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, columns: bool = True) -> Structure:
@@ -94,7 +93,7 @@ def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
 
 def aisle_side_mm(bay: BayConfig) -> int:
     """Side across an aisle of a line of squares."""
-    return round((bay.aisle_width_m + 2 * bay.carriageway_setback_m) * _MM_PER_M)
+    return round(bay.aisle_side_m * _MM_PER_M)
 
 
 def free_sides_mm(bay: BayConfig) -> list[int]:

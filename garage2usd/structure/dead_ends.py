@@ -29,7 +29,7 @@ class DeadEnd:
     length_m
         From its end to the next junction or portal.
     needs_turning_stall
-        Whether it is longer than the standard's 26 m.
+        Whether it is too long to back out of.
     """
 
     squares: tuple[Square, ...]
@@ -42,8 +42,11 @@ class DeadEnd:
         return self.squares[0]
 
 
-def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
-    """All dead ends of a structure in reading order, by walking from each tip to the next junction or portal."""
+def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[DeadEnd, ...]:
+    """All dead ends of a structure in reading order, by walking from each tip to the next junction or portal.
+
+    One longer than `limit_mm` needs a turning stall.
+    """
     drivable = {(int(row), int(col)) for row, col in np.argwhere(structure.cells >= Cell.LANE)}
     beside = {
         square: [other for other in _around(square) if other in drivable] for square in structure.where(Cell.LANE)
@@ -57,7 +60,7 @@ def dead_ends(structure: Structure) -> tuple[DeadEnd, ...]:
             int(structure.row_depths_mm[row] if ahead[0] != row else structure.column_widths_mm[col])
             for (row, col), ahead in pairwise((*squares, end or tip))
         )
-        found.append(DeadEnd(tuple(squares), length_mm / _MM_PER_M, length_mm > DEAD_END_LIMIT_MM))
+        found.append(DeadEnd(tuple(squares), length_mm / _MM_PER_M, length_mm > limit_mm))
     return tuple(found)
 
 

@@ -269,6 +269,12 @@ class Structure:
         """Z of every row border in metres, from 0; shape (rows + 1,)."""
         return np.concatenate(([0], np.cumsum(self.row_depths_mm))) / _MM_PER_M
 
+    @property
+    def floor_m2(self) -> float:
+        """Floor inside the contour, obstacles apart."""
+        areas = np.outer(self.row_depths_mm, self.column_widths_mm)
+        return float(areas[self.cells != Cell.OBSTACLE].sum()) / _MM_PER_M**2
+
     def where(self, cell: Cell) -> list[tuple[int, int]]:
         """All squares of one kind as (row, col), in reading order."""
         return [(int(row), int(col)) for row, col in np.argwhere(self.cells == cell)]

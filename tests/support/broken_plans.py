@@ -13,10 +13,11 @@ DRAWN = {
         ".......\nE=====X\n...=...\n..===..\n..=.=..",
     ),
     "many stalls without a loop": ("loop", "......X......\nE===========X\n............."),
-    "a long aisle without a junction": ("stretch-length", "..........\nE========X\n.........."),
     "lanes side by side": ("lane-field", "......\nE====X\n..==..\n......"),
     "portals side by side": ("portal-distance", "......\n.=====\n.=...=\nE=...=\nX=====\n......"),
 }
+LONG_AISLE = "..........\nE========X\n.........."
+"""Without a junction, which only a client's profile asks for."""
 SETTINGS_BROKEN = {
     "stalls as narrow as the user wants": ("stall-width", {"bay": {"stall_width_m": 2.3}}),
     "stalls as short as the user wants": ("stall-length", {"bay": {"stall_length_m": 5.2}}),

@@ -147,3 +147,78 @@ def test_a_zebra_crossing_lies_before_a_core_s_door():
     floors = {place.square: place.spec for place in laid_out().of_kind("floor")}
     crossed = {square for square, spec in floors.items() if bars <= {marking.polygon for marking in spec.markings}}
     assert crossed == {(3, 2)}  # the other core's door opens onto a junction
+
+
+TOLD = {"source": "the client", "confidence": "high"}
+
+
+def profile_of(**metres):
+    counts = {"stalls_per_van_stall"}
+    return {
+        "name": "client",
+        **{
+            name: {"value": value, "unit": "count" if name in counts else "m", **TOLD} for name, value in metres.items()
+        },
+    }
+
+
+WIDTHS = {
+    "wider stalls": (profile_of(accessible_stall_width=2.7, access_aisle_width=1.2), 2.4, 2.7, 1.2),
+    "so wide that two share no aisle": (profile_of(accessible_stall_width=3.5, access_aisle_width=1.2), 2.4, 3.5, 1.2),
+    "wider than two stalls have room for": (
+        profile_of(accessible_stall_width=3.7, access_aisle_width=1.5),
+        2.6,
+        3.7,
+        1.5,
+    ),
+    "stalls for vans": (
+        profile_of(stalls_per_van_stall=1, van_stall_width=3.2, access_aisle_width=1.5),
+        2.4,
+        3.2,
+        1.5,
+    ),
+    "an aisle for vans, which is narrower": (
+        profile_of(stalls_per_van_stall=1, van_stall_width=3.6, van_access_aisle_width=2.1, access_aisle_width=1.5),
+        2.4,
+        2.4,
+        2.1,
+    ),
+}
+
+
+@pytest.mark.parametrize("share", [0.04, 0.3])
+@pytest.mark.parametrize(("profile", "others", "accessible", "aisle"), WIDTHS.values(), ids=WIDTHS)
+def test_accessible_stalls_and_their_aisles_are_as_wide_as_the_profile_asks(profile, others, accessible, aisle, share):
+    parking = {"accessible_share": share, "occupancy": 1.0, "ev_share": 0}
+    layout, plain = (laid_out(profile=profile, parking={**parking, "accessible_share": asked}) for asked in (share, 0))
+    assert {round(stall.width_m, 6) for stall in plain.stalls} == {others}
+    assert min(stall.width_m for stall in of_use(layout, StallUse.ACCESSIBLE)) >= accessible - 1e-6
+    assert min(stall.width_m for stall in of_use(layout, StallUse.ACCESS_AISLE)) >= aisle - 1e-6
+    for stall in layout.stalls:
+        if stall.use not in {StallUse.ACCESSIBLE, StallUse.ACCESS_AISLE}:
+            assert stall.width_m == pytest.approx(others)
+    for row, same in zip(rows_of(layout), rows_of(plain), strict=True):
+        # they share the ground that the stalls of the row had before, and leave none of it
+        ground, before = (
+            shapely.union_all([shapely.Polygon(stall.corners_m()) for stall in line]) for line in (row, same)
+        )
+        assert ground.symmetric_difference(before.buffer(1e-5)).area < 1e-3
+        assert sum(stall.width_m for stall in row) == pytest.approx(sum(stall.width_m for stall in same))
+    panels = {place.stall: footprint(place) for place in layout.of_kind("stall")}
+    for car in layout.of_kind("car"):
+        assert footprint(car).within(panels[car.stall].buffer(1e-6))
+
+
+@pytest.mark.parametrize(
+    ("kind", "clause", "usual"), [("wheel_stop", "wheel_stop_height", 0.1), ("speed_bump", "speed_bump_height", 0.05)]
+)
+def test_wheel_stops_and_bumps_are_as_low_as_the_profile_asks(kind, clause, usual):
+    fittings = {"speed_bump_rate": 1.0}
+
+    def highest(**clauses):
+        shapes = {place.spec for place in laid_out(profile=profile_of(**clauses), fittings=fittings).of_kind(kind)}
+        return max((part.points[:, 1].max() for shape in shapes for part in shape.asset().parts), default=None)
+
+    assert highest() == highest(**{clause: 0.2}) == pytest.approx(usual)
+    assert highest(**{clause: 0.8 * usual}) == pytest.approx(0.8 * usual)
+    assert highest(**{clause: 0.01}) is None

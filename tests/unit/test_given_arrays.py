@@ -12,6 +12,7 @@ from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.documents import read_arrays
 from garage2usd.errors import ConfigError
+from garage2usd.profiles import read_profile
 from garage2usd.site import make_site
 
 S = np.array([[0, 0, 0, 0], [2, 1, 1, 3], [0, 0, -1, 0]])
@@ -82,7 +83,9 @@ def test_a_file_of_numpy_is_checked_as_its_text(folder):
     (folder / "plan.txt").write_text(DRAWING)
     expected = [finding.rule for finding in check_file(folder / "plan.txt")[0]]
     assert [finding.rule for finding in check_file(folder / "s.npy")[0]] == expected
-    assert "column-spacing" in {finding.rule for finding in check_file(folder / "garage.npz")[0]}
+    grid = {"least": 8.11, "most": 8.5, "unit": "m", "source": "the client", "confidence": "high"}
+    profile = read_profile({"name": "client", "column_spacing": grid})
+    assert "column-spacing" in {finding.rule for finding in check_file(folder / "garage.npz", profile=profile)[0]}
 
 
 @pytest.mark.parametrize(

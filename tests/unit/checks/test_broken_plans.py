@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from support.broken_plans import CLIENTS, DRAWN, SETTINGS_BROKEN, M
+from support.broken_plans import CLIENTS, DRAWN, LONG_AISLE, SETTINGS_BROKEN, M
 from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -169,10 +169,13 @@ def test_a_long_dead_end_needs_a_turning_stall_and_is_too_deep_with_one(kept_fre
     assert found_in(settings, profile_without("dead_end_depth")) - FOUND_IN_GOOD_ONE == rules
 
 
-@pytest.mark.parametrize("name", ["a dead end with branches that are short", "a long aisle without a junction"])
-def test_circulation_is_measured_in_metres(name):
+@pytest.mark.parametrize(
+    ("rule", "drawing"),
+    [DRAWN["a dead end with branches that are short"], ("stretch-length", LONG_AISLE)],
+    ids=["a dead end with branches", "a long aisle without a junction"],
+)
+def test_circulation_is_measured_in_metres(rule, drawing):
     """The same squares as short as a stall break no rule of lengths."""
-    rule, drawing = DRAWN[name]
     cells = cells_from_text(drawing, field="S")
     bay = {"row_depths_m": 6.8, "column_widths_m": 6.8}
     settings = settings_with(site={"structure": drawing}, bay=bay, parking={"occupied_stalls": []})
@@ -190,7 +193,7 @@ def test_a_stage_and_its_report_say_the_same_of_circulation(form, tmp_path):
         site={"structure": drawing}, parking={"occupied_stalls": []}, stage={"form": form}, plan={"dead_ends": "allow"}
     )
     made = build(GarageConfig(**settings), tmp_path / "g.usda")
-    profile = profile_without(loops={"steps": [[10, 0]], "above": 1}, stretch_length={"value": 10})
+    profile = profile_without(loops={"steps": [[10, 0]], "above": 1}, stretch_length={"value": 10, **M})
     found = [
         [finding for finding in check_file(path, profile=profile)[0] if finding.rule in CIRCULATION]
         for path in (made.stage, made.report)
@@ -246,13 +249,15 @@ def test_the_same_plan_in_every_form_is_judged_alike(tmp_path):
         "numbers.json": json.dumps([[".=EX".index(symbol) for symbol in row] for row in rows]),
         "plan.toml": f'[site]\nstructure = """{PLAN}"""\n[bay]\ncolumn_widths_m = 8.1\nrow_depths_m = 8.1\n',
     }
+    grid = profile_with(column_spacing={"least": 8.2, "most": 8.3})
     for name, text in forms.items():
         (tmp_path / name).write_text(text)
         findings, _ = check_file(tmp_path / name)
         assert [f.rule for f in findings if f.severity is not Severity.INFO] == sorted(FOUND_IN_GOOD_ONE), name
-        # three cars between columns need 7.8 m, 8.1 m are asked for; who gives no sizes gets the former
+        # who gives sizes keeps them, who gives none gets the grid that is asked for
         is_sized = name in {"matrices.json", "plan.toml"}
-        assert any(f.rule == "column-spacing" for f in findings) is not is_sized
+        findings, _ = check_file(tmp_path / name, profile=grid)
+        assert any(f.rule == "column-spacing" for f in findings) is is_sized
 
 
 @pytest.mark.parametrize(

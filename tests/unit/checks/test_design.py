@@ -147,3 +147,53 @@ def test_a_bad_profile_is_named(profile, said, tmp_path):
     if not isinstance(profile, dict):
         with pytest.raises(ConfigError):
             load_config(tmp_path / "g.toml")
+
+
+def clause(value, unit="m"):
+    return {"value": value, "unit": unit, "source": "the client", "confidence": "high"}
+
+
+@pytest.mark.parametrize(
+    ("clauses", "section", "expected"),
+    [
+        ({"end_clearance": clause(0.8)}, "bay", {"stall_length_m": 5.6}),
+        ({"stall_length": clause(4.5)}, "bay", {"stall_length_m": 4.8}),
+        ({"design_car_length": clause(5.4), "end_clearance": clause(0.3)}, "bay", {"stall_length_m": 5.7}),
+        ({"design_car_width": clause(2.0)}, "bay", {"stall_width_m": 2.6}),
+        ({"column_clearance": clause(0.45)}, "bay", {"wall_gap_m": 0.45}),
+        ({"wall_clearance": clause(0.7)}, "bay", {"wall_gap_m": 0.4}),
+        ({"dead_end_depth": clause(10)}, "plan", {"dead_end_cells": 1}),
+        ({"stretch_length": clause(61)}, "plan", {"longest_stretch_cells": 7}),
+        ({"portal_distance": clause(25)}, "site", {"min_portal_distance_cells": 6}),
+        ({"portal_distance": clause(90)}, "site", {"min_portal_distance_cells": 7}),
+        ({"ramp_transition_slope": clause(10, "%")}, "fittings", {}),
+        ({"ramp_transition_length": clause(4.5)}, "fittings", {"ramp_transition_m": 4.5}),
+        ({"ramp_slope": clause(2, "%")}, "fittings", {"ramp_slope_percent": 5}),
+        ({"clear_height": clause(7)}, "fittings", {"clear_height_m": 6, "ceiling_height_m": 7.15}),
+        ({"portal_width": clause(9)}, "bay", {"portal_width_m": 5.8}),
+    ],
+)
+def test_each_clause_has_its_setting(clauses, section, expected):
+    model = getattr(GarageConfig(profile={"name": "client", **clauses}), section)
+    assert {
+        name: getattr(model, name) for name in model.model_fields_set - {"square_side_m", "dimensioned"}
+    } == expected
+
+
+@pytest.mark.parametrize(
+    ("least", "most", "side_m"),
+    [(8.1, 8.5, 8.1), (8.25, 8.3, 8.25), (6.8, 7.2, 6.8), (5.3, 8.5, None), (5.4, 6.0, None)],
+)
+def test_columns_on_a_grid_stand_on_one(least, most, side_m):
+    """A uniform one, unless lines that just fit keep it anyway, or aisles do not find room."""
+    spacing = {"least": least, "most": most, "unit": "m", "source": "the client", "confidence": "high"}
+    bay = GarageConfig(profile={"name": "client", "column_spacing": spacing}).bay
+    assert (None if bay.dimensioned else bay.square_side_m) == side_m
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
+def test_default_garages_get_no_remark_of_their_own_checker(profile, seed):
+    config = GarageConfig(seed=seed, profile=profile, plan={"episodes": 150, "starts": 1})
+    garage = generate(config)
+    assert check_layout(garage.layout, garage.graph, config) == []
