@@ -77,13 +77,13 @@ def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, m
         yield from sheet.legend(layout)
         yield from sheet.marks()
 
-    title = f"Parking garage of {rows} x {cols} squares with {len(layout.stalls)} stalls"
+    title = f"Parking garage of {rows} x {cols} squares with {layout.parking_stalls} stalls"
     return Drawing(sheet.low, sheet.high, sheet.px_per_m, PAPER, title, list(elements()))
 
 
 def _figures(layout: Layout, found: MeasuredCirculation) -> str:
     """The garage in an architect's figures."""
-    stalls, loops = len(layout.stalls), found.circulation.loops
+    stalls, loops = layout.parking_stalls, found.circulation.loops
     return ", ".join(
         [
             f"{stalls} stalls, {layout.counts()['car']} occupied",

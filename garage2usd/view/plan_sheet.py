@@ -1,6 +1,5 @@
 """What stands around a plan: dimensions, the numbers of rows and columns, the legend, the list of findings."""
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -124,16 +123,13 @@ class Sheet:
             yield Text((x + 1.5 * letters, z), text, letters, INK, is_left=True, kind="legend")
         z = self._places[-1][1] + 2 * letters
         rows, cols = self._structure.shape
-        uses = ", ".join(
-            f"{count} {use.replace('_', ' ')}"
-            for use, count in Counter(stall.use for stall in layout.stalls).most_common()
-        )
-        words = f"{rows} x {cols} squares, {self._width_m:.2f} x {self._depth_m:.2f} m, {len(layout.stalls)} stalls"
+        size = f"{rows} x {cols} squares, {self._width_m:.2f} x {self._depth_m:.2f} m"
+        words = f"{size}, {layout.parking_stalls} stalls ({layout.uses_in_words()})"
         tick = letters / 3
         bar = [(0.0, z - tick), (0.0, z), (_SCALE_BAR_M, z), (_SCALE_BAR_M, z - tick)]
         yield Line(bar, INK, 2 / self.px_per_m, "scale")
         yield Text((_SCALE_BAR_M + letters / 2, z), "10 m", letters, INK, is_left=True, kind="scale")
-        yield Text((_SCALE_BAR_M + 5 * letters, z), f"{words} ({uses})", letters, INK, is_left=True, kind="summary")
+        yield Text((_SCALE_BAR_M + 5 * letters, z), words, letters, INK, is_left=True, kind="summary")
 
     def marks(self) -> Iterator[Disc | Text]:
         """Findings as numbered discs at their places, and the list of them."""

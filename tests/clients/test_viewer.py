@@ -50,7 +50,7 @@ def test_it_counts_the_objects_of_each_class_as_the_layout_does(opened):
     assert "stall_line" in pieces
     assert shown == Counter([*(OBJECT_LABELS[placement.kind] for placement in placements), *pieces])
     assert page.page.inner_text("#object-count") == f"{len(placements) + len(pieces):,} objects"
-    assert f"{len(build.garage.layout.stalls):,} stalls" in page.page.inner_text("#stage-facts")
+    assert f"{build.garage.layout.parking_stalls:,} stalls" in page.page.inner_text("#stage-facts")
 
 
 def test_a_click_on_a_stall_shows_its_class_id_prim_and_stall(opened):

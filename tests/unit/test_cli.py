@@ -48,11 +48,12 @@ def test_build_says_what_it_made(tmp_path, config, extension):
     stalls = report["score"]["stalls"] - sum(len(core["in_place_of"]) for core in report["stair_cores"])
     assert report["seed"] == 4
     assert [part["name"] for part in report["fire_compartments"]] == ["F1"]
-    assert report["fire_compartments"][0]["stalls"] == stalls
+    parking = report["parking_stalls"]
+    assert report["fire_compartments"][0]["stalls"] == parking
     assert report["object_counts"]["stall"] == stalls == len(report["stalls"])
     assert sum(report["stall_uses"].values()) == stalls
     assert report["stall_uses"]["standard"] > stalls / 2
-    assert f"stalls  {stalls} ({report['stall_uses']['standard']} standard, " in result.output
+    assert f"stalls  {parking} ({report['stall_uses']['standard']} standard, " in result.output
     assert "every stall, from an entrance and to an exit" in result.output
     assert f"{report['score']['value']:.2f} (N_S {report['score']['stalls']}, " in result.output
     assert f"{len(report['stair_cores'])} in the place of {report['score']['stalls'] - stalls} stalls" in result.output
@@ -311,3 +312,19 @@ main(sys.argv[1:])
     assert "File too large" in error
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("lane", "stall", "decides"), [(200, 1, "lane"), (1, 200, "stall")], ids=["the lanes", "the stalls"]
+)
+def test_build_says_which_illuminance_decides(tmp_path, config, lane, stall, decides):
+    settings = f"{QUICK}[fittings]\nlane_lux = {lane}\nstall_lux = {stall}\n[stage]\ntexture_quality = 'low'\n"
+    result = run("build", config(settings), "-o", tmp_path / "g.usda")
+    light = json.loads((tmp_path / "g_report.json").read_text())["illuminance"]
+    (told,) = (line for line in result.output.splitlines() if line.split()[0] == "light")
+    parts = {
+        name: f"{name}s {light[f'{name}s']['mean']:.0f} lx ({name}_lux asks for {wanted}"
+        f"{', which decides' if name == decides else ''})"
+        for name, wanted in (("lane", lane), ("stall", stall))
+    }
+    assert told.split("light  ")[1] == ", ".join(parts.values())

@@ -178,6 +178,7 @@ def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
         "edges": buffers.add(np.array([(edge.start, edge.end) for edge in lanes.edges], np.uint32)),
         "forward": [edge.one_way for edge in lanes.edges],
         "stalls": [_stall(stall) for stall in lanes.stalls],
+        "parkingStalls": sum(stall.takes_cars for stall in lanes.stalls),
     }
 
 

@@ -74,7 +74,7 @@ def test_stages_of_a_shard_are_those_of_a_build_and_have_no_errors(made, tmp_pat
         config, _ = recipe.drawn(drawn.seed)
         built = build(config, tmp_path / "a" / f"{row.number}" / "garage.usdc")
         assert built.garage.plan.structure.digest() == row.structure_digest
-        assert len(built.garage.layout.stalls) == row.stalls
+        assert built.garage.layout.parking_stalls == row.stalls
         stage = folder / "shards" / f"{row.key}.usdc"
         found, _ = check_file(stage)
         expected, _ = check_file(built.stage)

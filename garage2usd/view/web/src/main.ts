@@ -231,7 +231,7 @@ class Viewer {
     const { header } = scene;
     document.title = `${header.name} - garage2usd`;
     element("stage-name").textContent = header.name;
-    const stalls = scene.lanes?.stalls.length ?? 0;
+    const stalls = header.lanes?.parkingStalls ?? 0;
     const told = [stalls ? `${stalls.toLocaleString("en")} stalls` : "", header.facts["seed"] ? `seed ${header.facts["seed"]}` : ""];
     element("stage-facts").textContent = told.filter(Boolean).join(" · ");
     const classes = (id: string, on: boolean, labels: Iterable<string>) => {

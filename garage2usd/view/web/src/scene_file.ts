@@ -79,7 +79,15 @@ interface Header {
     palette: number;
     matrix: number;
   };
-  lanes: { nodes: number; kinds: string[]; edges: number; forward: boolean[]; stalls: Stall[] } | null;
+  lanes: {
+    nodes: number;
+    kinds: string[];
+    edges: number;
+    forward: boolean[];
+    stalls: Stall[];
+    /** Those that cars park in. */
+    parkingStalls: number;
+  } | null;
   arrays: { at: number; count: number }[];
 }
 
