@@ -14,6 +14,7 @@ from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
 from garage2usd.errors import ConfigError
 from garage2usd.reading.ground import StallOutline
+from garage2usd.spelling import called
 
 __all__ = ["Drive", "DrivePlanner"]
 
@@ -92,7 +93,7 @@ class DrivePlanner:
         self._outlines = {stall.name: stall for stall in subject.parking_stalls}
         self._taken = {stall.name for stall in subject.taken_stalls}
         self._driven = {stall.name: stall for stall in self.road.garage.stalls}
-        self._others = {stall.name for stall in subject.stalls} - set(self._outlines)
+        self._others = {stall.name: _names(stall) for stall in subject.stalls if stall.name not in self._outlines}
 
     def drive(
         self,
@@ -107,8 +108,9 @@ class DrivePlanner:
         Parameters
         ----------
         stall
-            Its name, or the number painted in it where it has one; left out, the first in the garage's order that is
-            free and that a drive is found for, or where there is none the first that a drive is found for.
+            Its name, or the number painted in it where it has one, in letters of whatever case; left out, the first in
+            the garage's order that is free and that a drive is found for, or where there is none the first that a drive
+            is found for.
         entrance, exit
             From 1 on in the order of the squares, by rows; left out, those with the shortest way.
         leg
@@ -141,10 +143,10 @@ class DrivePlanner:
         return timed(path, self._settings, car=self._car, ramps=self.road.ramps, parked_after=parked_after)
 
     def _stall(self, asked: str) -> DrivenStall:
-        names = [name for name, outline in self._outlines.items() if asked in {name, _number(outline)}]
+        names = called(asked, {name: _names(outline) for name, outline in self._outlines.items()})
         if len(names) == 1:
             return self._driven[names[0]]
-        if asked in self._others:
+        if called(asked, self._others):
             raise ConfigError("stall", asked, "a stall that takes a car, which this one does not")
         known = ", ".join([*self._outlines][:_NAMED]) + (", ..." if len(self._outlines) > _NAMED else "")
         raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")
@@ -162,9 +164,9 @@ class DrivePlanner:
         return (portals[number - 1],)
 
 
-def _number(stall: StallOutline) -> str | None:
-    """What is painted in a stall."""
-    return None if stall.number is None else str(stall.number)
+def _names(stall: StallOutline) -> list[str]:
+    """The name of a stall, and what is painted in it."""
+    return [stall.name] if stall.number is None else [stall.name, str(stall.number)]
 
 
 def _lack(proof: StallProof) -> str:

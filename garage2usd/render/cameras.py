@@ -14,6 +14,7 @@ from garage2usd.reading.values import metres_per_unit
 from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.lenses import Fisheye, Pinhole
 from garage2usd.sensors.lenses import Lens as SensorLens
+from garage2usd.spelling import called
 
 __all__ = ["Lens", "View", "find_views"]
 
@@ -139,7 +140,8 @@ def find_views(
     stage
         The stage.
     cameras
-        Names or paths of cameras, in the order of the pictures; all of the stage's if empty.
+        Names or paths of cameras, in letters of whatever case, in the order of the pictures; all of the stage's if
+        empty.
     frames
         Frames of the cameras that move, as usdrecord has them: ``0``, ``0:96``, ``0:960x24``, several with commas; from
         first to last every 48th if left out.
@@ -156,7 +158,7 @@ def find_views(
         for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate))
         if prim.IsA(UsdGeom.Camera)
     }
-    chosen = [path for name in cameras for path in _named(name, found)] if cameras else list(found)
+    chosen = list(dict.fromkeys(path for name in cameras for path in _named(name, found))) if cameras else list(found)
     if not chosen:
         raise ConfigError("camera", stage.GetRootLayer().realPath, "a stage with cameras")
     times = _times(stage, frames)
@@ -169,7 +171,7 @@ def find_views(
 
 
 def _named(name: str, found: dict[str, UsdGeom.Camera]) -> list[str]:
-    matching = [path for path in found if name in {path, path.rpartition("/")[2]}]
+    matching = called(name, {path: (path, path.rpartition("/")[2]) for path in found})
     if not matching:
         raise ConfigError("camera", name, ", ".join(found) or "a stage with cameras")
     return matching

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
+from garage2usd.spelling import called
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
 __all__ = ["Route", "find_stall", "route_of"]
@@ -20,16 +21,16 @@ class Route:
 
 
 def find_stall(layout: Layout, number: str) -> Stall:
-    """The stall of a number (``B2-07``) or an id (``Stall_r03_c07_2``).
+    """The stall of a number (``B2-07``) or an id (``Stall_r03_c07_2``), in letters of whatever case.
 
     Raises
     ------
     ConfigError
         If there is no such stall.
     """
-    for stall in layout.stalls:
-        if number in {stall.number, stall.name}:
-            return stall
+    found = called(number, {stall: [name for name in (stall.number, stall.name) if name] for stall in layout.stalls})
+    if len(found) == 1:
+        return found[0]
     some = [stall.number for stall in layout.stalls if stall.number]
     known = f"numbers as {', '.join(some[:_SHOWN_NUMBERS])}" if some else "ids as in the report"
     raise ConfigError("stall", number, known)

@@ -48,6 +48,20 @@ def test_a_stage_and_its_report_have_the_same_trajectory(made, tmp_path):
         assert texts[1][name] == pytest.approx(values, abs=2e-4), name
 
 
+def test_a_stall_is_found_by_name_and_number_in_letters_of_another_case(made, tmp_path):
+    number = next(stall["number"] for stall in json.loads(made.report.read_text())["stalls"] if stall["name"] == STALL)
+    asked = {STALL, STALL.upper(), number, number.lower()}
+    assert len(asked) == 4
+    said = []
+    for way, name in enumerate(sorted(asked)):
+        result = driven(made.stage, "--stall", name, "--leg", "in", "-o", str(tmp_path / f"{way}.json"))
+        assert result.exit_code == 0, result.output
+        said.append((tmp_path / f"{way}.json").read_text())
+    assert len(set(said)) == 1
+    result = driven(made.stage, "--stall", f"{number.lower()}x")
+    assert (result.exit_code, "one of the garage's" in result.output) == (1, True)
+
+
 def test_csv_and_json_hold_the_same(made, tmp_path):
     for suffix in ("csv", "json"):
         assert (

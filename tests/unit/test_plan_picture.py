@@ -186,6 +186,7 @@ def test_directions_keep_right_and_portals_are_one_way(garage):
 @pytest.mark.parametrize("number", ["A2-04", "B1-22", "C1-14", "C3-01"])
 def test_the_route_is_the_shortest_over_lanes(garage, number):
     stall = find_stall(garage.layout, number)
+    assert {find_stall(garage.layout, name).name for name in (number.lower(), stall.name.upper())} == {stall.name}
     route = route_of(garage.graph, stall)
     graph = garage.graph.graph
     assert (garage.graph.kind(route.to_stall[0]), garage.graph.kind(route.from_stall[-1])) == (
