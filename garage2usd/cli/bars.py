@@ -1,20 +1,25 @@
-"""Progress on a terminal."""
+"""Progress: bars on a terminal, elsewhere a line every ten seconds."""
 
+import time
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TextIO
 
 import click
 
 from garage2usd.cli.termination import TERMINATION
+from garage2usd.progress import time_in_words
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar
 
 __all__ = ["Bars"]
 
+_EVERY_S = 10.0
+"""Between two lines where there is no terminal; what takes less long says nothing."""
+
 
 class Bars:
-    """One progress bar for each step that reports; on a terminal only.
+    """One progress bar for each step that reports; where there is no terminal, lines that say how far it is.
 
     Parameters
     ----------
@@ -29,6 +34,7 @@ class Bars:
         self._unit = unit
         self._step = ""
         self._bar: ProgressBar[int] | None = None
+        self._begun_s, self._begun_at, self._said_s = 0.0, 0, time.monotonic()
 
     def __enter__(self) -> Self:
         """Start without a bar."""
@@ -44,6 +50,7 @@ class Bars:
         """Show that `done` of `total` units of `step` are finished."""
         TERMINATION.insist()
         if not self._stream.isatty():
+            self._say(step, done, total)
             return
         if step != self._step or self._bar is None:
             self._end()
@@ -57,6 +64,26 @@ class Bars:
             )
             self._bar.__enter__()
         self._bar.update(done - self._bar.pos, 0)
+
+    def announce(self, text: str) -> None:
+        """Print a line, a bar that is there on the line after it."""
+        if self._bar is not None and self._stream.isatty():
+            click.echo("\r\033[K", file=self._stream, nl=False)
+        click.echo(text, file=self._stream)
+
+    def _say(self, step: str, done: int, total: int) -> None:
+        """Print how far a step is, unless something was printed a short time ago."""
+        now_s = time.monotonic()
+        if step != self._step:
+            self._step, self._begun_s, self._begun_at = step, now_s, done
+        if now_s - self._said_s < _EVERY_S:
+            return
+        self._said_s = now_s
+        counted = f"{done} of {total} {self._unit}, " if self._unit else ""
+        made = done - self._begun_at
+        left_s = (total - done) * (now_s - self._begun_s) / made if made > 0 and done < total else None
+        left = "" if left_s is None else f", about {time_in_words(left_s)} left"
+        click.echo(f"{step}: {counted}{100 * done // max(total, 1)} %{left}", file=self._stream)
 
     def _rate(self, item: int | None) -> str | None:
         """How fast it goes, beside the time that is left."""

@@ -17,6 +17,7 @@ from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema
 from garage2usd.limits import ONE_THREAD
 from garage2usd.profiles import PROFILE_NAMES
+from garage2usd.progress import time_in_words
 from garage2usd.stage.baked_meshes import MESH_FILE
 
 QUICK = "[plan]\nepisodes = 200\n"
@@ -208,6 +209,40 @@ def test_a_termination_that_was_swallowed_is_made_up_for(monkeypatch):
         with pytest.raises(SystemExit) as second:
             progress("plan", 2, 3)
     assert first.value.code == second.value.code == 128 + signal.SIGTERM
+
+
+def test_where_there_is_no_terminal_a_line_says_every_ten_seconds_how_far_it_is(monkeypatch):
+    now = [1000.0]
+    monkeypatch.setattr(bars.time, "monotonic", lambda: now[0])
+    stream = io.StringIO()
+    with bars.Bars(stream) as progress:
+        for second in range(46):
+            now[0] = 1000.0 + second
+            progress("render", 2 * second, 100)
+        progress.announce("a picture takes 9.0 s")
+    assert stream.getvalue().splitlines() == [
+        "render: 20 %, about 40 s left",
+        "render: 40 %, about 30 s left",
+        "render: 60 %, about 20 s left",
+        "render: 80 %, about 10 s left",
+        "a picture takes 9.0 s",
+    ]
+
+
+def test_what_takes_less_than_ten_seconds_says_nothing_where_there_is_no_terminal():
+    stream = io.StringIO()
+    with bars.Bars(stream, unit="garages") as progress:
+        for done in range(3):
+            progress("garages", done, 2)
+    assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.04, "0.0 s"), (9.94, "9.9 s"), (9.96, "10 s"), (59.6, "1 min 0 s"), (130.2, "2 min 10 s"), (3900, "1 h 5 min")],
+)
+def test_seconds_in_words(seconds, words):
+    assert time_in_words(seconds) == words
 
 
 def test_a_ctrl_c_that_was_swallowed_is_made_up_for(monkeypatch):
