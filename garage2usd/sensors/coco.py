@@ -13,7 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.reading.labels import Labels
-from garage2usd.sensors.slots import CORNERS, SlotRecord, Visibility
+from garage2usd.sensors.slots import CORNERS, PLACES_PX, SlotRecord, Visibility
 from garage2usd.version import VERSION
 
 __all__ = ["STUFF", "CocoImage", "coco_keypoints", "coco_panoptic", "panoptic_segments"]
@@ -39,7 +39,6 @@ STUFF = frozenset(
 )
 """Classes of which a picture has one segment each; all others have one for each object."""
 
-_PLACES = 3
 _LEAST_AREA_PX = 16.0
 _SLOT, _KEPT_FREE = 1, 2
 _CATEGORIES = [
@@ -207,13 +206,13 @@ def _annotation(record: SlotRecord, ground: shapely.MultiPolygon) -> dict[str, A
     keypoints: list[float] = []
     for (column, row), visibility in zip(record.corners_px.tolist(), record.visibility, strict=True):
         is_there = visibility != Visibility.NOT_IN_PICTURE
-        keypoints += [round(column, _PLACES), round(row, _PLACES), visibility] if is_there else [0, 0, 0]
+        keypoints += [round(column, PLACES_PX), round(row, PLACES_PX), visibility] if is_there else [0, 0, 0]
     return {
         "category_id": _SLOT if slot.use.takes_cars else _KEPT_FREE,
         "iscrowd": 0,
-        "segmentation": [np.round(part, _PLACES).ravel().tolist() for part in record.outline_px],
-        "bbox": [round(value, _PLACES) for value in (left, top, right - left, bottom - top)],
-        "area": round(ground.area, _PLACES),
+        "segmentation": [np.round(part, PLACES_PX).ravel().tolist() for part in record.outline_px],
+        "bbox": [round(value, PLACES_PX) for value in (left, top, right - left, bottom - top)],
+        "area": round(ground.area, PLACES_PX),
         "keypoints": keypoints,
         "num_keypoints": sum(visibility != Visibility.NOT_IN_PICTURE for visibility in record.visibility),
         "attributes": {

@@ -19,10 +19,13 @@ from garage2usd.reading.values import metres_y_up
 from garage2usd.sensors.outline import outline_in_picture, polygons_of
 from garage2usd.stage.lane_curves import GUIDE_LIFT_M
 
-__all__ = ["CORNERS", "Slot", "SlotFrame", "SlotRecord", "SlotType", "Slots", "Visibility", "read_slots"]
+__all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "SlotType", "Slots", "Visibility", "read_slots"]
 
 CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
 """The corners of a slot in their order, left and right as a driver sees them who drives in forwards."""
+
+PLACES_PX = 3
+"""Decimals of corners in all files, to which they are rounded before it is told what their pixel shows."""
 
 _ON_FLOOR_M = 0.02
 """How far over or under the floor a surface still counts as the floor: lines are painted a few millimetres over it."""
@@ -33,6 +36,7 @@ _GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
 _UP_AXES = {UsdGeom.Tokens.y: 1, UsdGeom.Tokens.z: 2}
 
 Points = NDArray[np.float64]
+_Floats = NDArray[np.floating[Any]]
 
 
 class SlotType(StrEnum):
@@ -111,12 +115,21 @@ class SlotFrame:
     seen_m
         The point in the stage's axes that the ray through the middle of each pixel meets first; not finite where it
         meets nothing; shape (rows, columns, 3).
+    shows_floor
+        Whether each pixel shows something of the floor's classes; bool, shape (rows, columns). None where that is not
+        known, and only the height of what is seen tells the floor.
     """
 
     name: str
     size_px: tuple[int, int]
     project: Callable[[Points], Points]
     seen_m: NDArray[np.floating[Any]]
+    shows_floor: NDArray[np.bool_] | None = None
+
+    def floor_heights_m(self, up_axis: int) -> NDArray[np.floating[Any]]:
+        """Height of what each pixel shows, infinite where that is no floor; shape (rows, columns)."""
+        heights = self.seen_m[..., up_axis]
+        return heights if self.shows_floor is None else np.where(self.shows_floor, heights, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,43 +185,35 @@ class Slots:
 
         Notes
         -----
-        A corner is seen where the pixel that holds it shows the floor: a surface not more than 2 cm over or under it.
-        Thus it is hidden by what the middle of that pixel shows, which is never a mixture of two things.
+        A corner is seen where the pixel that holds it shows the floor or its paint: a surface of such a class, not more
+        than 2 cm over or under the floor. Thus it is hidden by what the middle of that pixel shows, which is never a
+        mixture of two things; the foot of a wall and the edge of a wheel stop are no floor.
         """
         if not self.slots:
             return []
         width, height = frame.size_px
+        floor_m = frame.floor_heights_m(self.up_axis)
         corners_m = np.stack([slot.corners_m for slot in self.slots])
-        corners_px = frame.project(corners_m.reshape(-1, 3)).reshape(-1, 4, 2)
-        visibility = self._visibility(frame, corners_px, corners_m[..., self.up_axis])
+        corners_px = np.round(frame.project(corners_m.reshape(-1, 3)), PLACES_PX).reshape(-1, 4, 2)
+        visibility = _visibility(floor_m, corners_px, corners_m[..., self.up_axis])
         picture = shapely.box(0, 0, width, height)
         records = []
         for slot, places, seen in zip(self.slots, corners_px, visibility.tolist(), strict=True):
             outline = outline_in_picture(slot.corners_m, frame.project).intersection(picture)
             parts = [part for part in polygons_of(outline) if part.area > _LEAST_AREA_PX]
-            seen_px = self._seen_pixels(slot, frame, outline) if parts else 0
+            seen_px = self._seen_pixels(slot, frame.seen_m, floor_m, outline) if parts else 0
             if seen_px or Visibility.SEEN in seen:
                 rings = tuple(np.asarray(part.exterior.coords)[:-1] for part in parts)
                 records.append(SlotRecord(slot, places, tuple(seen), rings, seen_px))
         return records
 
-    def _visibility(self, frame: SlotFrame, corners_px: Points, floor_m: Points) -> NDArray[np.int64]:
-        """A `Visibility` for each corner; shape (slots, 4)."""
-        inside = _in_picture(corners_px, frame.size_px)
-        columns, rows = np.where(inside[..., None], np.floor(np.nan_to_num(corners_px)), 0).astype(np.int64).T
-        heights = frame.seen_m[rows.T, columns.T, self.up_axis]
-        on_floor = np.abs(heights - floor_m) <= _ON_FLOOR_M
-        seen = np.where(on_floor, Visibility.SEEN, Visibility.OCCLUDED)
-        return np.where(inside, seen, Visibility.NOT_IN_PICTURE)
-
-    def _seen_pixels(self, slot: Slot, frame: SlotFrame, outline: shapely.Geometry) -> int:
+    def _seen_pixels(self, slot: Slot, seen_m: _Floats, floor_m: _Floats, outline: shapely.Geometry) -> int:
         """How many pixels show the ground of a slot."""
         left, top, right, bottom = outline.bounds
         rows, columns = slice(math.floor(top), math.ceil(bottom)), slice(math.floor(left), math.ceil(right))
-        seen = frame.seen_m[rows, columns].reshape(-1, 3)
-        on_floor = np.abs(seen[:, self.up_axis] - slot.corners_m[0, self.up_axis]) <= _ON_FLOOR_M
+        on_floor = np.abs(floor_m[rows, columns] - slot.corners_m[0, self.up_axis]) <= _ON_FLOOR_M
         ground = shapely.Polygon(slot.corners_m[:, self.ground_axes])
-        return int(shapely.contains_xy(ground, seen[on_floor][:, self.ground_axes]).sum())
+        return int(shapely.contains_xy(ground, seen_m[rows, columns][on_floor][:, self.ground_axes]).sum())
 
 
 def read_slots(stage: Usd.Stage) -> Slots:
@@ -252,7 +257,16 @@ def _slot(stall: StallOutline, access: LaneNode, turn: Points) -> Slot:
     )
 
 
-def _in_picture(places_px: Points, size_px: tuple[int, int]) -> NDArray[np.bool_]:
+def _visibility(floor_m: _Floats, corners_px: Points, heights_m: Points) -> NDArray[np.int64]:
+    """A `Visibility` for each corner of slots, shape (slots, 4), by the floor's height that each pixel shows."""
+    inside = _in_picture(corners_px, floor_m.shape[::-1])
+    columns, rows = np.where(inside[..., None], np.floor(np.nan_to_num(corners_px)), 0).astype(np.int64).T
+    on_floor = np.abs(floor_m[rows.T, columns.T] - heights_m) <= _ON_FLOOR_M
+    seen = np.where(on_floor, Visibility.SEEN, Visibility.OCCLUDED)
+    return np.where(inside, seen, Visibility.NOT_IN_PICTURE)
+
+
+def _in_picture(places_px: Points, size_px: tuple[int, ...]) -> NDArray[np.bool_]:
     """Whether each of some places, shape (..., 2), lies in a pixel of a picture; NaN does not."""
     inside: NDArray[np.bool_] = ((places_px >= 0) & (places_px < np.array(size_px))).all(axis=-1)
     return inside

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.sensors.slots import CORNERS, SlotRecord, Slots
+from garage2usd.sensors.slots import CORNERS, PLACES_PX, SlotRecord, Slots
 from garage2usd.version import VERSION
 
 __all__ = ["slots_document"]
 
-_PLACES_M, _PLACES_PX = 6, 3
+_PLACES_M = 6
 _CONVENTIONS = {
     "corners": f"{', '.join(CORNERS)}: left and right as a driver sees them who drives in forwards; the first two are "
     "the entry line",
@@ -19,7 +19,7 @@ _CONVENTIONS = {
     "angle_deg": "from the entry line, left to right, to the left side",
     "corners_px": "(column, row); pixel (column, row) covers [column, column + 1); null for what the lens does not see",
     "visibility": "of each corner: 0 is not in the picture, 1 is in it and hidden, 2 is seen: the pixel that holds it "
-    "shows the floor",
+    "shows the floor or its paint",
     "outline_px": "polygons of the whole ground in the picture, hidden or not",
     "seen_px": "pixels that show the ground",
     "frames": "a frame lists the slots of which it shows a corner or a pixel of their ground",
@@ -56,10 +56,10 @@ def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, 
                     {
                         "name": record.slot.name,
                         "corners_px": [
-                            place if None not in place else None for place in rounded(record.corners_px, _PLACES_PX)
+                            place if None not in place else None for place in rounded(record.corners_px, PLACES_PX)
                         ],
                         "visibility": list(record.visibility),
-                        "outline_px": [rounded(part, _PLACES_PX) for part in record.outline_px],
+                        "outline_px": [rounded(part, PLACES_PX) for part in record.outline_px],
                         "seen_px": record.seen_px,
                     }
                     for record in records

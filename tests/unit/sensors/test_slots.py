@@ -1,5 +1,7 @@
 """Slots in frames: against the attributes of the stalls' prims and against rays, both without garage2usd."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -115,6 +117,24 @@ def test_visibility_agrees_with_rays_to_the_corners(stage, rays, stalls, shots):
     assert compared > LEAST_CORNERS
     assert strays <= MOST_STRAYS * compared
     assert 0.1 < hidden / compared < 0.9
+
+
+def test_what_is_level_with_the_floor_and_of_another_class_hides_it(stage, shots):
+    slots, changed = read_slots(stage), 0
+    for shot in shots:
+        nothing = np.zeros(shot.frame.seen_m.shape[:2], dtype=bool)
+        assert slots.seen_in(replace(shot.frame, shows_floor=nothing)) == []
+        left = nothing.copy()
+        left[:, : SIZE[0] // 2] = True
+        told = {record.slot.name: record for record in slots.seen_in(shot.frame)}
+        for record in slots.seen_in(replace(shot.frame, shows_floor=left)):
+            whole = told[record.slot.name]
+            is_right = record.corners_px[:, 0] >= SIZE[0] // 2
+            expected = np.where(is_right, np.minimum(whole.visibility, 1), whole.visibility)
+            assert record.visibility == tuple(expected.tolist())
+            assert record.seen_px <= whole.seen_px
+            changed += record.visibility != whole.visibility
+    assert changed > 5
 
 
 def test_the_ground_of_a_slot_is_its_pixels(stage, stalls, shots):
