@@ -32,7 +32,7 @@ _BROUGHT = {
 _PYTHON_OF_BLENDER = (3, 11)
 
 
-def require(purpose: str, modules: Iterable[str]) -> None:
+def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
     """Find out whether modules of extras are installed, without loading them.
 
     Parameters
@@ -41,6 +41,8 @@ def require(purpose: str, modules: Iterable[str]) -> None:
         What needs them; begins the sentence that says so.
     modules
         The modules, as they are imported.
+    without
+        What goes without them, in words; told with what is missing of Blender.
 
     Raises
     ------
@@ -49,7 +51,7 @@ def require(purpose: str, modules: Iterable[str]) -> None:
     """
     missing = [module for module in modules if find_spec(module) is None]
     if missing:
-        raise _missing(purpose, missing)
+        raise _missing(purpose, missing, without)
 
 
 @contextmanager
@@ -70,7 +72,7 @@ def of_extra(purpose: str) -> Iterator[None]:
         raise _missing(purpose, [module]) from error
 
 
-def _missing(purpose: str, modules: list[str]) -> MissingExtraError:
+def _missing(purpose: str, modules: list[str], without: str = "") -> MissingExtraError:
     extras = sorted({_BROUGHT[module][0] for module in modules})
     *others, last = (_BROUGHT[module][1] for module in modules)
     brings = f"{', '.join(others)} and {last}" if others else last
@@ -78,4 +80,6 @@ def _missing(purpose: str, modules: list[str]) -> MissingExtraError:
     if "bpy" in modules and here != _PYTHON_OF_BLENDER:
         needed, found = (".".join(map(str, version)) for version in (_PYTHON_OF_BLENDER, here))
         brings = f"Python {needed} instead of {found}, and in it {brings}"
+    if without and set(BLENDER).intersection(modules):
+        brings = f"{brings} ({without})"
     return MissingExtraError(purpose, ",".join(extras), brings)

@@ -1,7 +1,7 @@
 """A garage that is checked, as plain geometry that a car drives through from portal to portal."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, R
 from garage2usd.reading.ground import LaneNode, Point
 from garage2usd.structure.lane_graph import LaneKind
 
-__all__ = ["Mouth", "driven_road", "portal_mouths"]
+__all__ = ["Mouth", "driven_road", "floors_of_ramps", "portal_mouths"]
 
 _GATE, _RAMP = "barrier", "ramp"
 _ARM_FROM_M = 0.5
@@ -83,7 +83,7 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
     """
     car = car or DesignCar()
     garage = driven_garage(subject, height_m=height_m)
-    floors = _ramp_floors(subject)
+    floors = floors_of_ramps(subject.things)
     opened = [thing.name for thing in subject.things if thing.label in {_GATE, _RAMP}]
     gates = ((solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
     sides = (
@@ -98,7 +98,7 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
 
 def portal_mouths(subject: Subject) -> tuple[Mouth, ...]:
     """Where each portal of a garage opens to the outside, in the order of the nodes."""
-    return tuple(_mouths(subject, _ramp_floors(subject)))
+    return tuple(_mouths(subject, floors_of_ramps(subject.things)))
 
 
 def _mouths(subject: Subject, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
@@ -179,8 +179,9 @@ def _is_behind(ramp: RampFloor, middle: Point, outwards: Point, edge_m: float) -
     return in_line > 0.99 and aside < ramp.half_width_m / 2 and abs(along - edge_m) < _RAMP_REACH_M  # noqa: PLR2004
 
 
-def _ramp_floors(subject: Subject) -> tuple[RampFloor, ...]:
-    floors = (_floor(thing) for thing in subject.things if thing.label == _RAMP)
+def floors_of_ramps(things: Iterable[Thing]) -> tuple[RampFloor, ...]:
+    """The floors of the ramps among some objects."""
+    floors = (_floor(thing) for thing in things if thing.label == _RAMP)
     return tuple(floor for floor in floors if floor is not None)
 
 

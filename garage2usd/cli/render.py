@@ -1,6 +1,5 @@
 """``garage2usd render``."""
 
-import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,57 +8,22 @@ import click
 from click.shell_completion import CompletionItem
 
 from garage2usd.cli.bars import Bars
+from garage2usd.cli.option_values import Place, Several, Size
 from garage2usd.cli.parameters import INPUT_FILE, echo_table
 from garage2usd.errors import ConfigError
 
 if TYPE_CHECKING:
-    from garage2usd.render import Picture, SlotFormat
+    from collections.abc import Mapping
+
+    from garage2usd.render import Device, Picture, SlotFormat
     from garage2usd.sensors.birds_eye import BirdsEye
 
 __all__ = ["render"]
 
-_SIZE = re.compile(r"(\d{1,5})x(\d{1,5})")
 _PICTURES = ("colour", "depth", "normals", "instance", "semantic", "semantic_preview")
 _POINTS = ("pcd", "bin", "npz")
 _SEQUENCES = ("nuscenes", "ros2")
 _SLOT_FORMATS = ("json", "coco", "panoptic", "dmpr-ps")
-
-
-class _Size(click.ParamType[tuple[int, int]]):
-    """Width and height in pixels, as ``1280x720``."""
-
-    name = "WIDTHxHEIGHT"
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """Read the two numbers."""
-        if isinstance(value, tuple):
-            return value
-        found = _SIZE.fullmatch(str(value))
-        if found is None:
-            self.fail(f"{value!r} is not a size such as 1280x720", param, ctx)
-        return int(found[1]), int(found[2])
-
-
-class _Several(click.ParamType[tuple[str, ...]]):
-    """Some of several words, with commas."""
-
-    def __init__(self, name: str, words: tuple[str, ...]) -> None:
-        self.name, self._words = name, words
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
-        """Split at commas."""
-        if isinstance(value, tuple):
-            return value
-        kinds = tuple(part.strip() for part in str(value).split(","))
-        unknown = [kind for kind in kinds if kind not in self._words]
-        if unknown:
-            self.fail(f"{unknown[0]!r} is not one of {', '.join(self._words)}", param, ctx)
-        return kinds
-
-    def shell_complete(self, _ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """The kinds that the last word may become."""
-        begun, comma, last = incomplete.rpartition(",")
-        return [CompletionItem(f"{begun}{comma}{kind}") for kind in self._words if kind.startswith(last)]
 
 
 def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
@@ -80,7 +44,9 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     metavar="FRAMES",
     help="Frames of cameras that move: 0, 0:96, 0:960x24, several with commas.  [default: every 48th]",
 )
-@click.option("--size", type=_Size(), help="Width and height in pixels of a stage's cameras.  [default: 1280x720]")
+@click.option("--at", "at_m", type=Place(), help="A camera of its own at this place of the stage, in metres.")
+@click.option("--look-at", "look_at_m", type=Place(), help="With --at: the place in the middle of its picture.")
+@click.option("--size", type=Size(), help="Width and height in pixels of a stage's cameras.  [default: 1280x720]")
 @click.option(
     "--samples",
     metavar="N",
@@ -98,15 +64,21 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     help="Seed of the samples, not of the garage.",
 )
 @click.option(
+    "--device",
+    type=click.Choice(["auto", "cpu", "gpu"]),
+    default="auto",
+    show_default=True,
+    help="What draws the colour: auto takes a GPU where Blender finds one.",
+)
+@click.option(
     "--only",
     "pictures",
-    type=_Several("KIND,...", _PICTURES),
-    default=_PICTURES,
+    type=Several("KIND,...", _PICTURES),
     help=f"Some of {', '.join(_PICTURES)}.  [default: all]",
 )
 @click.option(
     "--slots",
-    type=_Several("FORMAT,...", _SLOT_FORMATS),
+    type=Several("FORMAT,...", _SLOT_FORMATS),
     help=f"Tell the slots of each frame: slots.json, and some of {', '.join(_SLOT_FORMATS[1:])}.",
 )
 @click.option(
@@ -119,7 +91,7 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--along",
     metavar="ENTRANCE:STALL|CAMERA",
     help="With --rig: the proven way from an entrance (1, 2 ...; left out, the nearest) to a stall, as 1:A1-08, or a "
-    "camera that moves.",
+    "camera that moves. A rig in the world needs none.",
 )
 @click.option(
     "--every-m", metavar="M", type=click.FloatRange(0.01), help="With --rig: metres between two places.  [default: 1]"
@@ -132,12 +104,13 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
 )
 @click.option(
     "--points",
-    type=_Several("FORMAT,...", _POINTS),
-    help=f"With --rig: what the points of LiDARs are written as, some of {', '.join(_POINTS)}.  [default: all]",
+    type=Several("FORMAT,...", _POINTS),
+    help=f"With --rig: what the points of LiDARs are written as, some of {', '.join(_POINTS)}; without --only the "
+    "LiDARs alone record, and Blender is not needed.  [default: all, beside pictures]",
 )
 @click.option(
     "--also",
-    type=_Several("KIND,...", _SEQUENCES),
+    type=Several("KIND,...", _SEQUENCES),
     help="With --rig: what the whole is written as too: nuscenes for its tables, ros2 for a bag.",
 )
 @click.option(
@@ -161,10 +134,13 @@ def render(
     stage: Path,
     cameras: tuple[str, ...],
     frames: str | None,
+    at_m: tuple[float, float, float] | None,
+    look_at_m: tuple[float, float, float] | None,
     size: tuple[int, int] | None,
     samples: int,
     seed: int,
-    pictures: tuple[str, ...],
+    device: str,
+    pictures: tuple[str, ...] | None,
     slots: tuple[str, ...] | None,
     rig: str | None,
     along: str | None,
@@ -182,34 +158,38 @@ def render(
     stood and what can be seen.
 
     With --rig it is what the sensors of a car see on its way, or one on a column; needs the extra `sensors` too,
-    and no Blender for LiDARs alone. The car itself is left out, and so is what is parked where it goes. Pictures that
-    are finished when it is interrupted stand in FOLDER.unfinished, and the same command goes on from there.
+    and no Blender for LiDARs alone, as with --points and without --only. The car itself is left out, and so is
+    what is parked where it goes. Pictures that are finished when it is interrupted stand in FOLDER.unfinished, and
+    the same command goes on from there.
 
     \b
     Examples:
       garage2usd render garage.usdz --camera Inside --samples 32
       garage2usd render garage.usdz --camera Drive --frames 0:480x24 --only colour,depth -o drive
       garage2usd render garage.usdz --camera Drive --slots coco
+      garage2usd render garage.usdz --at 12,1.6,8 --look-at 30,1,8 --size 640x360
       garage2usd render garage.usdz --rig lidar.toml --along 1:A1-08 --points npz --also nuscenes -o drive
       garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --scale 0.5 -o drive
       garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --birds-eye 0.02 --slots coco,dmpr-ps -o drive
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.render import Picture, SlotFormat, render_stage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.render import Device, Picture, SlotFormat, render_stage  # noqa: PLC0415 - keeps --help instant
     from garage2usd.sensors.birds_eye import BirdsEye  # noqa: PLC0415
 
-    kinds = [Picture(kind) for kind in pictures]
+    kinds = [Picture(kind) for kind in pictures or _PICTURES]
     told = None if slots is None else [SlotFormat(each) for each in slots]
     if rig is not None:
-        _refuse({"camera": cameras or None, "frames": frames, "size": size}, "without --rig, which has its own")
+        own = {"camera": cameras or None, "frames": frames, "at": at_m, "look-at": look_at_m, "size": size}
+        _refuse(own, "without --rig, which has its own")
         if along is None:
-            raise ConfigError(
-                "along", None, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves, with --rig"
-            )
+            _refuse({"every-m": every_m}, "only with --along")
         if birds_eye is None:
             _refuse({"without-cars": without_cars}, "only with --birds-eye")
         above = None if birds_eye is None else BirdsEye(metres_per_px=birds_eye, cars=not without_cars)
+        has_pictures = points is None or any(each is not None for each in (pictures, slots, above))
+        asked = kinds if has_pictures else []
         formats, too, places = points or _POINTS, also or (), every_m or 1.0
-        _record(stage, rig, along, places, scale or 1.0, samples, seed, kinds, told, above, formats, too, output)
+        scaled, drawn_on = scale or 1.0, Device(device)
+        _record(stage, rig, along, places, scaled, samples, seed, drawn_on, asked, told, above, formats, too, output)
         return
     with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
     _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
@@ -219,12 +199,16 @@ def render(
             output,
             cameras=cameras,
             frames=frames,
+            at_m=at_m,
+            look_at_m=look_at_m,
             size_px=size or (1280, 720),
             samples=samples,
             seed=seed,
             slots=told,
             pictures=kinds,
+            device=Device(device),
             progress=progress,
+            announce=progress.announce,
         )
     names = made.names
     drawn = f"{len(names)} ({names[0]} to {names[-1]})" if len(names) > 1 else names[0]
@@ -232,7 +216,7 @@ def render(
     echo_table([("frames", drawn), ("pictures", listed), ("folder", folder), ("table", str(made.frames))])
 
 
-def _refuse(options: "dict[str, object]", allowed: str) -> None:
+def _refuse(options: "Mapping[str, object]", allowed: str) -> None:
     for option, value in options.items():
         if value is not None:
             raise ConfigError(option, value, allowed)
@@ -241,11 +225,12 @@ def _refuse(options: "dict[str, object]", allowed: str) -> None:
 def _record(
     stage: Path,
     rig: str,
-    along: str,
+    along: str | None,
     every_m: float,
     scale: float,
     samples: int,
     seed: int,
+    device: "Device",
     pictures: "list[Picture]",
     slots: "list[SlotFormat] | None",
     birds_eye: "BirdsEye | None",
@@ -266,12 +251,14 @@ def _record(
             scale=scale,
             samples=samples,
             seed=seed,
+            device=device,
             pictures=pictures,
             slots=slots,
             birds_eye=birds_eye,
             points=[CloudFormat(kind) for kind in points],
             sequences=[Sequence(kind) for kind in also],
             progress=progress,
+            announce=progress.announce,
         )
     shots = made.recording.shots
     places, sensors = len({shot.pose for shot in shots}), list(dict.fromkeys(shot.sensor.name for shot in shots))

@@ -9,7 +9,7 @@ from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError
 from garage2usd.extras import BLENDER, RAYS, require
 from garage2usd.output import check_writable, publish, unfinished_folder
-from garage2usd.progress import Progress, silent
+from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings.birds_eye import check_birds_eye
@@ -17,9 +17,10 @@ from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
+from garage2usd.render.devices import CPU, Device, find_device
 from garage2usd.render.frames_file import write_frames
-from garage2usd.render.pictures import write_mask
-from garage2usd.render.slot_labels import SlotLabels, check_slots
+from garage2usd.render.pictures import with_needed, write_mask
+from garage2usd.render.slot_labels import NEEDED, SlotLabels, check_slots
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.calibration import write_calibration
 from garage2usd.sensors.ego_mask import body_named, ego_mask
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from garage2usd.recordings.sweeps import Sweeps
     from garage2usd.render.pictures import VisibleInstance
 
-__all__ = ["CloudFormat", "Recorded", "Sequence", "check_recording", "record"]
+__all__ = ["CloudFormat", "Device", "Recorded", "Sequence", "check_recording", "record"]
 
 _LEAST_STEP_M = 0.01
 _CALIBRATION = "calibration"
@@ -60,7 +61,7 @@ def record(
     output: str | Path,
     *,
     rig: str | Path | Rig,
-    along: str,
+    along: str | None = None,
     every_m: float = 1.0,
     scale: float = 1.0,
     samples: int = 64,
@@ -71,7 +72,9 @@ def record(
     points: Collection[CloudFormat] = tuple(CloudFormat),
     sequences: Collection[Sequence] = (),
     settings: DriveConfig | None = None,
+    device: Device = Device.AUTO,
     progress: Progress = silent,
+    announce: Announce = unheard,
 ) -> Recorded:
     """Record a drive through a stage with the sensors of a rig.
 
@@ -87,13 +90,15 @@ def record(
     along
         ``ENTRANCE:STALL``, as ``1:A1-08``: the way that the design car is proven to drive from an entrance, by its
         number from 1 on, to a stall, by its name or the number painted in it; without a number that of the shortest
-        way. The car that is parked in the stall is left out. Or the name of a camera of the stage that moves.
+        way. The car that is parked in the stall is left out. Or the name of a camera of the stage that moves. None for
+        one place without a vehicle, where all sensors of the rig are mounted in the world.
     every_m
         Between two places on the way.
     scale
         Of the sides of the pictures.
-    samples, seed, pictures, slots
-        As `garage2usd.render.render_stage` has them; the seed is that of LiDARs' noise too.
+    samples, seed, pictures, slots, device, announce
+        As `garage2usd.render.render_stage` has them; the seed is that of LiDARs' noise too. Without pictures the
+        cameras of a rig that has LiDARs are left out.
     birds_eye
         Bird's-eye views at each place as well, with masks of free space and of the vehicle; None for none.
     points
@@ -120,13 +125,18 @@ def record(
     """
     path, folder = Path(stage), Path(output)
     chosen = (rig if isinstance(rig, Rig) else read_rig(rig)).scaled(scale)
+    if not pictures and chosen.cameras and chosen.lidars:
+        announce(f"without the cameras of the rig: {', '.join(camera.name for camera in chosen.cameras)}")
+        chosen = chosen.without_cameras()
     if every_m < _LEAST_STEP_M:
         raise ConfigError("every_m", every_m, f"{_LEAST_STEP_M} m or more")
     asked = frozenset(sequences)
     kinds, formats = check_recording(
         chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked
     )
+    check_along(chosen, along, birds_eye)
     check_writable(folder)
+    drawn_on = find_device(device, has_rays=True) if chosen.cameras else CPU
     opened = open_stage(path)
     progress("drive", 0, 1)
     way = Way(opened, path, along, every_m, settings or DriveConfig())
@@ -139,7 +149,8 @@ def record(
         from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - of an extra, which pictures do without
 
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
-    key = scene.key(path, kinds, samples=samples, seed=seed)
+    drawn = with_needed(kinds, () if slots is None and birds_eye is None else NEEDED)
+    key = scene.key(path, drawn, samples=samples, seed=seed, device=drawn_on)
     with unfinished_folder(folder, key) as unfinished:
         finished, work = unfinished / "finished", unfinished / "work"
         work.mkdir(exist_ok=True)
@@ -148,11 +159,13 @@ def record(
         made = [finished / kind for kind in kinds]
         about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about}
         if chosen.cameras:
-            visible = scene.drawing(work, finished, kinds, samples=samples, seed=seed).draw(work, progress)
+            drawing = scene.drawing(work, finished, drawn, samples=samples, seed=seed, device=drawn_on)
+            visible = drawing.draw(work, progress, announce)
             made += _write_calibrations(chosen, finished)
             if scene.birds_eye is not None:
                 made.append(scene.birds_eye.write_masks(finished, body_named(chosen.car)))
         if sweeps is not None and formats:
+            announce(sweeps.described)
             about["sweeps"] = sweeps.write(finished, work, progress)
             made.append(finished / POINTS_FOLDER)
         if sweeps is not None:
@@ -198,7 +211,7 @@ def check_recording(
     """
     kinds = tuple(kind for kind in Picture if kind in pictures) if rig.cameras else ()
     if rig.cameras and not kinds:
-        raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
+        raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}, as the rig has no LiDAR")
     formats = tuple(kind for kind in CloudFormat if kind in points) if rig.lidars else ()
     if rig.lidars and not formats:
         raise ConfigError("points", list(points), f"at least one of {', '.join(CloudFormat)}")
@@ -207,8 +220,27 @@ def check_recording(
     if slots is not None:
         check_slots(slots, kinds, has_birds_eye=birds_eye is not None)
     check_sequences(sequences, rig, kinds, formats)
-    require(f"the rig {rig.name}", _modules_for(rig, sequences))
+    without = "not for LiDARs alone: --points without --only" if rig.lidars else ""
+    require(f"the rig {rig.name}", _modules_for(rig, sequences), without=without)
     return kinds, formats
+
+
+def check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> None:
+    """Find out before the work whether a rig records without a drive.
+
+    Raises
+    ------
+    ConfigError
+        If there is none, and a sensor or a bird's-eye view goes with one.
+    """
+    if along is not None:
+        return
+    moving = next((sensor for sensor in rig.sensors if sensor.mount != "world"), None)
+    if moving is not None:
+        whose = f"for the sensor {moving.name}, which is mounted on the {moving.mount} and not in the world"
+        raise ConfigError("along", None, f"ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves, {whose}")
+    if birds_eye is not None:
+        raise ConfigError("along", None, "a drive, along which bird's-eye views are recorded")
 
 
 def _modules_for(rig: Rig, sequences: Collection[Sequence]) -> Iterator[str]:

@@ -3,11 +3,11 @@
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from PIL import Image
 
 from garage2usd.config.vehicles import DRIVEN_PAINT, CarBody
 from garage2usd.errors import ConfigError
@@ -17,10 +17,14 @@ from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
 from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
 from garage2usd.render.cameras import View
-from garage2usd.render.pictures import classes_of, read_ids, write_mask
+from garage2usd.render.pictures import classes_of, read_depth, read_ids, write_mask
 from garage2usd.sensors.birds_eye import BirdsEye, free_space
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE, VehiclePose
 from garage2usd.sensors.rig import Rig
+from garage2usd.sensors.seen_points import seen_points
+
+if TYPE_CHECKING:
+    from garage2usd.sensors.driven_surface import DrivenSurface
 
 __all__ = ["FREE_FOLDER", "BirdsEyeViews", "check_birds_eye"]
 
@@ -36,12 +40,15 @@ def check_birds_eye(rig: Rig, kinds: Collection[Picture]) -> None:
     ------
     ConfigError
         If the rig has no cameras, beside whose pictures they are drawn, or no picture is that tells free space.
+    MissingExtraError
+        If what casts rays, which tell whether a car finds room, is not installed.
     """
     if not rig.cameras:
         raise ConfigError("birds_eye", rig.name, "bird's-eye views beside the pictures of a rig with cameras")
     if not {Picture.SEMANTIC, Picture.INSTANCE}.intersection(kinds):
         allowed = f"{Picture.SEMANTIC} or {Picture.INSTANCE} among them, from which free space is told"
         raise ConfigError("pictures", ",".join(kinds), allowed)
+    import garage2usd.sensors.driven_surface  # noqa: F401, PLC0415 - raises here, and not when all is drawn
 
 
 class BirdsEyeViews:
@@ -74,8 +81,10 @@ class BirdsEyeViews:
         ground = self._settings.ground_mask(_outlines_m(car))
         write_mask(ground, finished / self._ego_mask)
         names = {number: entry.name for number, entry in self._labels.classes.items()}
+        surface = self._driven_surface()
         for view, pose in zip(self.views, self._way.poses, strict=True):
             free = free_space(self._classes(view, finished), names)
+            free[free] = surface.is_free(self._seen_m(view, finished)[free])
             if not self._settings.cars:
                 free &= ~self._settings.ground_mask(self._cars_m(pose))
             write_mask(free, finished / FREE_FOLDER / f"{view.name}.png")
@@ -96,12 +105,19 @@ class BirdsEyeViews:
 
     def _classes(self, view: View, finished: Path) -> NDArray[np.uint8]:
         """Id of the class that each pixel shows."""
-        semantic = finished / Picture.SEMANTIC / f"{view.name}{Picture.SEMANTIC.extension}"
-        if semantic.is_file():
-            with Image.open(semantic) as picture:
-                return np.array(picture)
         instance = read_ids(finished / Picture.INSTANCE / f"{view.name}{Picture.INSTANCE.extension}")
         return classes_of(instance, self._labels.class_ids)
+
+    def _seen_m(self, view: View, finished: Path) -> NDArray[np.float64]:
+        """The place in the stage that each pixel shows."""
+        depth_m = read_depth(finished / Picture.DEPTH / f"{view.name}{Picture.DEPTH.extension}")
+        return seen_points(view.sensor_lens(), depth_m, np.linalg.inv(view.world_to_camera()))
+
+    def _driven_surface(self) -> "DrivenSurface":
+        """The garage's surface that cars drive on, less what no view shows."""
+        from garage2usd.sensors.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
+
+        return DrivenSurface(self._way.subject, self._labels, without=self._way.absent(self._labels))
 
     def _cars_m(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
         """Grounds of the parked cars around, in the vehicle's frame."""

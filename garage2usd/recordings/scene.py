@@ -15,6 +15,7 @@ from garage2usd.recordings.birds_eye import BirdsEyeViews
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
+from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import Drawing
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.camera import Camera
@@ -57,17 +58,30 @@ class Scene:
     def hidden(self) -> list[list[int]]:
         """For each view the ids that it looks through: the car that carries its camera, and the one in the stall."""
         shots = [
-            [*self._left_out, self._ego_id] if camera.mount == "vehicle" else self._left_out
+            self._left_out if self._sees_vehicle(camera) else [*self._left_out, self._ego_id]
             for camera, _, _ in self.shots
         ]
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
-    def drawing(self, work: Path, finished: Path, kinds: Sequence[Picture], *, samples: int, seed: int) -> Drawing:
+    def _sees_vehicle(self, camera: Camera) -> bool:
+        """Whether the vehicle comes to stand before a camera: one that it does not carry."""
+        return self._way.has_vehicle and camera.mount != "vehicle"
+
+    def drawing(
+        self,
+        work: Path,
+        finished: Path,
+        kinds: Sequence[Picture],
+        *,
+        samples: int,
+        seed: int,
+        device: ComputeDevice,
+    ) -> Drawing:
         """How the views are drawn: the stage with the vehicle in it, which other cameras than its own see."""
         with_car = work / "stage.usdc"
         with_car.unlink(missing_ok=True)
         write_stage_with_car(with_car, self._stage, body_named(self._rig.car))
-        moved = [None if camera.mount == "vehicle" else self._way.car_moved(pose) for camera, _, pose in self.shots]
+        moved = [self._way.car_moved(pose) if self._sees_vehicle(camera) else None for camera, _, pose in self.shots]
         moved += [None] * (len(self.views) - len(moved))
         return Drawing(
             open_stage(with_car),
@@ -80,6 +94,7 @@ class Scene:
             finished,
             frozenset({self._ego_id}),
             moved,
+            device,
         )
 
     def recording(self, path: Path, folder: Path, kinds: Sequence[Picture]) -> Recording:
@@ -120,14 +135,14 @@ class Scene:
             **pose.facts,
             "size_px": list(lens.size_px),
             "lens": lens.parameters(),
-            "vehicle_to_world": pose.vehicle_to_world.tolist(),
+            **self._way.vehicle_facts(pose),
             **placed,
             "hidden_objects": self._way.left_out,
         }
         name = f"{camera.name}_{number:04d}"
         return View(name, camera.name, None, lens, lens.size_px, sensor_to_world @ USD_FROM_OPENCV, facts)
 
-    def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int) -> str:
+    def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int, device: ComputeDevice) -> str:
         """Tells recordings apart whose frames differ."""
         document: dict[str, Any] = {
             "version": VERSION,
@@ -138,6 +153,7 @@ class Scene:
             "kinds": kinds,
             "samples": samples,
             "seed": seed,
+            "device": device.kind,
         }
         return hashlib.sha256(json.dumps(document).encode()).hexdigest()
 

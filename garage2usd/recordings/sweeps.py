@@ -24,7 +24,6 @@ from garage2usd.sensors.poses import VehiclePose
 from garage2usd.sensors.ray_scene import RayScene, read_ray_scene
 from garage2usd.sensors.recording import Shot
 from garage2usd.sensors.rig import Rig
-from garage2usd.stage.driving_car import CAR_NAME
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
 
 __all__ = ["Sweeps"]
@@ -56,12 +55,17 @@ class Sweeps:
         self._way, self._rig = way, rig
         self._formats, self._seed = formats, seed
 
+    @property
+    def described(self) -> str:
+        """What is recorded, in words."""
+        places, lidars = len(self._way.poses), ", ".join(lidar.name for lidar in self._rig.lidars)
+        count = places * len(self._rig.lidars)
+        return f"{count} sweep{'s' if count > 1 else ''} of {lidars}: {', '.join(self._formats)}"
+
     @cached_property
     def solids(self) -> RayScene:
         """What stands in the garage, less the car that is parked where the vehicle parks."""
-        roots = self.stage.GetPseudoRoot().GetChildren()
-        driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
-        return read_ray_scene(self.stage, self.labels, without=[*self.labels.with_plates(self._way.left_out), *driving])
+        return read_ray_scene(self.stage, self.labels, without=self._way.absent(self.labels))
 
     def write(self, finished: Path, work: Path, progress: Progress) -> list[dict[str, Any]]:
         """Cast all rays and write the points.
@@ -83,7 +87,8 @@ class Sweeps:
         shutil.rmtree(finished / POINTS_FOLDER, ignore_errors=True)
         for each in self._rig.lidars:
             (finished / POINTS_FOLDER / each.name).mkdir(parents=True)
-        watched = self._watched(work) if any(lidar.mount != "vehicle" for lidar in self._rig.lidars) else None
+        sees_vehicle = self._way.has_vehicle and any(lidar.mount != "vehicle" for lidar in self._rig.lidars)
+        watched = self._watched(work) if sees_vehicle else None
         sweeps = list(self._sweeps())
         facts = []
         for done, (lidar, number, pose) in enumerate(sweeps):
@@ -142,7 +147,7 @@ class Sweeps:
             "pose": number,
             **pose.facts,
             "files": dict(self._files(lidar, number)),
-            "vehicle_to_world": pose.vehicle_to_world.tolist(),
+            **self._way.vehicle_facts(pose),
             **own,
             "sensor_to_world": to_world.tolist(),
             "hidden_objects": self._way.left_out,

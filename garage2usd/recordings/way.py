@@ -15,11 +15,13 @@ from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.errors import ConfigError
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.reading.ground import StallOutline
+from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.columns import column_to_y_up
 from garage2usd.sensors.mount import Sensor
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, VehiclePose, poses_along, y_up_to_stage
 from garage2usd.stage.cameras import EYE_M, FRAMES_PER_SECOND
+from garage2usd.stage.driving_car import CAR_NAME
 
 __all__ = ["Way"]
 
@@ -33,6 +35,8 @@ class Way:
     ----------
     poses
         The places.
+    has_vehicle
+        Whether there is one; without, one place stands for all of the stage.
     stall
         What it parks in at the end, if it does.
     about
@@ -42,14 +46,20 @@ class Way:
     """
 
     poses: list[VehiclePose]
+    has_vehicle: bool
     stall: StallOutline | None
-    about: Mapping[str, object]
+    about: Mapping[str, object] | None
     to_stage: Matrix
 
-    def __init__(self, stage: Usd.Stage, path: Path, along: str, every_m: float, settings: DriveConfig) -> None:
+    def __init__(self, stage: Usd.Stage, path: Path, along: str | None, every_m: float, settings: DriveConfig) -> None:
         self._stage, self._source = stage, str(path)
         self.to_stage = y_up_to_stage(stage)
         self.stall = None
+        self.has_vehicle = along is not None
+        if along is None:
+            self.poses, self.about = [VehiclePose(0.0, 0.0, self.to_stage @ MAP_TO_Y_UP)], None
+            return
+        self._along = along
         entrance, colon, stall = along.partition(":")
         if colon:
             self._drive_to(stall, entrance, along, every_m, settings)
@@ -100,6 +110,10 @@ class Way:
         fixed: Matrix = self.to_stage @ MAP_TO_Y_UP
         return fixed
 
+    def vehicle_facts(self, pose: VehiclePose) -> dict[str, object]:
+        """Where the vehicle is, if there is one."""
+        return {"vehicle_to_world": pose.vehicle_to_world.tolist()} if self.has_vehicle else {}
+
     def car_moved(self, pose: VehiclePose) -> Matrix:
         """How a car is moved to a place that stands where `garage2usd.stage.ego_car` puts it; in the stage's axes."""
         matrix: Matrix = pose.vehicle_to_world @ self._from_rest
@@ -113,7 +127,7 @@ class Way:
     @cached_property
     def _column(self) -> Matrix:
         if self.stall is None:
-            raise ConfigError("along", self.about["along"], "ENTRANCE:STALL, for sensors on a column, which watch it")
+            raise ConfigError("along", self._along, "ENTRANCE:STALL, for sensors on a column, which watch it")
         matrix: Matrix = self.to_stage @ column_to_y_up(self.subject, self.stall)
         return matrix
 
@@ -123,6 +137,12 @@ class Way:
         if self.stall is None:
             return []
         return [name for name, (_, home) in self.subject.cars.items() if home is not None and home == self.stall]
+
+    def absent(self, labels: Labels) -> list[str]:
+        """Paths of what no sensor meets: what is left out, and a car that drives in the stage."""
+        roots = self._stage.GetPseudoRoot().GetChildren()
+        driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
+        return [*labels.with_plates(self.left_out), *driving]
 
 
 def _below(eye: Matrix) -> Matrix:

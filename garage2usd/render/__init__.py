@@ -9,22 +9,24 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
 from garage2usd.output import check_writable, publish, staging_folder
-from garage2usd.progress import Progress, silent
+from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.values import metres_per_unit
 from garage2usd.render.birds_eye_views import OVERHEAD
 from garage2usd.render.blender_process import check_blender
 from garage2usd.render.cameras import View, find_views
+from garage2usd.render.devices import Device, find_device
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.frames_file import write_frames
-from garage2usd.render.pictures import Picture
-from garage2usd.render.slot_labels import SlotFormat, SlotLabels, check_slots
+from garage2usd.render.free_camera import free_view
+from garage2usd.render.pictures import Picture, with_needed
+from garage2usd.render.slot_labels import NEEDED, SlotFormat, SlotLabels, check_slots
 from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.labels import OBJECT_LABELS
 
-__all__ = ["Picture", "Rendering", "SlotFormat", "render_stage"]
+__all__ = ["Device", "Picture", "Rendering", "SlotFormat", "render_stage"]
 
 _LEAST_SIDE_PX, _GREATEST_SIDE_PX = 16, 8192
 _CEILING = frozenset({OBJECT_LABELS["ceiling"]})
@@ -58,12 +60,16 @@ def render_stage(
     *,
     cameras: Sequence[str] = (),
     frames: str | None = None,
+    at_m: tuple[float, float, float] | None = None,
+    look_at_m: tuple[float, float, float] | None = None,
     size_px: tuple[int, int] = (1280, 720),
     samples: int = 64,
     seed: int = 0,
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
+    device: Device = Device.AUTO,
     progress: Progress = silent,
+    announce: Announce = unheard,
 ) -> Rendering:
     """Draw what the cameras of a stage see, and what it is, pixel by pixel.
 
@@ -75,6 +81,9 @@ def render_stage(
         Folder that the data set goes to; files of the same names are replaced.
     cameras, frames
         As for `garage2usd.render.cameras.find_views`.
+    at_m, look_at_m
+        Where a camera of its own stands and what it looks at, as for `garage2usd.render.free_camera.free_view`; both or
+        none. It stands in place of all of the stage's cameras where none of them is chosen.
     size_px
         Width and height; the width takes the cameras' horizontal aperture.
     samples
@@ -85,14 +94,20 @@ def render_stage(
         What is drawn.
     slots
         Formats in which the slots of each frame are told beside ``slots.json``; None for no slots. They are told from
-        the depth.
+        the depth and the instances.
+    device
+        What draws the colour. Pictures of a GPU are not those of the processor byte by byte; all else always comes from
+        the processor.
     progress
         Called with the number of samples that are done.
+    announce
+        Called with what is drawn, and with how long a picture takes when the first one is drawn.
 
     Raises
     ------
     ConfigError
-        If a camera, a frame or a size cannot be used, or a format of slots cannot be told from what is drawn.
+        If a camera, a place, a frame or a size cannot be used, a format of slots cannot be told from what is drawn, or
+        there is no such device.
     MissingExtraError
         If Blender is not installed.
     OutputError
@@ -111,16 +126,18 @@ def render_stage(
     check_blender()
     check_writable(folder)
     opened = open_stage(path)
-    views = find_views(opened, cameras=cameras, frames=frames, size_px=size_px)
+    views = _views(opened, cameras, frames, at_m, look_at_m, size_px)
     labels = read_labels(opened, path)
     hidden = _hidden(opened, labels, views)
     if slots is not None:
         check_slots(slots, kinds, has_birds_eye=any(isinstance(view.lens, Orthographic) for view in views))
         read_slots(opened)  # raises here, and not when all is drawn, where there are none
+    drawn_on = find_device(device, has_rays=False)
     with staging_folder() as staging:
         finished = staging / "finished"
-        drawing = Drawing(opened, labels, views, hidden, kinds, samples, seed, finished)
-        visible = drawing.draw(staging, progress)
+        drawn = with_needed(kinds, NEEDED if slots is not None else ())
+        drawing = Drawing(opened, labels, views, hidden, drawn, samples, seed, finished, device=drawn_on)
+        visible = drawing.draw(staging, progress, announce)
         classes = [sorted(OVERHEAD) if hide else [] for hide in hidden]
         table = write_frames(
             finished / "frames.json",
@@ -133,6 +150,25 @@ def render_stage(
         told = [] if slots is None else SlotLabels(opened, labels, views, finished).write(slots)
         places = publish([*(finished / kind for kind in kinds), *told, table], folder)
     return Rendering(folder, places[-1], tuple(view.name for view in views), kinds)
+
+
+def _views(
+    stage: Usd.Stage,
+    cameras: Sequence[str],
+    frames: str | None,
+    at_m: tuple[float, float, float] | None,
+    look_at_m: tuple[float, float, float] | None,
+    size_px: tuple[int, int],
+) -> list[View]:
+    """The views of the stage's cameras, and of one that stands free."""
+    if at_m is None and look_at_m is None:
+        return find_views(stage, cameras=cameras, frames=frames, size_px=size_px)
+    if at_m is None:
+        raise ConfigError("at", None, "the place of the camera that looks at look_at")
+    if look_at_m is None:
+        raise ConfigError("look_at", None, "the place that the camera at at looks at")
+    views = find_views(stage, cameras=cameras, frames=frames, size_px=size_px) if cameras else []
+    return [*views, free_view(stage, at_m, look_at_m, size_px, [view.name for view in views])]
 
 
 def _hidden(stage: Usd.Stage, labels: Labels, views: Sequence[View]) -> list[list[int]]:

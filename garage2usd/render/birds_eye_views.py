@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.checks.driven_ground import CAR_HEIGHT_M
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.sensors.birds_eye import BirdsEye
@@ -42,6 +43,7 @@ def birds_eye_view(name: str, settings: BirdsEye, vehicle_to_world: NDArray[np.f
         "lens": settings.lens.parameters(),
         "depth": "along_axis",
         "hidden_classes": sorted(_hidden_classes(settings)),
+        "hidden_from_m": CAR_HEIGHT_M,
     }
     return View(name, _NAME, None, settings.lens, settings.size_px, to_world, facts)
 
@@ -49,7 +51,7 @@ def birds_eye_view(name: str, settings: BirdsEye, vehicle_to_world: NDArray[np.f
 def looked_through(labels: Labels, settings: BirdsEye) -> list[int]:
     """Ids of what a bird's-eye view does not show: what hangs overhead, and parked cars if they are not wanted.
 
-    Lights still shine.
+    Lights still shine. What else hangs over the head of a car is found by its height, see `garage2usd.render.overhead`.
     """
     return [labels.ids[path] for path in labels.paths_of(_hidden_classes(settings))]
 

@@ -5,20 +5,22 @@ Usage: python -P blender.py JOB.json
 Blender's Python module brings a USD library of its own, which must not meet usd-core in one process, so nothing of
 garage2usd is imported. Each line on the file descriptor that the job names is a number of samples done.
 """
+# Over 300 lines: a program of its own, which finds no module beside it.
 
 import ctypes
 import importlib
 import json
+import math
 import os
 import re
 import signal
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 _PR_SET_PDEATHSIG = 1
 _INDEX_LIMIT = 32768
@@ -40,10 +42,9 @@ def main() -> None:
     job = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     report = _Reporter(job["report_fd"])
     to_blender = Matrix(job["to_blender"])
-    scene, objects, ids = _build(job, to_blender)
-    moving = [
-        (item, item.matrix_world.copy()) for item, number in zip(objects, ids, strict=True) if number in job["moving"]
-    ]
+    scene, drawn = _build(job, to_blender)
+    moving = [(each.item, each.item.matrix_world.copy()) for each in drawn if each.number in job["moving"]]
+    report.finish(0)
     colour = [frame for frame in job["frames"] if frame["colour"]]
     data = [frame for frame in job["frames"] if frame["data"]]
     if colour:
@@ -51,23 +52,42 @@ def main() -> None:
         for frame in colour:
             aim(scene, frame, to_blender)
             _move(moving, frame["moved"], to_blender)
-            _hide(objects, ids, frame["hidden"], is_dark=False)
+            _hide(drawn, frame, is_dark=False)
             report.watch(job["samples"])
             _draw(scene, Path(frame["colour"]))
             report.finish(job["samples"])
     if data:
-        _set_up_data(scene, objects)
+        _set_up_data(scene, [each.item for each in drawn])
         for frame in data:
             aim(scene, frame, to_blender)
             _move(moving, frame["moved"], to_blender)
-            _hide(objects, ids, frame["hidden"], is_dark=True)
+            _hide(drawn, frame, is_dark=True)
             for digit, path in enumerate(frame["data"]):
-                for item, number in zip(objects, ids, strict=True):
-                    index = number // _INDEX_LIMIT**digit % _INDEX_LIMIT
-                    if item.pass_index != index:
-                        item.pass_index = index
+                for each in drawn:
+                    index = each.number // _INDEX_LIMIT**digit % _INDEX_LIMIT
+                    if each.item.pass_index != index:
+                        each.item.pass_index = index
                 _draw(scene, Path(path))
             report.finish(1)
+
+
+class _Drawn(NamedTuple):
+    """An object of the scene.
+
+    Attributes
+    ----------
+    item, number
+        The object, and the id of what it is a part of.
+    hangs
+        Whether views from above look through it.
+    is_for_above
+        Whether it is drawn only in views from above, or only in others; None for both.
+    """
+
+    item: bpy.types.Object
+    number: int
+    hangs: bool = False
+    is_for_above: bool | None = None
 
 
 class _Reporter:
@@ -95,7 +115,7 @@ class _Reporter:
             print(self._done + min(int(found[1]), self._most), file=self._file)
 
 
-def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, list[bpy.types.Object], list[int]]:
+def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, list[_Drawn]]:
     """Import each shape once and put copies of it, which share its mesh, at all of its places."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(
@@ -118,20 +138,45 @@ def _build(job: dict[str, Any], to_blender: Matrix) -> tuple[bpy.types.Scene, li
         for collection in item.users_collection:
             collection.objects.unlink(item)
     places = np.load(job["places"])
-    objects, ids = [], []
-    for shape, instance, place in zip(
-        places["shape"].tolist(), places["instance"].tolist(), places["to_world"], strict=True
-    ):
+    columns = (places[name].tolist() for name in ("shape", "instance", "to_world", "hangs", "cut_m"))
+    drawn: list[_Drawn] = []
+    for shape, instance, place, hangs, cut_m in zip(*columns, strict=True):
         if shape in shapes:  # not all that USD can say can Blender draw
             item = shapes[shape].copy()
             item.parent = None
             item.animation_data_clear()
             item.hide_render = False
-            item.matrix_world = to_blender @ Matrix(place)
+            item.matrix_world = to_world = to_blender @ Matrix(place)
             scene.collection.objects.link(item)
-            objects.append(item)
-            ids.append(instance)
-    return scene, objects, ids
+            if math.isnan(cut_m):
+                drawn.append(_Drawn(item, instance, hangs=hangs))
+            else:
+                below = _cut(item, to_world, cut_m)
+                scene.collection.objects.link(below)
+                drawn += [_Drawn(item, instance, is_for_above=False), _Drawn(below, instance, is_for_above=True)]
+    return scene, drawn
+
+
+def _cut(item: bpy.types.Object, to_world: Matrix, height_m: float) -> bpy.types.Object:
+    """What of an object is below a height, closed where it is cut off."""
+    import bmesh  # noqa: PLC0415 - which bpy brings into reach
+
+    below = item.copy()
+    below.data = item.data.copy()
+    shape = bmesh.new()
+    shape.from_mesh(below.data)
+    found = bmesh.ops.bisect_plane(
+        shape,
+        geom=[*shape.verts, *shape.edges, *shape.faces],
+        plane_co=to_world.inverted() @ Vector((0.0, 0.0, height_m)),
+        plane_no=to_world.to_3x3().transposed() @ Vector((0.0, 0.0, 1.0)),
+        clear_outer=True,
+    )
+    rim = [part for part in found["geom_cut"] if isinstance(part, bmesh.types.BMEdge)]
+    bmesh.ops.triangle_fill(shape, edges=rim, use_beauty=True)
+    shape.to_mesh(below.data)
+    shape.free()
+    return below
 
 
 def _draw(scene: bpy.types.Scene, path: Path) -> None:
@@ -216,13 +261,16 @@ def _move(moving: list[tuple[bpy.types.Object, Matrix]], moved: list[list[float]
                 item.matrix_world = there
 
 
-def _hide(objects: list[bpy.types.Object], ids: list[int], hidden: list[int], *, is_dark: bool) -> None:
+def _hide(drawn: list[_Drawn], frame: dict[str, Any], *, is_dark: bool) -> None:
     """Hide what a camera looks through, which shines nevertheless, and in the dark the lights."""
-    looked_through = set(hidden)
-    for item, number in zip(objects, ids, strict=True):
+    looked_through, from_above = set(frame["hidden"]), frame["from_above"]
+    for item, number, hangs, is_for_above in drawn:
         is_hidden = is_dark if item.type == "LIGHT" else number in looked_through
+        is_hidden |= is_for_above not in {None, from_above}
         if item.hide_render != is_hidden:  # Blender reads the scene anew, even where it stays the same
             item.hide_render = is_hidden
+        if hangs and item.visible_camera == from_above:
+            item.visible_camera = not from_above
 
 
 def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:
@@ -237,6 +285,13 @@ def _set_up(scene: bpy.types.Scene, *, samples: int, seed: int) -> None:
 
 def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     _set_up(scene, samples=job["samples"], seed=job["seed"])
+    if job["device"] != "CPU":
+        preferences = bpy.context.preferences.addons["cycles"].preferences
+        preferences.compute_device_type = job["device"]
+        preferences.refresh_devices()
+        for device in preferences.devices:
+            device.use = device.type == job["device"]
+        scene.cycles.device = "GPU"
     scene.cycles.use_denoising = True
     scene.cycles.use_light_tree = True
     scene.cycles.max_bounces = _BOUNCES

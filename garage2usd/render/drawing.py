@@ -1,6 +1,8 @@
 """Views drawn by Blender, frame by frame: what is finished is kept, and never drawn again."""
 
 import json
+import time
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
@@ -12,11 +14,13 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.limits import lift
-from garage2usd.progress import Progress
+from garage2usd.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
+from garage2usd.render.devices import CPU, ComputeDevice
 from garage2usd.render.drawn_prims import SHAPE_PROPERTY, DrawnPrims, read_drawn_prims, write_shapes
+from garage2usd.render.overhead import Overhead, find_overhead
 from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,
@@ -26,6 +30,7 @@ from garage2usd.render.pictures import (
     write_colour,
     write_picture,
 )
+from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.lenses import Pinhole
 
 __all__ = ["Drawing"]
@@ -61,6 +66,8 @@ class Drawing:
     moved
         For each view where they are: in the stage's axes, in metres, from where they stand in the stage; shape (4, 4),
         None for a view that looks through them. Empty where nothing moves.
+    device
+        What colour is drawn on; all else is drawn by the processor.
     """
 
     stage: Usd.Stage
@@ -73,8 +80,9 @@ class Drawing:
     finished: Path
     moving: frozenset[int] = frozenset()
     moved: Sequence[NDArray[np.float64] | None] = ()
+    device: ComputeDevice = CPU
 
-    def draw(self, work: Path, progress: Progress) -> list[list[VisibleInstance] | None]:
+    def draw(self, work: Path, progress: Progress, announce: Announce = unheard) -> list[list[VisibleInstance] | None]:
         """Draw the frames that are not finished.
 
         Parameters
@@ -83,6 +91,8 @@ class Drawing:
             A folder for what Blender reads and writes.
         progress
             Called with the number of samples that are done, of finished frames too.
+        announce
+            Called with what is drawn, and with how long a picture takes when one is.
 
         Returns
         -------
@@ -107,11 +117,14 @@ class Drawing:
         left = sum(self.samples * bool(job["colour"]) + bool(job["data"]) for job in jobs)
         progress("render", total - left, total)
         if left:
+            announce(self._described(jobs))
+            tempo = _Tempo(self.samples if self._has_colour else 1, jobs, announce)
             waiting = _Waiting(self, [(self.views[number], jobs[number]) for number in order])
             lift()
 
             def done(samples: int) -> None:
                 waiting.take()
+                tempo.take(samples)
                 progress("render", total - left + samples, total)
 
             run_blender(self._job(scene, [jobs[number] for number in order], work), work, done)
@@ -177,11 +190,20 @@ class Drawing:
             "size_px": view.size_px,
             "camera_to_world": view.camera_to_world.tolist(),
             "hidden": list(hidden),
+            "from_above": isinstance(view.lens, Orthographic),
         }
 
     def _job(self, scene: DrawnPrims, jobs: Sequence[Mapping[str, Any]], work: Path) -> dict[str, Any]:
         write_shapes(self.stage, scene, work / "shapes.usda")
-        np.savez(work / "places.npz", shape=scene.shape, instance=scene.instance, to_world=scene.to_world)
+        overhead = self._overhead(scene)
+        np.savez(
+            work / "places.npz",
+            shape=scene.shape,
+            instance=scene.instance,
+            to_world=scene.to_world,
+            hangs=overhead.hangs,
+            cut_m=overhead.cut_m,
+        )
         to_blender = np.eye(4)
         to_blender[:3, :3] = self._axes
         return {
@@ -192,9 +214,50 @@ class Drawing:
             "to_blender": to_blender.tolist(),
             "samples": self.samples,
             "seed": self.seed,
+            "device": self.device.kind,
             "moving": sorted(self.moving),
             "frames": jobs,
         }
+
+    def _overhead(self, scene: DrawnPrims) -> Overhead:
+        """What views from above look through, if there are any."""
+        if any(isinstance(view.lens, Orthographic) for view in self.views):
+            return find_overhead(self.stage, scene)
+        return Overhead(np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan))
+
+    def _described(self, jobs: Sequence[Mapping[str, Any]]) -> str:
+        """What is drawn, in words."""
+        sizes = Counter(f"{width} x {height}" for width, height in (view.size_px for view in self.views))
+        told = [f"{count} of {size}" for size, count in sizes.items()]
+        there = sum(not job["colour"] and not job["data"] for job in jobs)
+        finished = f", {there} of them finished before" if there else ""
+        kinds = ", ".join(
+            f"colour with {self.samples} samples on {self.device.words}" if kind is Picture.COLOUR else str(kind)
+            for kind in self.kinds
+        )
+        views = "1 view" if len(self.views) == 1 else f"{len(self.views)} views"
+        return f"{views}, {' and '.join(told)} pixels{finished}: {kinds}"
+
+
+class _Tempo:
+    """Says how long a picture takes as soon as the first one is drawn."""
+
+    def __init__(self, samples: int, jobs: Sequence[Mapping[str, Any]], announce: Announce) -> None:
+        self._samples, self._announce = samples, announce
+        self._pictures = sum(bool(job["colour"]) for job in jobs) or sum(bool(job["data"]) for job in jobs)
+        self._begun_s: float | None = None
+        self._is_said = False
+
+    def take(self, samples: int) -> None:
+        """Know that so many samples are drawn, and that the scene is read when this is called first."""
+        now_s = time.monotonic()
+        if self._begun_s is None:
+            self._begun_s = now_s
+        elif not self._is_said and samples >= self._samples:
+            self._is_said = True
+            took_s, more = now_s - self._begun_s, self._pictures - 1
+            left = f", {more} more about {time_in_words(more * took_s)}" if more else ""
+            self._announce(f"a picture takes {time_in_words(took_s)}{left}")
 
 
 class _Waiting:

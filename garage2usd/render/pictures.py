@@ -1,7 +1,7 @@
 """The pictures of one view as files: depth, normals, instances, classes."""
 
 import colorsys
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -19,9 +19,11 @@ __all__ = [
     "VisibleInstance",
     "class_colour",
     "classes_of",
+    "read_depth",
     "read_ids",
     "read_surfaces",
     "visible_instances",
+    "with_needed",
     "write_colour",
     "write_ids",
     "write_mask",
@@ -50,6 +52,11 @@ class Picture(StrEnum):
     def extension(self) -> str:
         """Of its files."""
         return ".exr" if self in {Picture.DEPTH, Picture.NORMALS} else ".png"
+
+
+def with_needed(kinds: Collection[Picture], needed: Collection[Picture]) -> tuple[Picture, ...]:
+    """The kinds of pictures to draw where some are asked for and some are needed to tell something from."""
+    return tuple(kind for kind in Picture if kind in kinds or kind in needed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,6 +214,14 @@ def read_ids(path: Path) -> NDArray[np.int32]:
         digits = np.asarray(picture).astype(np.int32)
     ids: NDArray[np.int32] = (digits << np.array(_SHIFTS, dtype=np.int32)).sum(axis=-1, dtype=np.int32)
     return ids
+
+
+def read_depth(path: Path) -> NDArray[np.float32]:
+    """The depth of a picture of it; float32, shape (rows, columns)."""
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return np.array(file.channels()["Z"].pixels)
 
 
 def write_mask(mask: NDArray[np.bool_], path: Path) -> None:

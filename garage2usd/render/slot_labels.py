@@ -15,15 +15,18 @@ from garage2usd.errors import ConfigError
 from garage2usd.json_text import json_text
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
-from garage2usd.render.pictures import Picture, read_ids, write_ids
-from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.render.pictures import Picture, classes_of, read_depth, read_ids, write_ids
+from garage2usd.sensors.birds_eye import FLOOR_CLASSES, Orthographic
 from garage2usd.sensors.coco import CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
 from garage2usd.sensors.dmpr_ps import dmpr_ps
 from garage2usd.sensors.seen_points import seen_points
 from garage2usd.sensors.slots import SlotFrame, SlotRecord, Slots, read_slots
 from garage2usd.sensors.slots_file import slots_document
 
-__all__ = ["SlotFormat", "SlotLabels", "check_slots"]
+__all__ = ["NEEDED", "SlotFormat", "SlotLabels", "check_slots"]
+
+NEEDED = frozenset({Picture.DEPTH, Picture.INSTANCE})
+"""Kinds of pictures that slots are told from, which are drawn for them also where they are not asked for."""
 
 
 class SlotFormat(StrEnum):
@@ -70,7 +73,7 @@ class SlotLabels:
     views
         The frames.
     finished
-        Folder of their pictures, a folder for each kind; the files are written there.
+        Folder of their pictures, a folder for each kind, among them those of `NEEDED`; the files are written there.
     vacated
         Names of the slots whose cars the pictures leave out.
     """
@@ -121,8 +124,15 @@ class SlotLabels:
         def project(points: NDArray[np.float64]) -> NDArray[np.float64]:
             return lens.project(points @ to_sensor[:3, :3].T + to_sensor[:3, 3])
 
-        depth_m = _read_depth(self.finished / Picture.DEPTH / f"{view.name}{Picture.DEPTH.extension}")
-        return SlotFrame(view.name, view.size_px, project, seen_points(lens, depth_m, np.linalg.inv(to_sensor)))
+        depth_m = read_depth(self.finished / Picture.DEPTH / f"{view.name}{Picture.DEPTH.extension}")
+        seen_m = seen_points(lens, depth_m, np.linalg.inv(to_sensor))
+        return SlotFrame(view.name, view.size_px, project, seen_m, self._shows_floor(view))
+
+    def _shows_floor(self, view: View) -> NDArray[np.bool_]:
+        """Which pixels show the floor or its paint, or what has no class."""
+        ids = read_ids(self.finished / Picture.INSTANCE / f"{view.name}{Picture.INSTANCE.extension}")
+        floor = [number for number, entry in self.labels.classes.items() if entry.name in FLOOR_CLASSES]
+        return np.isin(classes_of(ids, self.labels.class_ids), [0, *floor])
 
     def _image(self, view: View) -> CocoImage:
         return CocoImage(f"{Picture.COLOUR}/{view.name}{Picture.COLOUR.extension}", view.size_px)
@@ -148,10 +158,3 @@ class SlotLabels:
         path = self.finished / name
         path.write_text(json_text(document), encoding="utf-8")
         return path
-
-
-def _read_depth(path: Path) -> NDArray[np.float32]:
-    import OpenEXR  # noqa: PLC0415 - of an extra
-
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        return np.array(file.channels()["Z"].pixels)

@@ -12,9 +12,9 @@ from pydantic import Field
 from garage2usd.sensors.lenses import Lens
 from garage2usd.settings import Settings
 
-__all__ = ["FREE_CLASSES", "BirdsEye", "Orthographic", "free_space"]
+__all__ = ["FLOOR_CLASSES", "FREE_CLASSES", "BirdsEye", "Orthographic", "free_space"]
 
-FREE_CLASSES = frozenset(
+FLOOR_CLASSES = frozenset(
     {
         "crossing",
         "floor",
@@ -23,13 +23,13 @@ FREE_CLASSES = frozenset(
         "lane_arrow",
         "lane_line",
         "parking_stall",
-        "ramp",
-        "speed_bump",
         "stall_line",
         "stall_number",
         "stall_symbol",
     }
 )
+"""Classes of the floor, and of what is painted or spilt on it."""
+FREE_CLASSES = FLOOR_CLASSES | {"ramp", "speed_bump"}
 """Classes of what a car drives on."""
 
 _HEIGHT_M = 20.0
@@ -146,7 +146,9 @@ class BirdsEye(Settings):
 
 
 def free_space(classes: NDArray[np.uint8], names: Mapping[int, str]) -> NDArray[np.bool_]:
-    """Which pixels of a bird's-eye view show ground that a car can drive on: what stands on it is seen before it.
+    """Which pixels of a bird's-eye view show what a car can drive on, or something else of its class.
+
+    A ramp is its walls and kerbs as well; `garage2usd.sensors.driven_surface` tells its floor from them.
 
     Parameters
     ----------

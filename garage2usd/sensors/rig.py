@@ -80,6 +80,10 @@ class Rig(Settings):
         sensors = [sensor.scaled(scale) if isinstance(sensor, Camera) else sensor for sensor in self.sensors]
         return self.model_copy(update={"sensors": tuple(sensors)})
 
+    def without_cameras(self) -> Self:
+        """The same rig with its LiDARs alone, of which it needs one."""
+        return self.model_copy(update={"sensors": self.lidars})
+
     @property
     def lidars(self) -> tuple[SpinningLidar | SolidStateLidar, ...]:
         """Its LiDARs."""

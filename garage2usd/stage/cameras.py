@@ -15,13 +15,24 @@ from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["DRIVE_NAME", "EYE_M", "FRAMES_PER_SECOND", "author_cameras", "bends", "set_frames", "write_drive"]
+__all__ = [
+    "APERTURE_MM",
+    "DRIVE_NAME",
+    "EYE_M",
+    "FOCAL_MM",
+    "FRAMES_PER_SECOND",
+    "author_cameras",
+    "bends",
+    "set_frames",
+    "write_drive",
+]
 
 FRAMES_PER_SECOND = 24.0
 EYE_M = 1.5
 """Of a driver over the floor."""
-_FOCAL_MM = 20.0
-_APERTURE_MM = (36.0, 20.25)
+FOCAL_MM = 20.0
+APERTURE_MM = (36.0, 20.25)
+"""Horizontal and vertical aperture of all cameras, which have that focal length."""
 _MARGIN = 1.05
 _SPEED_M_S = 2.7
 _CORNER_CUTS = 3
@@ -73,7 +84,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
 
     low, high = world_bounds_m(layout.placements, layout.placements.rows_of(*_SHELL))
     (left, _, back), (right, top, front) = low.min(axis=0).tolist(), high.max(axis=0).tolist()
-    distance = _MARGIN * _FOCAL_MM * max((right - left) / _APERTURE_MM[0], (front - back) / _APERTURE_MM[1])
+    distance = _MARGIN * FOCAL_MM * max((right - left) / APERTURE_MM[0], (front - back) / APERTURE_MM[1])
     over = ((left + right) / 2, top + distance, (back + front) / 2)
     above = _camera(layer, path.AppendChild("Above"), far_m=max(_FAR_M, math.ceil(over[1])))
     _fixed(above, over, pitch_deg=-90.0)
@@ -155,7 +166,7 @@ def _rounded(way: NDArray[np.float64]) -> NDArray[np.float64]:
 def _camera(layer: Sdf.Layer, path: Sdf.Path, *, far_m: float = _FAR_M) -> Sdf.PrimSpec:
     camera = define(layer, path, "Camera")
     # focal length and aperture are tenths of a stage unit
-    lens = {"focalLength": _FOCAL_MM, "horizontalAperture": _APERTURE_MM[0], "verticalAperture": _APERTURE_MM[1]}
+    lens = {"focalLength": FOCAL_MM, "horizontalAperture": APERTURE_MM[0], "verticalAperture": APERTURE_MM[1]}
     for name, value_mm in lens.items():
         attribute(camera, name, Sdf.ValueTypeNames.Float, value_mm / 100)
     attribute(camera, "clippingRange", Sdf.ValueTypeNames.Float2, Gf.Vec2f(_NEAR_M, far_m))

@@ -11,7 +11,9 @@ import pytest
 import shapely
 from PIL import Image
 from pxr import Usd, UsdGeom, UsdPhysics
+from support.rays import Rays
 from support.sample_files import REPOSITORY
+from support.slot_corners import judge_corners
 
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import ConfigError
@@ -43,6 +45,9 @@ LINE_M = 0.12
 """Width of a line: half of it on each side of the border of two stalls, all of it inside at the rear."""
 WITHIN_M, MEDIAN_M = 5.0, 0.02
 KINDS = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
+SLOTS = [SlotFormat.DMPR_PS]
+CAR_M, STEP_M = 2.0, 0.06
+"""Height of the design car, and what is higher over the floor than a speed bump and lower than a kerb."""
 
 
 def matrix_of(place, heading_deg):
@@ -202,55 +207,123 @@ def edges_of(mask):
     return mask & (cv2.erode(mask.astype(np.uint8), np.ones((3, 3))) == 0)
 
 
-def test_a_recording_has_views_from_above_with_masks(builds, tmp_path):
+@pytest.fixture(scope="module")
+def above(builds, tmp_path_factory):
+    """A recording from the top of a ramp to a stall that is taken, with views from above that show no cars."""
     made = builds(HAND_DRAWN, "usdc", "instanced")
     stalls = {entry["name"]: entry for entry in json.loads(made.report.read_text())["stalls"]}
     goal = next(name for name, entry in stalls.items() if entry["occupied"] and entry["use"] == "standard")
-    above = BirdsEye(metres_per_px=0.05, size_px=(240, 200), centre_m=MIDDLE_M, cars=False)
+    settings = BirdsEye(metres_per_px=0.05, size_px=(240, 200), centre_m=MIDDLE_M, cars=False)
     camera = {"kind": "pinhole", "name": "ahead", "position_m": [3, 0, 1], "size_px": [32, 24], "focal_px": [20, 20]}
-    kinds = Picture.DEPTH, Picture.SEMANTIC
-    folder, rig = tmp_path / "drive", rig_from_mapping({"name": "one", "sensors": [camera]})
-    asked = {"rig": rig, "along": f"1:{goal}", "every_m": 15.0}
-    record(made.stage, folder, **asked, pictures=kinds, slots=[SlotFormat.DMPR_PS], birds_eye=above)
+    folder, rig = tmp_path_factory.mktemp("above") / "drive", rig_from_mapping({"name": "one", "sensors": [camera]})
+    asked = {"rig": rig, "along": f"1:{goal}", "every_m": 12.0}
+    record(made.stage, folder, **asked, pictures=[Picture.SEMANTIC, Picture.DEPTH], slots=SLOTS, birds_eye=settings)
     table = json.loads((folder / "frames.json").read_text())
+    names = {entry["id"]: entry["name"] for entry in table["classes"]}
+    stage = Usd.Stage.Open(str(made.stage))
+    cars = [hull_of(prim) for prim in stage.Traverse() if prim.GetName().startswith("Car_")]
+    assert len(cars) == sum(entry["occupied"] for entry in stalls.values())
+    home = shapely.Point(stalls[goal]["centre_m"])
     frames = [frame for frame in table["frames"] if frame["sensor"] == "birds_eye"]
+    return SimpleNamespace(
+        made=made,
+        stage=stage,
+        folder=folder,
+        table=table,
+        frames=frames,
+        rig=rig,
+        goal=goal,
+        parked=shapely.union_all([car for car in cars if car.distance(home) > 0]),
+        free={frame["name"]: np.asarray(Image.open(folder / frame["free_space"])) > 0 for frame in frames},
+        shown={
+            frame["name"]: np.array([names.get(number, "") for number in range(256)])[
+                np.asarray(Image.open(folder / frame["files"]["semantic"]))
+            ]
+            for frame in frames
+        },
+    )
+
+
+def test_a_recording_has_views_from_above_with_masks(above):
+    frames, folder = above.frames, above.folder
     assert [frame["name"] for frame in frames] == [f"birds_eye_{number:04d}" for number in range(len(frames))]
-    assert len(frames) == len(table["frames"]) / 2 > 2
+    assert len(frames) == len(above.table["frames"]) / 2 > 2
     # the hatchback that the rig's car is, by the catalogue's measures: its ground and its mirrors
     ego = np.asarray(Image.open(folder / frames[0]["ego_mask"])) > 0
     rows, columns = np.nonzero(ego)
-    body = next(each for each in CAR_BODIES if each.name == rig.car)
+    body = next(each for each in CAR_BODIES if each.name == above.rig.car)
     assert (np.ptp(rows) + 1) * 0.05 == pytest.approx(body.length_m, abs=0.06)
     assert (np.ptp(columns) + 1) * 0.05 == pytest.approx(body.overall_width_m, abs=0.06)
     nose_m = body.wheelbase_m + body.front_overhang_m
     assert rows.min() == pytest.approx(100 - (nose_m - MIDDLE_M[0]) / 0.05, abs=1)
-    names = {entry["id"]: entry["name"] for entry in table["classes"]}
-    stage = Usd.Stage.Open(str(made.stage))
-    cars = [hull_of(prim) for prim in stage.Traverse() if prim.GetName().startswith("Car_")]
-    parked = sum(entry["occupied"] for entry in stalls.values())
-    assert len(cars) == parked
-    home = np.array(stalls[goal]["centre_m"])
-    under_cars = 0
     for frame in frames:
         assert frame["metres_per_px"] == 0.05
         assert {"car", "ceiling", "light"} <= set(frame["hidden_classes"])
-        free = np.asarray(Image.open(folder / frame["free_space"])) > 0
-        classes = np.asarray(Image.open(folder / frame["files"]["semantic"]))
-        ground = np.isin(classes, [number for number, name in names.items() if name in FREE_CLASSES])
-        assert "car" not in {names.get(number) for number in np.unique(classes).tolist()}
+        assert "car" not in above.shown[frame["name"]]
+        assert set(frame["files"]) == {"semantic", "depth"}
+    # what slots and free space are told from is drawn, and published only where it is asked for
+    assert sorted(path.name for path in folder.iterdir() if path.is_dir()) == sorted(
+        ["calibration", "depth", "dmpr_ps", "ego", "free_space", "semantic"]
+    )
+    labels = json.loads((folder / "slots.json").read_text())
+    assert next(slot for slot in labels["slots"] if slot["name"] == above.goal)["occupied"] is False
+    assert len(list((folder / "dmpr_ps").iterdir())) == len(frames)
+
+
+def test_free_is_where_a_car_finds_its_height_over_floors_and_ramps(above):
+    """Rays through the meshes, to the floor and up from it, without what garage2usd knows of the heights of ramps."""
+    labels = read_labels(above.stage, above.made.stage)
+    left_out = above.frames[0]["hidden_objects"]
+    names = {path: labels.classes[labels.class_ids[number]].name for path, number in labels.ids.items()}
+    ramps = [path for path, name in names.items() if name == "ramp"]
+    driven = [f"{ramp}/Geom/{part}" for ramp in ramps for part in ("Floor", "Threshold")]
+    level = [path for path, name in names.items() if name in {"floor", "parking_stall"}]
+    floors = Rays(above.stage, dict.fromkeys(level, 1) | dict.fromkeys(driven, 2))
+    gone = {path for path, name in names.items() if name in {"sky", "floor_stain"}} | set(labels.with_plates(left_out))
+    solids = Rays(above.stage, {path: number for path, number in labels.ids.items() if path not in gone})
+    under_cars = on_ramps = 0
+    for frame in above.frames:
+        free, shown, to_world = (
+            above.free[frame["name"]],
+            above.shown[frame["name"]],
+            np.array(frame["vehicle_to_world"]),
+        )
+        assert "sky" not in shown
         down, right = np.mgrid[:200, :240] + 0.5
         ahead, left = MIDDLE_M[0] + (100 - down) * 0.05, MIDDLE_M[1] + (120 - right) * 0.05
-        points = np.stack([ahead, left, np.zeros_like(ahead), np.ones_like(ahead)], axis=-1).reshape(-1, 4)
-        world = (points @ np.array(frame["vehicle_to_world"]).T)[:, [0, 2]]
-        others = shapely.union_all([car for car in cars if car.distance(shapely.Point(home)) > 0])
-        inside = shapely.contains_xy(others, world[:, 0], world[:, 1]).reshape(free.shape)
-        near = shapely.dwithin(shapely.points(world), others.boundary, 0.05).reshape(free.shape)
-        assert (free == (ground & ~inside))[~near].all()
-        under_cars += (ground & inside).sum()
+        eyes = np.stack([ahead, left, np.full_like(ahead, 20.0), np.ones_like(ahead)], axis=-1).reshape(-1, 4)
+        owner, place, _ = floors.cast((eyes @ to_world.T)[:, :3], np.tile(-to_world[:3, 2], (len(eyes), 1)))
+        lies_on = owner > 0
+        blocked_m = np.zeros(len(eyes))
+        begins = place[lies_on] + (0.0, STEP_M, 0.0)
+        _, met, _ = solids.cast(begins, np.tile([0.0, 1.0, 0.0], (len(begins), 1)))
+        blocked_m[lies_on] = met[:, 1] - begins[:, 1]
+        is_clear = (blocked_m > CAR_M - STEP_M).reshape(free.shape)
+        x, z = np.nan_to_num(place[:, [0, 2]], posinf=1e6).T
+        is_parked = shapely.contains_xy(above.parked, x, z).reshape(free.shape)
+        near = shapely.dwithin(shapely.points(x, z), above.parked.boundary, 0.05).reshape(free.shape)
+        expected = is_clear & ~is_parked
+        sure = ~near & ~edges_around(expected) & ~edges_around(is_parked)
+        is_level = to_world[1, 2] > 1 - 1e-9
+        if not is_level:  # walls lean into the view, and what they hide is not seen to be free
+            sure &= ~(expected & ~np.isin(shown, [*FREE_CLASSES, "sky", "barrier"]))
+        assert sure.mean() > 0.8
+        assert (free == expected)[sure].all(), frame["name"]
+        on_ramps += (free & (owner == 2).reshape(free.shape)).sum()
+        under_cars += (is_parked & np.isin(shown, [*FREE_CLASSES])).sum()
     assert under_cars > 1000
-    labels = json.loads((folder / "slots.json").read_text())
-    assert next(slot for slot in labels["slots"] if slot["name"] == goal)["occupied"] is False
-    assert len(list((folder / "dmpr_ps").iterdir())) == len(frames)
+    assert on_ramps > 30_000
+    assert sum(np.array(frame["vehicle_to_world"])[1, 2] < 0.999 for frame in above.frames) >= 2
+
+
+def edges_around(mask):
+    """Pixels beside the edge of a mask, on both sides."""
+    wide = np.ones((3, 3), np.uint8)
+    return cv2.dilate(mask.astype(np.uint8), wide) != cv2.erode(mask.astype(np.uint8), wide)
+
+
+def test_corners_that_are_seen_show_the_floor_or_its_paint_from_above(above):
+    judge_corners(above.folder, above.table)
 
 
 def test_recordings_that_cannot_have_views_from_above_are_refused(drawn, tmp_path):

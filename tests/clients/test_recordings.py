@@ -18,6 +18,7 @@ from pxr import Sdf, Usd, UsdGeom
 from support.label_tables import cars_of_plates, labelled_objects
 from support.rays import Rays
 from support.sample_files import REPOSITORY
+from support.slot_corners import judge_corners
 
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError
@@ -236,6 +237,11 @@ def test_the_slot_that_is_driven_to_is_free_and_others_are_as_the_stage_says(rec
     others = said.keys() & slots.keys() - {drive.stall}
     assert {name: slots[name] for name in others} == {name: said[name] for name in others}
     assert any(slots.values())
+
+
+def test_a_corner_that_is_seen_shows_the_floor_or_its_paint(recorded):
+    counts = judge_corners(recorded.folder, recorded.table)
+    assert min(counts.values()) > 50
 
 
 def test_masks_show_the_car_that_garage2usd_drives(recorded, drive, tmp_path):

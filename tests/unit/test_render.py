@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import shutil
 import sys
 
@@ -12,11 +13,16 @@ from pxr import Gf, Usd, UsdGeom
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
+from garage2usd import extras
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError, StageError
+from garage2usd.progress import silent
 from garage2usd.reading.labels import read_labels
+from garage2usd.render import Picture, blender_process, devices, drawing
 from garage2usd.render.cameras import find_views
+from garage2usd.render.devices import ComputeDevice, Device, find_device
 from garage2usd.render.drawn_prims import read_drawn_prims
+from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import visible_instances
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
@@ -150,6 +156,151 @@ def test_frames_that_are_none_are_refused(build, frames):
 def test_a_camera_that_is_not_there_is_named_with_those_that_are(build):
     with pytest.raises(ConfigError, match=r"Wrong.*/Garage/Cameras/Inside"):
         find_views(Usd.Stage.Open(str(build.stage)), cameras=["Wrong"])
+
+
+@pytest.mark.parametrize("name", ["inside", "INSIDE", "/garage/cameras/inside"])
+def test_a_camera_is_found_in_letters_of_another_case(build, name):
+    stage = Usd.Stage.Open(str(build.stage))
+    (view,) = find_views(stage, cameras=[name, "Inside"])
+    assert (view.name, view.camera) == ("Inside", "/Garage/Cameras/Inside")
+
+
+def test_letters_as_they_are_go_before_those_of_another_case():
+    stage = Usd.Stage.CreateInMemory()
+    for path in ("/A/eye", "/B/Eye", "/C/EYE"):
+        UsdGeom.Camera.Define(stage, path)
+    assert [view.camera for view in find_views(stage, cameras=["Eye"])] == ["/B/Eye"]
+    assert [view.camera for view in find_views(stage, cameras=["eYE"])] == ["/A/eye", "/B/Eye", "/C/EYE"]
+
+
+@pytest.mark.parametrize("up", [UsdGeom.Tokens.y, UsdGeom.Tokens.z])
+@pytest.mark.parametrize("target", [(4.0, 1.0, -3.0), (1.0, 9.0, 2.0), (1.0, -9.0, 2.0), (1.0, 2.0, 9.0)])
+def test_a_free_camera_looks_at_its_place_and_has_up_above(up, target):
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageUpAxis(stage, up)
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)  # places are in metres nevertheless
+    eye = np.array([1.0, 2.0, 2.0])
+    view = free_view(stage, tuple(eye), target, (200, 100), [])
+    matrix = view.camera_to_world
+    assert matrix[:3, 3] == pytest.approx(eye)
+    assert matrix[:3, :3] @ matrix[:3, :3].T == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.det(matrix) == pytest.approx(1.0)
+    x, y, z = view.lens.matrix((200, 100)) @ (view.world_to_camera() @ [*target, 1.0])[:3]
+    assert (x / z, y / z, z) == pytest.approx((100, 50, np.linalg.norm(eye - target)))
+    upwards = np.eye(3)[1 if up == UsdGeom.Tokens.y else 2]
+    level = eye + (np.array(target) - eye) * (1 - upwards)
+    if np.allclose(level, eye):  # straight up or down: the top of the picture is north
+        assert matrix[:3, 1] == pytest.approx([0, 0, -1] if up == UsdGeom.Tokens.y else [0, 1, 0])
+    else:
+        assert matrix[:3, 0] @ upwards == pytest.approx(0)
+        assert matrix[:3, 1] @ upwards > 0
+
+
+def test_the_view_of_a_free_camera_has_a_name_of_its_own():
+    stage = Usd.Stage.CreateInMemory()
+    assert free_view(stage, (0, 0, 0), (1, 0, 0), (64, 48), ["FreeCamera"]).name == "FreeCamera_"
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "said"),
+    [
+        (["--at", "1,2"], 2, "'1,2' is not a place such as"),
+        (["--at", "1,2,x", "--look-at", "1,2,3"], 2, "'1,2,x' is not a place such as"),
+        (["--at", "1,2,3"], 1, "look_at: got None"),
+        (["--look-at", "1,2,3"], 1, "at: got None"),
+        (["--at", "1,nan,3", "--look-at", "1,2,3"], 1, "at: got [1.0, nan, 3.0]; allowed: X,Y,Z in metres"),
+        (["--at", "1,2,3", "--look-at", "1,2,inf"], 1, "look_at: got [1.0, 2.0, inf]"),
+        (["--at", "1,2,3", "--look-at", "1,2,3"], 1, "another place than that of the camera"),
+    ],
+)
+def test_places_that_a_camera_cannot_take_are_refused(build, tmp_path, monkeypatch, options, code, said):
+    monkeypatch.setattr(extras, "find_spec", lambda _name: True)
+    result = run(build.stage, "-o", tmp_path / "out", *options)
+    assert result.exit_code == code
+    assert said in result.output
+    assert list(tmp_path.iterdir()) == []
+
+
+NO_GPU = {"CPU": ["Xeon"], "OPTIX": [], "CUDA": [], "HIP": []}
+CUDA = {"CPU": ["Xeon"], "OPTIX": [], "CUDA": ["H100", "H100 #2"]}
+BOTH = {"CPU": ["Xeon"], "OPTIX": ["RTX"], "CUDA": ["RTX"]}
+
+
+@pytest.mark.parametrize(
+    ("there", "asked", "has_rays", "kind"),
+    [
+        (NO_GPU, Device.AUTO, False, "CPU"),
+        (CUDA, Device.AUTO, False, "CUDA"),
+        (CUDA, Device.AUTO, True, "CPU"),  # lenses of rigs are shaders, which only OptiX runs
+        (CUDA, Device.CPU, False, "CPU"),
+        (BOTH, Device.AUTO, False, "OPTIX"),
+        (BOTH, Device.GPU, True, "OPTIX"),
+    ],
+)
+def test_a_gpu_draws_where_there_is_one_that_can(monkeypatch, there, asked, has_rays, kind):
+    monkeypatch.setattr(devices, "_devices", lambda: there)
+    assert find_device(asked, has_rays=has_rays).kind == kind
+
+
+def test_a_gpu_that_is_not_there_is_refused_with_what_is(build, tmp_path, monkeypatch):
+    monkeypatch.setattr(extras, "find_spec", lambda _name: True)
+    monkeypatch.setattr(devices, "_devices", lambda: NO_GPU)
+    result = run(build.stage, "-o", tmp_path / "out", "--device", "gpu")
+    assert result.exit_code == 1
+    (line,) = result.output.strip().splitlines()
+    assert (
+        line == "Error: device: got 'gpu'; allowed: auto or cpu where Cycles does not find a GPU; it finds Xeon (CPU)"
+    )
+    monkeypatch.setattr(devices, "_devices", lambda: CUDA)
+    with pytest.raises(ConfigError, match=r"a GPU with OPTIX, .*; it finds Xeon \(CPU\), H100 \(CUDA\), H100 #2"):
+        find_device(Device.GPU, has_rays=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only")
+def test_blender_says_which_devices_it_has():
+    found = devices._devices()
+    assert len(found["CPU"]) == 1
+    assert find_device(Device.AUTO, has_rays=False).kind in found
+
+
+def test_what_is_drawn_is_said_before_and_how_long_a_picture_takes_when_one_is(build, tmp_path, monkeypatch):
+    seconds = iter([100.0, 104.0, 109.0, 112.0, 130.0])
+    monkeypatch.setattr(drawing.time, "monotonic", lambda: next(seconds))
+    jobs = []
+
+    def pretend(job, _folder, done):
+        jobs.append(job)
+        for samples in (0, 3, 8, 9, 24):
+            done(samples)
+
+    monkeypatch.setattr(drawing, "run_blender", pretend)
+    stage = Usd.Stage.Open(str(build.stage))
+    labels = read_labels(stage, build.stage)
+    views = find_views(stage, cameras=["Drive"], frames="0:96x48", size_px=(64, 36))
+    work, said = tmp_path / "work", []
+    work.mkdir()
+    gpu = ComputeDevice("OPTIX", "RTX")
+    drawn = drawing.Drawing(stage, labels, views, [[]] * 3, [Picture.COLOUR], 8, 0, tmp_path / "out", device=gpu)
+    drawn.draw(work, silent, said.append)
+    assert said == [
+        "3 views, 3 of 64 x 36 pixels: colour with 8 samples on the GPU RTX (OPTIX)",
+        "a picture takes 9.0 s, 2 more about 18 s",
+    ]
+    assert jobs[0]["device"] == "OPTIX"
+
+
+def test_a_process_that_says_nothing_is_heard_of_every_second(monkeypatch):
+    monkeypatch.setattr(blender_process, "_HEARTBEAT_S", 0.01)
+    reader, writer = os.pipe()
+    with os.fdopen(reader, "rb", buffering=0) as reports:
+        numbers = blender_process._numbers(reports)
+        os.write(writer, b"0\n1")
+        assert [next(numbers) for _ in range(3)] == [0, 0, 0]
+        os.write(writer, b"2\n20\n")
+        assert [next(numbers) for _ in range(4)] == [12, 20, 20, 20]
+        os.close(writer)
+        assert list(numbers) == []
 
 
 def change_object(table, **values):

@@ -7,14 +7,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from support.label_tables import labelled_objects
 from support.small_garage import SETTINGS
 
 import garage2usd
+from garage2usd.cli import main
 from garage2usd.config import config_from_mapping
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import ConfigError
 from garage2usd.recordings import CloudFormat, Sequence, record
+from garage2usd.render import blender_process
 from garage2usd.sensors.rig import rig_from_mapping
 
 MILLIMETRE = 0.001
@@ -42,6 +45,10 @@ WATCHING = {
     "rows": 80,
     "range_m": (0.3, 60.0),
 }
+
+
+FIXED = {**TOP, "name": "fixed", "mount": "world", "position_m": (8.0, -6.0, 2.1)}
+CAMERA = {"kind": "pinhole", "name": "eye", "position_m": (1, 0, 1.5), "size_px": (64, 48), "focal_px": (40, 40)}
 
 
 def rig_of(*sensors):
@@ -172,6 +179,71 @@ def test_what_does_not_suit_a_recording_is_refused_before_the_work(small, sensor
     with pytest.raises(ConfigError, match=said):
         record(small.stage, tmp_path / "out", rig=rig_of(*sensors), along=f"1:{TAKEN}", **options)
     assert list(tmp_path.iterdir()) == []
+
+
+def no_blender():
+    raise AssertionError("Blender is asked for")
+
+
+def test_a_lidar_in_the_world_needs_no_drive_and_sees_no_vehicle(small, tmp_path, monkeypatch):
+    monkeypatch.setattr("garage2usd.recordings.check_blender", no_blender)
+    made = record(small.stage, tmp_path / "still", rig=rig_of(FIXED), sequences=[Sequence.ROS2])
+    (sweep,) = json.loads(made.frames.read_text())["sweeps"]
+    driven = record(small.stage, tmp_path / "driven", rig=rig_of(FIXED), along=f"1:{TAKEN}", every_m=8.0)
+    passed = json.loads(driven.frames.read_text())["sweeps"]
+    assert "vehicle_to_world" not in sweep
+    assert (sweep["pose"], sweep["time_s"], sweep["hidden_objects"]) == (0, 0.0, [])
+    assert sweep["sensor_to_world"] == passed[0]["sensor_to_world"]
+    assert np.array(sweep["sensor_to_world"])[:3, 3] == pytest.approx([8.0, 2.1, 6.0])  # X, up, and -Z to the north
+    seen = {each["path"] for each in sweep["instances"]}
+    assert "/EgoCar" not in seen
+    assert any("/EgoCar" in {each["path"] for each in other["instances"]} for other in passed)
+    assert any(path.rpartition("/")[2].startswith("Car_") for path in seen)
+    assert json.loads(made.frames.read_text())["drive"] is None
+
+
+@pytest.mark.parametrize("sensor", [TOP, WATCHING])
+def test_without_a_drive_a_sensor_that_goes_with_one_is_named(small, tmp_path, sensor):
+    with pytest.raises(ConfigError, match=rf"along.*the sensor {sensor['name']}, which is mounted on the"):
+        record(small.stage, tmp_path / "out", rig=rig_of(FIXED, sensor))
+    assert list(tmp_path.iterdir()) == []
+
+
+def rig_file(folder, *sensors):
+    path = folder / "rig.toml"
+    tables = []
+    for sensor in sensors:
+        lines = [f"{name} = {json.dumps(value)}" for name, value in sensor.items()]
+        tables.append("\n".join(["[[sensors]]", *lines, ""]))
+    path.write_text('name = "own"\n' + "\n".join(tables))
+    return path
+
+
+def test_points_alone_leave_the_cameras_out_and_need_no_blender(small, tmp_path, monkeypatch):
+    monkeypatch.setattr("garage2usd.recordings.check_blender", no_blender)
+    options = ["--rig", rig_file(tmp_path, {**TOP, "azimuth_steps": 90}, CAMERA), "--along", f"1:{TAKEN}"]
+    out = tmp_path / "out"
+    ran = CliRunner().invoke(
+        main, ["render", str(small.stage), *map(str, options), "--every-m", "8", "--points", "npz", "-o", str(out)]
+    )
+    assert ran.exit_code == 0, ran.output
+    assert "without the cameras of the rig: eye" in ran.stderr
+    assert "sweeps of top: npz" in ran.stderr
+    table = json.loads((out / "frames.json").read_text())
+    assert table["frames"] == []
+    assert [sensor["name"] for sensor in table["rig"]["sensors"]] == ["top"]
+    assert len(list((out / "points" / "top").iterdir())) == len(table["sweeps"]) > 2
+    assert sorted(path.name for path in out.iterdir()) == ["frames.json", "points"]
+
+
+def test_without_blender_the_message_says_how_points_alone_are_recorded(small, tmp_path, monkeypatch):
+    monkeypatch.setattr(blender_process, "find_spec", lambda _name: None)
+    options = ["--rig", rig_file(tmp_path, TOP, CAMERA), "--along", f"1:{TAKEN}", "-o", tmp_path / "out"]
+    ran = CliRunner().invoke(main, ["render", str(small.stage), *map(str, options)])
+    assert ran.exit_code == 1
+    (line,) = ran.output.strip().splitlines()
+    assert "not for LiDARs alone: --points without --only" in line
+    assert "garage2usd[blender]" in line
 
 
 def test_a_drive_is_a_bag_and_tables(small, tmp_path):

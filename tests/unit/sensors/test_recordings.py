@@ -36,6 +36,7 @@ def built(builds):
         ({"along": "1:Z9"}, "stall", "one of the garage's"),
         ({"along": "9:"}, "along", "ENTRANCE:STALL"),
         ({"along": "first:1"}, "along", "ENTRANCE:STALL"),
+        ({"along": None}, "along", "for the sensor front"),
         ({"along": "9:1"}, "entrance", "1"),
         ({"along": "Inside"}, "along", "a camera that moves"),
         ({"along": "Nothing"}, "camera", "/Garage/Cameras/Drive"),
@@ -72,6 +73,8 @@ def test_options_belong_together(built, tmp_path):
         return result.output
 
     assert "along" in said("--rig", "avp_surround")
+    assert "only with --along" in said("--rig", "avp_surround", "--every-m", "2")
+    assert "without --rig" in said("--rig", "avp_surround", "--at", "1,2,3")
     assert "without --rig" in said("--rig", "avp_surround", "--along", ":1", "--size", "64x48")
     assert "only with --rig" in said("--scale", "0.5")
     assert "only with --rig" in said("--along", ":1")

@@ -1,0 +1,93 @@
+"""What hangs over the head of a car: bird's-eye views look through it, whatever it is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.checks.contents import read_contents
+from garage2usd.checks.driven_ground import CAR_HEIGHT_M
+from garage2usd.checks.driven_road import floors_of_ramps
+from garage2usd.driving import RampFloor, heights_m
+from garage2usd.reading.meshes import DRAWN_TYPES, Triangles, triangles_of
+from garage2usd.render.drawn_prims import DrawnPrims
+from garage2usd.sensors.poses import y_up_to_stage
+
+__all__ = ["Overhead", "find_overhead"]
+
+_ROUNDING_M = 0.01
+"""Of heights: ramps have grooves, and a stage keeps single precision."""
+_LOOKS_DOWN = -0.5
+"""A face whose normal has less upwards than this is an underside."""
+
+
+@dataclass(frozen=True, eq=False)
+class Overhead:
+    """What of the drawn prims of a stage hangs over the ground that cars drive on, at the height of a car or higher.
+
+    Attributes
+    ----------
+    hangs
+        Whether all of a prim does; bool, shape (n,).
+    cut_m
+        Height in the world, along the axis that is up, over which the rest of a prim hangs, as the head of a door frame
+        does on its posts; NaN for most; float64, shape (n,).
+    """
+
+    hangs: NDArray[np.bool_]
+    cut_m: NDArray[np.float64]
+
+
+def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
+    """Find what hangs so high that the design car drives below it, on ramps too.
+
+    Parameters
+    ----------
+    stage
+        The stage.
+    scene
+        What it draws.
+    """
+    ramps = floors_of_ramps(read_contents(stage).things)
+    to_y_up = np.linalg.inv(y_up_to_stage(stage))
+    hangs, cut_m = np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan)
+    for number, path in enumerate(scene.shapes):
+        prim = stage.GetPrimAtPath(path)
+        shape = triangles_of(prim) if prim.GetTypeName() in DRAWN_TYPES else None
+        if shape is None:
+            continue
+        rows = np.flatnonzero(scene.shape == number)
+        places = to_y_up @ scene.to_world[rows]
+        high = _heights(shape, places).max(axis=1)
+        for row, place in zip(rows[high >= CAR_HEIGHT_M].tolist(), places[high >= CAR_HEIGHT_M], strict=True):
+            hangs[row], cut_m[row] = _over_the_ground(shape, place, ramps)
+    return Overhead(hangs, cut_m)
+
+
+def _heights(shape: Triangles, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Heights of the corners of a shape's box at each place, shape (places, 8)."""
+    ends = np.stack([shape.positions_m.min(axis=0), shape.positions_m.max(axis=0)]).astype(np.float64)
+    corners = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
+    heights: NDArray[np.float64] = corners @ places[:, 1, :3].T + places[:, 1, 3]
+    return heights.T
+
+
+def _over_the_ground(shape: Triangles, place: NDArray[np.float64], ramps: Sequence[RampFloor]) -> tuple[bool, float]:
+    """Whether all of a placed shape hangs over a car, and else the height from which on some of it does."""
+    points = shape.positions_m.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
+    over_m = points[:, 1] - heights_m(ramps, points[:, 0], points[:, 2])
+    is_high = over_m >= CAR_HEIGHT_M - _ROUNDING_M
+    if is_high.all():
+        return True, np.nan
+    first, second, third = (points[shape.indices[:, corner]] for corner in range(3))
+    normals = np.cross(second - first, third - first)
+    if np.linalg.det(place[:3, :3]) < 0:
+        normals = -normals
+    lengths = np.linalg.norm(normals, axis=1)
+    is_underside = (normals[:, 1] < _LOOKS_DOWN * lengths) & is_high[shape.indices].all(axis=1)
+    if not is_underside.any():
+        return False, np.nan
+    # the underside itself goes too
+    return False, float(points[shape.indices[is_underside], 1].min()) - _ROUNDING_M
