@@ -17,6 +17,8 @@ __all__ = ["DrivenSurface"]
 
 _STEP_M = 0.08
 """How far over the floor a car still drives on what is there: over a speed bump, and not over a kerb."""
+_ROUNDING_M = 0.01
+"""What may lack of the height of a car, as the slab over a ramp comes down to it."""
 
 
 class DrivenSurface:
@@ -60,5 +62,5 @@ class DrivenSurface:
         begins[:, 1] = floor_m[is_free] + _STEP_M
         up = np.broadcast_to(self._to_stage[:3, 1], begins.shape)
         range_m = self._solids.cast(begins @ self._to_stage[:3, :3].T, up).range_m
-        is_free[is_free] = range_m >= CAR_HEIGHT_M - _STEP_M
+        is_free[is_free] = range_m >= CAR_HEIGHT_M - _STEP_M - _ROUNDING_M
         return is_free
