@@ -89,10 +89,10 @@ class DrivenRoad:
     ramps: tuple[RampFloor, ...] = ()
 
 
-def heights_m(ramps: Sequence[RampFloor], x_m: ArrayLike, z_m: ArrayLike) -> Floats:
-    """Heights of the floor at points; float64, their shape."""
+def heights_m(ramps: Sequence[RampFloor], x_m: ArrayLike, z_m: ArrayLike, *, level_m: float = 0.0) -> Floats:
+    """Heights of the floor at points; float64, their shape. `level_m` is that of the floor beside ramps."""
     x, z = np.asarray(x_m, dtype=np.float64), np.asarray(z_m, dtype=np.float64)
-    heights: Floats = np.zeros(np.broadcast(x, z).shape)
+    heights: Floats = np.full(np.broadcast(x, z).shape, level_m)
     for ramp in ramps:
         away_x, away_z = x - ramp.foot_m[0], z - ramp.foot_m[1]
         run = away_x * ramp.uphill[0] + away_z * ramp.uphill[1]

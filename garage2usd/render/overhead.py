@@ -1,6 +1,5 @@
 """What hangs over the head of a car: bird's-eye views look through it, whatever it is."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,9 +7,9 @@ from numpy.typing import NDArray
 from pxr import Usd
 
 from garage2usd.checks.contents import read_contents
+from garage2usd.checks.driven_floor import DrivenFloor
 from garage2usd.checks.driven_ground import CAR_HEIGHT_M
-from garage2usd.checks.driven_road import floors_of_ramps
-from garage2usd.driving import RampFloor, heights_m
+from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.render.drawn_prims import DrawnPrims
 from garage2usd.sensors.poses import y_up_to_stage
@@ -50,7 +49,7 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
     scene
         What it draws.
     """
-    ramps = floors_of_ramps(read_contents(stage).things)
+    floor = DrivenFloor.of(read_lanes(stage).nodes, read_contents(stage).things)
     to_y_up = np.linalg.inv(y_up_to_stage(stage))
     hangs, cut_m = np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan)
     for number, path in enumerate(scene.shapes):
@@ -61,8 +60,9 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
         rows = np.flatnonzero(scene.shape == number)
         places = to_y_up @ scene.to_world[rows]
         high = _heights(shape, places).max(axis=1)
-        for row, place in zip(rows[high >= CAR_HEIGHT_M].tolist(), places[high >= CAR_HEIGHT_M], strict=True):
-            hangs[row], cut_m[row] = _over_the_ground(shape, place, ramps)
+        is_high = high >= floor.level_m + CAR_HEIGHT_M
+        for row, place in zip(rows[is_high].tolist(), places[is_high], strict=True):
+            hangs[row], cut_m[row] = _over_the_ground(shape, place, floor)
     return Overhead(hangs, cut_m)
 
 
@@ -74,10 +74,10 @@ def _heights(shape: Triangles, places: NDArray[np.float64]) -> NDArray[np.float6
     return heights.T
 
 
-def _over_the_ground(shape: Triangles, place: NDArray[np.float64], ramps: Sequence[RampFloor]) -> tuple[bool, float]:
+def _over_the_ground(shape: Triangles, place: NDArray[np.float64], floor: DrivenFloor) -> tuple[bool, float]:
     """Whether all of a placed shape hangs over a car, and else the height from which on some of it does."""
     points = shape.positions_m.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
-    over_m = points[:, 1] - heights_m(ramps, points[:, 0], points[:, 2])
+    over_m = points[:, 1] - floor.heights_m(points[:, 0], points[:, 2])
     is_high = over_m >= CAR_HEIGHT_M - _ROUNDING_M
     if is_high.all():
         return True, np.nan

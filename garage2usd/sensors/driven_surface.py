@@ -5,10 +5,9 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.checks.driven_floor import DrivenFloor
 from garage2usd.checks.driven_ground import CAR_HEIGHT_M
-from garage2usd.checks.driven_road import floors_of_ramps
 from garage2usd.checks.subject import Subject
-from garage2usd.driving import heights_m
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.poses import y_up_to_stage
 from garage2usd.sensors.ray_scene import read_ray_scene
@@ -37,7 +36,7 @@ class DrivenSurface:
     def __init__(self, subject: Subject, labels: Labels, *, without: Collection[str] = ()) -> None:
         if subject.stage is None:
             raise ValueError(subject.kind)
-        self._ramps = floors_of_ramps(subject.things)
+        self._floor = DrivenFloor.of(subject.nodes, subject.things)
         self._solids = read_ray_scene(subject.stage, labels, without=without)
         self._to_stage = y_up_to_stage(subject.stage)
 
@@ -55,7 +54,7 @@ class DrivenSurface:
             bool, shape (n,).
         """
         places = points_m @ self._to_stage[:3, :3]  # by the inverse of a turn
-        floor_m = heights_m(self._ramps, places[:, 0], places[:, 2])
+        floor_m = self._floor.heights_m(places[:, 0], places[:, 2])
         with np.errstate(invalid="ignore"):
             is_free: NDArray[np.bool_] = np.abs(places[:, 1] - floor_m) < _STEP_M
         begins = places[is_free]

@@ -69,3 +69,19 @@ def test_portals_and_ramps_are_open_from_above_in_every_form(builds, form):
     assert all(parts[name] == (False, pytest.approx(np.nan, nan_ok=True)) for name in standing)
     assert all(hangs for path, (hangs, _) in found.items() if "/Sky_" in path)
     assert not any(hangs for path, (hangs, _) in found.items() if "/Car" in path or "/Column" in path)
+
+
+def test_a_garage_that_stands_elsewhere_is_open_at_the_same_places(builds, tmp_path):
+    stage = Usd.Stage.Open(str(builds(HAND_DRAWN, "usdc", "instanced").stage))
+    over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
+    UsdGeom.SetStageUpAxis(over, UsdGeom.Tokens.z)
+    UsdGeom.SetStageMetersPerUnit(over, 0.01)
+    held = UsdGeom.Xform.Define(over, "/Held")
+    held.AddTranslateOp().Set(Gf.Vec3d(300.0, -200.0, 450.0))
+    held.AddScaleOp().Set(Gf.Vec3f(100.0))
+    held.AddRotateXOp().Set(90.0)
+    held.GetPrim().GetReferences().AddReference(stage.GetRootLayer().realPath)
+    plain, lifted = (find_overhead(each, read_drawn_prims(each, {})) for each in (stage, over))
+    assert plain.hangs.sum() > 100
+    assert lifted.hangs.tolist() == plain.hangs.tolist()
+    assert lifted.cut_m == pytest.approx(plain.cut_m + 4.5, nan_ok=True, abs=1e-4)

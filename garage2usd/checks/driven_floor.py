@@ -1,0 +1,41 @@
+"""The floor that cars drive on: level in the garage, and rising on its ramps."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from garage2usd.checks.driven_road import floors_of_ramps
+from garage2usd.checks.shapes import Thing
+from garage2usd.driving import RampFloor, heights_m
+from garage2usd.reading.ground import LaneNode
+from garage2usd.stage.lane_curves import GUIDE_LIFT_M
+
+__all__ = ["DrivenFloor"]
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenFloor:
+    """The floor that cars drive on, in metres, Y up.
+
+    Attributes
+    ----------
+    level_m
+        Height of the garage's floor.
+    ramps
+        The floors of its ramps.
+    """
+
+    level_m: float
+    ramps: tuple[RampFloor, ...]
+
+    @classmethod
+    def of(cls, nodes: Iterable[LaneNode], things: Iterable[Thing]) -> "DrivenFloor":
+        """The floor below the nodes of lanes, which lies at 0 where there are none, and of the ramps among objects."""
+        heights = [node.height_m - GUIDE_LIFT_M for node in nodes]
+        return cls(float(np.median(heights)) if heights else 0.0, floors_of_ramps(things))
+
+    def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:
+        """Its heights at points; float64, their shape."""
+        return heights_m(self.ramps, x_m, z_m, level_m=self.level_m)
