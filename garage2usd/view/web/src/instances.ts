@@ -1,22 +1,14 @@
 /** All objects, drawn as instances of their shapes: what cannot be seen is left out, what is far is drawn coarsely. */
 
-import { MeshoptSimplifier } from "meshoptimizer/simplifier";
 import * as THREE from "three";
 import type { Boxes, Chunk } from "./boxes";
+import { levelsOf, ready } from "./levels";
 import type { SceneFile } from "./scene_file";
 import type { SurfaceMaterials } from "./surface_material";
 
 const STRIDE = 16;
-/** A shape is drawn at its full, second, third ... level where it is at least so many pixels across. */
-const LEVEL_PX = [200, 60, 22, 9];
-/** Share of the triangles and greatest error, as a share of its size, that each coarser level has. */
-const COARSER = [
-  { share: 0.3, error: 0.006 },
-  { share: 0.08, error: 0.035 },
-  { share: 0.03, error: 0.12 },
-  { share: 0.01, error: 0.3 },
-];
-const FEWEST_TRIANGLES = 40;
+/** A shape is drawn at its coarsest level that strays by at most so many pixels. */
+const STRAY_PX = 0.5;
 const [SHEET_M, SHEET_RADIUS_M] = [0.05, 1.5];
 /** What is smaller is not drawn. */
 const LEAST_PX = 1.5;
@@ -75,6 +67,8 @@ class Batch {
 
 interface ShapeBatches {
   levels: Batch[];
+  /** How far each level strays, in the shape's units. */
+  strays: number[];
   blended: Batch | null;
   radius: number;
 }
@@ -91,6 +85,8 @@ export class Instances {
   /** Whether each object is in a layer that is on. */
   readonly visible: Uint8Array;
   private readonly instances: Float32Array;
+  /** How many metres a unit of each object's shape is at most. */
+  private readonly scales: Float32Array;
   private readonly shapes: ShapeBatches[] = [];
   private readonly frustum = new THREE.Frustum();
   private readonly projection = new THREE.Matrix4();
@@ -104,10 +100,13 @@ export class Instances {
   ) {
     this.visible = new Uint8Array(scene.count).fill(1);
     this.instances = new Float32Array(STRIDE * scene.count);
+    this.scales = new Float32Array(scene.count);
     const members = new Uint32Array(scene.shapes.length);
     for (let object = 0; object < scene.count; object++) {
       members[scene.shape[object]] += 1;
-      this.instances.set(scene.matrix.subarray(12 * object, 12 * object + 12), STRIDE * object);
+      const matrix = scene.matrix.subarray(12 * object, 12 * object + 12);
+      this.scales[object] = Math.max(...[0, 1, 2].map((axis) => Math.hypot(matrix[axis], matrix[axis + 4], matrix[axis + 8])));
+      this.instances.set(matrix, STRIDE * object);
       this.instances.set([materials.paletteStart[scene.palette[object]], scene.label[object], object, 0], STRIDE * object + 12);
     }
     scene.shapes.forEach((_, number) => this.shapes.push(this.batchesOf(number, members[number], materials)));
@@ -115,7 +114,7 @@ export class Instances {
   }
 
   static async create(scene: SceneFile, boxes: Boxes, chunks: Chunk[], materials: SurfaceMaterials): Promise<Instances> {
-    await MeshoptSimplifier.ready;
+    await ready;
     return new Instances(scene, boxes, chunks, materials);
   }
 
@@ -133,12 +132,19 @@ export class Instances {
     const radius = Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]) / 2;
     const material = doubleSided ? materials.opaqueTwoSided : materials.opaque;
     const levels: Batch[] = [];
+    const strays: number[] = [];
     if (opaque[1]) {
       const full = scene.indices.subarray(opaque[0], opaque[0] + opaque[1]);
       // a floor has few triangles, and each is seen from afar
       const isSheet = radius > SHEET_RADIUS_M && Math.min(box[3] - box[0], box[4] - box[1], box[5] - box[2]) < SHEET_M;
-      const slots = scene.slots.subarray(first, first + count);
-      for (const indices of isSheet ? [full] : [full, ...coarser(full, positions, slots)]) {
+      const corners = {
+        positions,
+        normals: scene.normals.subarray(4 * first, 4 * (first + count)),
+        coordinates: scene.coordinates.subarray(2 * first, 2 * (first + count)),
+        slots: scene.slots.subarray(first, first + count),
+      };
+      for (const { indices, stray } of isSheet ? [{ indices: full, stray: 0 }] : levelsOf(full, corners, radius)) {
+        strays.push(stray);
         const index = new THREE.BufferAttribute(narrow(indices, count), 1);
         const batch = new Batch(geometry, index, material, indices.length / 3, members);
         // the large and the far last: what stands before it hides it
@@ -153,7 +159,7 @@ export class Instances {
       glass = new Batch(geometry, index, materials.blended, indices.length / 3, members);
       glass.mesh.renderOrder = 1e6;
     }
-    return { levels, blended: glass, radius };
+    return { levels, strays, blended: glass, radius };
   }
 
   /** Choose what is drawn, and how finely; `coarse` from 1 on makes it coarser. */
@@ -161,7 +167,7 @@ export class Instances {
     const { scene, boxes, box, frustum } = this;
     this.projection.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     frustum.setFromProjectionMatrix(this.projection);
-    const [finest, least] = [coarse ** 1.5, coarse > 1 ? 2 * LEAST_PX : LEAST_PX];
+    const least = coarse > 1 ? 2 * LEAST_PX : LEAST_PX;
     const pixels = heightPx / (2 * Math.tan((camera.fov * Math.PI) / 360));
     const { x, y, z } = camera.position;
     for (const { levels, blended } of this.shapes) {
@@ -186,10 +192,11 @@ export class Instances {
         const reach = Math.hypot(w[at + 3] - w[at], w[at + 4] - w[at + 1], w[at + 5] - w[at + 2]);
         const size = (pixels * reach) / distance;
         if (size < least) continue;
-        const { levels, blended } = this.shapes[scene.shape[object]];
+        const { levels, strays, blended } = this.shapes[scene.shape[object]];
         if (levels.length) {
-          let level = 0;
-          while (level < levels.length - 1 && size / finest < LEVEL_PX[level]) level += 1;
+          const most = (STRAY_PX * coarse * distance) / (pixels * this.scales[object]);
+          let level = levels.length - 1;
+          while (level > 0 && strays[level] > most) level -= 1;
           const batch = levels[level];
           batch.list[batch.count++] = object;
         }
@@ -207,44 +214,6 @@ export class Instances {
         drawn.calls += batch.count ? 1 : 0;
       }
   }
-}
-
-/** Indices of the same triangles, ever fewer; none where that is not worth it. */
-function coarser(indices: Uint32Array, positions: Float32Array, slots: Uint8Array): Uint32Array[] {
-  const levels: Uint32Array[] = [];
-  let last = indices;
-  for (const { share, error } of COARSER) {
-    if (last.length / 3 < FEWEST_TRIANGLES) break;
-    // one surface at a time, so that none takes the colour of another
-    const parts = bySlot(indices, slots).map((part) => simplified(part, positions, share, error));
-    const found = Uint32Array.from(parts.flatMap((part) => [...part]));
-    if (found.length === 0 || found.length > 0.75 * last.length) continue;
-    levels.push(found);
-    last = found;
-  }
-  return levels;
-}
-
-function simplified(indices: Uint32Array, positions: Float32Array, share: number, error: number): Uint32Array {
-  const target = 3 * Math.max(6, Math.floor((share * indices.length) / 3));
-  if (indices.length <= target) return indices;
-  const [found] = MeshoptSimplifier.simplify(indices, positions, 3, target, error, ["Prune"]);
-  if (found.length <= 1.6 * target) return found;
-  // seams between flat faces bind many meshes; far away nobody sees them
-  const [rough] = MeshoptSimplifier.simplifySloppy(indices, positions, 3, null, target, 1.5 * error);
-  return rough.length && rough.length < found.length ? rough : found;
-}
-
-/** The triangles of each surface. */
-function bySlot(indices: Uint32Array, slots: Uint8Array): Uint32Array[] {
-  const groups = new Map<number, number[]>();
-  for (let k = 0; k < indices.length; k += 3) {
-    const slot = slots[indices[k]];
-    const group = groups.get(slot) ?? [];
-    if (!group.length) groups.set(slot, group);
-    group.push(indices[k], indices[k + 1], indices[k + 2]);
-  }
-  return [...groups.values()].map((group) => Uint32Array.from(group));
 }
 
 function narrow(indices: Uint32Array, vertices: number): Uint16Array | Uint32Array {
