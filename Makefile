@@ -1,5 +1,6 @@
-# Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`.
-.PHONY: demo test
+# Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`. While one works, `make check`
+# runs what a change can affect, `make check BASE=commit` what differs from a commit.
+.PHONY: demo test check lint
 
 demo:
 	@./environment.sh demo
@@ -7,11 +8,16 @@ demo:
 	@echo "Open out/garage.usdz in Blender (File > Import > Universal Scene Description); out/garage_plan.png is its plan."
 
 # where Python is told to keep no compiled files, each command that a test starts would compile all it imports
-test: export PYTHONDONTWRITEBYTECODE =
-test:
+test check: export PYTHONDONTWRITEBYTECODE =
+test: lint
+	@.venv/bin/python -m pytest -n auto --dist worksteal
+
+check: lint
+	@PYTHONPATH=tests .venv/bin/python -m support.affected_tests $(if $(BASE),--base $(BASE))
+
+lint:
 	@./environment.sh test
 	@.venv/bin/ruff check --quiet .
 	@.venv/bin/ruff format --quiet --check .
 	@.venv/bin/mypy
 	@.venv/bin/lint-imports
-	@.venv/bin/python -m pytest -n auto --dist worksteal

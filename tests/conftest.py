@@ -4,9 +4,11 @@ import gc
 import os
 import pickle
 import signal
+from itertools import chain
 
 import pytest
 from filelock import FileLock
+from support.durations import write_durations
 
 import garage2usd
 from garage2usd.limits import ONE_THREAD
@@ -17,6 +19,7 @@ for variable, value in ONE_THREAD.items():
 
 def pytest_addoption(parser):
     parser.addoption("--write-pictures", action="store_true", help="replace the stored pictures by what is drawn now")
+    parser.addoption("--write-durations", action="store_true", help="note how long each file took, for `make check`")
 
 
 def pytest_configure():
@@ -38,6 +41,12 @@ def pytest_runtest_makereport(item, call):
         report.outcome = "failed"
         report.longrepr = f"skipped in CI: {report.longrepr}"
     return report
+
+
+def pytest_terminal_summary(terminalreporter):
+    if terminalreporter.config.getoption("--write-durations"):
+        reports = chain.from_iterable(terminalreporter.stats.values())
+        write_durations(report for report in reports if isinstance(report, pytest.TestReport))
 
 
 @pytest.fixture(scope="session")

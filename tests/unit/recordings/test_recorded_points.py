@@ -17,7 +17,6 @@ from garage2usd.config import config_from_mapping
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import ConfigError
 from garage2usd.recordings import CloudFormat, Sequence, record
-from garage2usd.render import blender_process
 from garage2usd.sensors.rig import rig_from_mapping
 
 MILLIMETRE = 0.001
@@ -237,7 +236,7 @@ def test_points_alone_leave_the_cameras_out_and_need_no_blender(small, tmp_path,
 
 
 def test_without_blender_the_message_says_how_points_alone_are_recorded(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(blender_process, "find_spec", lambda _name: None)
+    monkeypatch.setitem(sys.modules, "bpy", None)
     options = ["--rig", rig_file(tmp_path, TOP, CAMERA), "--along", f"1:{TAKEN}", "-o", tmp_path / "out"]
     ran = CliRunner().invoke(main, ["render", str(small.stage), *map(str, options)])
     assert ran.exit_code == 1
