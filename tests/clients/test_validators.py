@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from pxr import Sdf, Usd, UsdValidation
-from support.sample_files import SAMPLES, each_build, each_format, each_sample
+from support.sample_files import SAMPLES, each_build, each_package, each_sample
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
@@ -28,9 +28,9 @@ def usd_findings(path):
     return [f"{f.GetName()} {f.GetMessage()}" for f in context.Validate(Usd.Stage.Open(str(path)))]
 
 
-@each_sample
-@each_format
+@each_package
 def test_usd_validation_finds_nothing(sample, extension, builds):
+    """Of packages, to which some of its rules are peculiar."""
     assert usd_findings(builds(sample, extension).stage) == []
 
 
