@@ -43,6 +43,7 @@ STEPS = """([object, side, width, height]) => {
   const turn = Math.atan2(x, z) + side, up = middle[1] > 1.9 ? -0.3 : 0.3;
   renderer.setPixelRatio(1);
   renderer.setSize(width, height, false);
+  camera.near = 0.06;
   camera.fov = 60;
   camera.aspect = width / height;
   camera.updateProjectionMatrix();

@@ -23,12 +23,11 @@ ROOT = Path(__file__).parents[2]
 _CORES = 2
 _UNKNOWN_S = 5.0  # a file that is new
 _WORKERS_FROM_S = 10.0  # for less, it takes longer to start them than they save
-_TOLD = 12
+_TOLD = 12  # of those that are left
 _PACKAGE = "garage2usd"
 _CHANGED = "changed"
 _EVERYWHERE = {"pyproject.toml", "environment.sh", "tests/conftest.py"}
 _ANY_MODULE_OF = re.compile(rf"f\"({_PACKAGE}\.[\w.]+)\.\{{")  # import_module(f"garage2usd.maps.{module}")
-
 _ALL_BESIDE = "iter_modules(__path__"  # a package that loads whatever module it has
 
 

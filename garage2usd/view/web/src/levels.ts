@@ -26,7 +26,7 @@ const WORTH = 0.75;
 
 export interface Level {
   indices: Uint32Array;
-  /** What is drawn lies nowhere farther from the shape, in its own units. */
+  /** How far what is drawn lies from the shape, as meshoptimizer measures it, in the shape's units. */
   stray: number;
 }
 
