@@ -17,6 +17,7 @@ from garage2usd.cli.meshes import meshes
 from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
 from garage2usd.cli.schema import schema
+from garage2usd.cli.streams import open_streams
 from garage2usd.cli.supervision import SUPERVISED, supervise
 from garage2usd.cli.textures import textures
 from garage2usd.cli.view import view
@@ -50,6 +51,7 @@ for _command in (build, check, dataset, drive, export, meshes, plan, render, sch
 
 def run() -> None:
     """The program `garage2usd`: the command that its arguments name, where need be in a process of its own."""
+    open_streams()
     gc.set_threshold(_KEPT_OBJECTS)
     # else Python looks for dead cycles in all that is left, three times, which takes a fifth of a second after a build
     atexit.register(gc.freeze)

@@ -1,6 +1,7 @@
 """A group of commands that share their errors and exit codes."""
 
 import sys
+from typing import Any
 
 import click
 
@@ -15,15 +16,15 @@ _USAGE_FIELDS = {"frames", "output", "profile"}
 class Commands(click.Group):
     """Turns the errors that garage2usd raises on purpose into one line and an exit code."""
 
-    def invoke(self, ctx: click.Context) -> object:
+    def main(self, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401 - as click has it
         """Run a command; usage errors end in 2, all others in 1. A real bug shows its traceback."""
         TERMINATION.install()
         try:
-            return super().invoke(ctx)
+            return super().main(*args, **kwargs)
         except Garage2UsdError as error:
             click.echo(f"Error: {error}", err=True)
-            usage = isinstance(error, ConfigError) and error.field in _USAGE_FIELDS
-            ctx.exit(2 if usage else 1)
+            is_usage = isinstance(error, ConfigError) and error.field in _USAGE_FIELDS
+            sys.exit(2 if is_usage else 1)
         except Exception as error:
             # values of a stage are read late, so any step may come upon a damaged one
             if not _is_of_usd(error):
@@ -31,7 +32,7 @@ class Commands(click.Group):
             from garage2usd.reading.files import usd_reason  # noqa: PLC0415 - it brings USD
 
             click.echo(f"Error: USD cannot read the stage ({usd_reason(error)})", err=True)
-            ctx.exit(1)
+            sys.exit(1)
 
 
 def _is_of_usd(error: Exception) -> bool:

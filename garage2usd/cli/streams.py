@@ -1,0 +1,76 @@
+"""The standard streams of the program: they take any text, and one that is full is told in one line."""
+
+import errno
+import io
+import os
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING, TextIO
+
+from garage2usd.errors import OutputError
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
+
+__all__ = ["open_streams"]
+
+_OUTPUT, _ERROR = 1, 2
+
+
+def open_streams() -> None:
+    """Open standard output and standard error anew, so that they take any text, whatever their encoding is.
+
+    What an encoding has not, such as letters of a file's name, is printed by its number. A standard output that takes
+    no more raises `OutputError`; what standard error does not take is lost, as is what goes to a stream that is closed.
+    """
+    for number in range(_ERROR + 1):  # else the next file gets the number, and what libraries print goes into it
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    sys.stdout = _opened(sys.stdout or os.fdopen(_OUTPUT, "w", closefd=False), is_needed=True)
+    sys.stderr = _opened(sys.stderr or os.fdopen(_ERROR, "w", closefd=False), is_needed=False)
+
+
+def _opened(stream: TextIO, *, is_needed: bool) -> TextIO:
+    file = _File(stream.fileno(), is_needed=is_needed)
+    is_unbuffered = isinstance(stream.buffer, io.RawIOBase)
+    return io.TextIOWrapper(
+        file if is_unbuffered else io.BufferedWriter(file),
+        encoding=stream.encoding,
+        errors="backslashreplace",
+        line_buffering=bool(stream.line_buffering),
+        write_through=is_unbuffered,
+    )
+
+
+class _File(io.FileIO):
+    """The file of a standard stream.
+
+    Parameters
+    ----------
+    descriptor
+        Of the file, which stays open.
+    is_needed
+        Whether it is an error if it takes no more.
+    """
+
+    def __init__(self, descriptor: int, *, is_needed: bool) -> None:
+        super().__init__(descriptor, "w", closefd=False)
+        self._is_needed = is_needed
+
+    def write(self, data: "ReadableBuffer", /) -> int:
+        """Write bytes; after an error into nothing, also what is held back."""
+        size = memoryview(data).nbytes
+        try:
+            return super().write(data) if size else 0  # click tries with nothing whether a stream takes text
+        except OSError as error:
+            with suppress(OSError):
+                nothing = os.open(os.devnull, os.O_WRONLY)
+                os.dup2(nothing, self.fileno())
+                os.close(nothing)
+            if not self._is_needed:
+                return size
+            if error.errno == errno.EPIPE:  # whoever reads it has read enough
+                raise
+            raise OutputError("standard output", error.strerror or str(error)) from None
