@@ -32,6 +32,8 @@ _OPAQUE = 0.5
 _LENS = "lens"
 """Property of the camera that says which lens it has."""
 _RAYS = Path(__file__).with_name("rays.osl")
+_PARTS = "parts"
+"""Folder of pictures that are being written."""
 _SAMPLE = re.compile(r"Sample (\d+)/\d+")
 
 
@@ -180,8 +182,13 @@ def _cut(item: bpy.types.Object, to_world: Matrix, height_m: float) -> bpy.types
 
 
 def _draw(scene: bpy.types.Scene, path: Path) -> None:
-    """Draw a picture whose file is there only when it is whole."""
-    part = path.with_name(f"part_{path.name}")
+    """Draw a picture whose file is there only when it is whole.
+
+    Blender is told a path within the working directory, as `#` and braces stand for other things in its paths, and
+    they may be in those of the user.
+    """
+    part = Path(_PARTS, path.name)
+    part.parent.mkdir(exist_ok=True)
     scene.render.filepath = str(part)
     bpy.ops.render.render(write_still=True)
     part.replace(path)

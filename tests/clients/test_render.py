@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter
 from types import SimpleNamespace
@@ -90,6 +91,23 @@ def read_frame(folder, frame):
         eye=to_world[:3, 3],
         direction=direction,
     )
+
+
+def test_signs_that_blender_reads_in_paths_are_signs_of_names(builds, tmp_path, monkeypatch):
+    built = builds(HAND_DRAWN, "usdz")
+    folder = tmp_path / "s#{b}[1]@"
+    temporary = tmp_path / "t#{b}[1]@"
+    temporary.mkdir()
+    shutil.copytree(built.stage.parent, folder)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    how = {"cameras": ("Inside",), "size_px": (48, 27), "samples": 1, "pictures": (Picture.COLOUR, Picture.INSTANCE)}
+    made = render_stage(folder / built.stage.name, tmp_path / "o#{b}[1]@", **how)
+    monkeypatch.undo()
+    plain = render_stage(built.stage, tmp_path / "plain", **how)
+    for kind in how["pictures"]:
+        (picture,) = (made.folder / kind).iterdir()
+        assert picture.read_bytes() == (plain.folder / kind / picture.name).read_bytes()
+    assert not list(temporary.iterdir())
 
 
 @pytest.mark.parametrize("form", ["instanced", "nested"])
