@@ -1,5 +1,6 @@
 """Text, TOML, JSON and NumPy files that anybody may have written: read as far as a limit, refused in one error."""
 
+import codecs
 import io
 import json
 import os
@@ -77,9 +78,16 @@ def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -
 
 
 def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> str:
-    """The text of a file in UTF-8; raises `ConfigError` as `read_bytes`, and for other encodings."""
+    """The text of a file in UTF-8, or in UTF-16 with a byte order mark, which is left out.
+
+    Raises
+    ------
+    ConfigError
+        As `read_bytes`, and for other encodings.
+    """
+    data = read_bytes(path, field=field, max_bytes=max_bytes)
     try:
-        return read_bytes(path, field=field, max_bytes=max_bytes).decode()
+        return data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
     except UnicodeDecodeError as error:
         raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
 

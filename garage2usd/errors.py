@@ -64,7 +64,7 @@ class DataSetError(Garage2UsdError):
     """
 
     def __init__(self, path: object, reason: str) -> None:
-        super().__init__(f"{path}: {reason}")
+        super().__init__(f"{_printable(path)}: {reason}")
 
 
 class GenerationError(Garage2UsdError):
@@ -126,7 +126,7 @@ class OutputError(Garage2UsdError, OSError):
 
     def __str__(self) -> str:
         """Path and reason, without OSError's errno form."""
-        return f"{self.path}: {self.reason}"
+        return f"{_printable(self.path)}: {self.reason}"
 
 
 class UnreadableFileError(Garage2UsdError):
@@ -143,7 +143,7 @@ class UnreadableFileError(Garage2UsdError):
     def __init__(self, path: object, reason: str) -> None:
         self.path = path
         self.reason = reason
-        super().__init__(f"{path}: {reason}")
+        super().__init__(f"{_printable(path)}: {reason}")
 
 
 class StageError(UnreadableFileError):
@@ -188,6 +188,11 @@ class RenderError(Garage2UsdError):
         self.code = code
         self.said = said
         super().__init__(f"Blender ended with {code}: {said}")
+
+
+def _printable(path: object) -> str:
+    """A path in one line, in which signs that cannot be printed stand by their number."""
+    return "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in str(path))
 
 
 _BRIEF_CHARACTERS = 80

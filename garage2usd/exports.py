@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path
+from typing import NamedTuple
 
 from garage2usd.checks import Subject
 from garage2usd.checks.stage_reader import subject_of_stage
@@ -12,12 +13,12 @@ from garage2usd.extras import require
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.network import Network
-from garage2usd.maps.occupancy import write_grid
+from garage2usd.maps.occupancy import grid_files, write_grid
 from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
-from garage2usd.output import check_name, check_writable, publish, staging_folder
+from garage2usd.output import check_file, check_name, drafting, publish_at, staging_folder
 from garage2usd.pipeline import build
 from garage2usd.processes import each_in_a_copy, without_collector
 from garage2usd.progress import Progress, silent
@@ -30,10 +31,9 @@ from garage2usd.reading.walk import placed_objects
 
 __all__ = ["EXPORT_SUFFIXES", "check_exports", "check_formats", "export"]
 
-_REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO = ".json", ".glb", ".osm", ".xodr", ".xosc"
+_REPORT, _SCENE, _LANELET2, _MAP, _SCENARIO, _GRID = ".json", ".glb", ".osm", ".xodr", ".xosc", ".yaml"
 _OF_EXTRA = {_LANELET2: ("a Lanelet2 map", "pyproj"), _SCENARIO: ("a scenario", "scenariogeneration")}
 """What needs a module of an extra, and which, by what its files end in."""
-_Write = Callable[["_Source", Path, MapsConfig, Remarks], Sequence[Path]]
 Notice = Callable[[str], None]
 """Takes a line on what a format cannot say."""
 
@@ -41,13 +41,13 @@ Notice = Callable[[str], None]
 class _Source:
     """A stage that is open, and what is read in it once for several formats."""
 
-    def __init__(self, path: Path) -> None:
-        self.path, self.stage = path, open_stage(path)
+    def __init__(self, stage: Path, name: str) -> None:
+        self.name, self.stage = name, open_stage(stage)
 
-    def read_for(self, places: Sequence[Path]) -> None:
+    def read_for(self, formats: Sequence[str]) -> None:
         """Read all that several files need, so that copies of this process share it."""
-        of_lanes = [place.suffix for place in places if place.suffix != _SCENE]
-        if len(places) > 1:
+        of_lanes = [suffix for suffix in formats if suffix != _SCENE]
+        if len(formats) > 1:
             _ = self.objects
         if len(of_lanes) > 1:
             _ = self.subject.taken_stalls
@@ -62,7 +62,7 @@ class _Source:
     @cached_property
     def subject(self) -> Subject:
         """Its lanes, stalls and objects."""
-        return subject_of_stage(self.stage, source=str(self.path), objects=self.objects, is_judged=False)
+        return subject_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
 
     @cached_property
     def network(self) -> Network:
@@ -70,63 +70,100 @@ class _Source:
         return network_of(self.subject)
 
 
-def _glb(source: _Source, path: Path, _settings: MapsConfig, remarks: Remarks) -> Sequence[Path]:
+class _Asked(NamedTuple):
+    """A file that is asked for.
+
+    Attributes
+    ----------
+    place
+        Where it goes.
+    settings
+        How it is made.
+    joint
+        What stands between its stem and the names of the masks of a grid.
+    road_file
+        Name of the map that stands beside it, which a scenario refers to.
+    """
+
+    place: Path
+    settings: MapsConfig
+    joint: str
+    road_file: str
+
+    @property
+    def format(self) -> str:
+        """What its name ends in, in small letters."""
+        return _format_of(self.place)
+
+    def files(self, folder: Path) -> tuple[Path, ...]:
+        """The file, and what it brings, in a folder."""
+        path = folder / self.place.name
+        return grid_files(path, self.settings.grid, joint=self.joint) if self.format == _GRID else (path,)
+
+
+_Write = Callable[["_Source", Path, _Asked, Remarks], object]
+
+
+def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
     write_glb(source.stage, path, objects=source.objects, remarks=remarks)
-    return (path,)
 
 
-def _opendrive(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
-    write_opendrive(source.subject, path, settings, network=source.network)
-    return (path,)
+def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    write_opendrive(source.subject, path, asked.settings, network=source.network)
 
 
-def _grid(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
-    return write_grid(source.subject, path, settings.grid)
+def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
+    write_grid(source.subject, path, asked.settings.grid, joint=asked.joint)
 
 
-def _lanelet2(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
+def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
-    write_lanelet2(source.subject, path, settings, network=source.network)
-    return (path,)
+    write_lanelet2(source.subject, path, asked.settings, network=source.network)
 
 
-def _scenario(source: _Source, path: Path, settings: MapsConfig, _remarks: Remarks) -> Sequence[Path]:
+def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
-    subject, asked = source.subject, settings.scenario
-    planner = DrivePlanner(subject, settings.drive)
-    drive = planner.drive(asked.stall, entrance=asked.entrance, exit=asked.exit, leg=asked.leg)
+    subject, driven = source.subject, asked.settings.scenario
+    planner = DrivePlanner(subject, asked.settings.drive)
+    drive = planner.drive(driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg)
     seed = stage_facts(source.stage).get("seed")
     write_scenario(
         path,
         drive.trajectory,
         car=drive.car,
         settings=drive.settings,
-        road_file=path.with_suffix(_MAP).name,
+        road_file=asked.road_file,
         parked=parked_cars(subject, free=[drive.route.stall]),
         name=f"{drive.route.stall} {drive.leg}",
         seed=None if seed is None else int(seed),
     )
-    return (path,)
 
 
 _WRITERS: dict[str, _Write] = {
     _SCENE: _glb,
     _SCENARIO: _scenario,
     _LANELET2: _lanelet2,
-    ".yaml": _grid,
+    _GRID: _grid,
     _MAP: _opendrive,
 }
 """The longest first: so files are begun, so that those that are written at a time end together."""
 
 
-def _write(source: _Source, path: Path, settings: MapsConfig) -> tuple[list[Path], list[str]]:
-    """The files that are written, and what their format cannot say."""
-    path.parent.mkdir(exist_ok=True)
+def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ...], list[str]]:
+    """Write a file that is asked for, with what it brings, into a folder that is made.
+
+    Returns
+    -------
+    tuple
+        The files, and what their format cannot say.
+    """
     remarks = Remarks()
-    files = list(_WRITERS[path.suffix](source, path, settings, remarks))
-    return files, remarks.lines()
+    with drafting(asked.place):
+        folder.mkdir()
+        _WRITERS[asked.format](source, folder / asked.place.name, asked, remarks)
+    return asked.files(folder), remarks.lines()
 
 
 def _unheard(_line: str) -> None:
@@ -147,6 +184,7 @@ def export(
     progress: Progress = silent,
     workers: int = 1,
     notice: Notice = _unheard,
+    joint: str = "_",
 ) -> tuple[Path, ...]:
     """Write a garage in other formats.
 
@@ -172,6 +210,8 @@ def export(
     notice
         Told of what a format cannot say, a line for each reason: the file's name, the reason, how often it came up, and
         the first few places.
+    joint
+        What stands between the stem of a grid and the names of its masks: ``a_keepout.yaml``.
 
     Returns
     -------
@@ -191,59 +231,64 @@ def export(
     MissingExtraError
         If a Lanelet2 map or a scenario is asked for, and the extra ``maps`` is not installed.
     """
-    source, places = Path(source), check_exports(outputs)
-    if scenario is not None and not any(place.suffix == _SCENARIO for place in places):
-        raise ConfigError("output", ", ".join(map(str, places)), f"a path that ends in {_SCENARIO}, for a scenario")
-    with staging_folder() as staging:
+    source, config = Path(source), None
+    if source.suffix.lower() == _REPORT:
+        config = read_report(source).garage_config()
+        settings = settings or config.maps
+    elif source.suffix.lower() not in STAGE_SUFFIXES:
+        raise ConfigError("PATH", str(source), f"a path that ends in {', '.join((*STAGE_SUFFIXES, _REPORT))}")
+    settings = settings or MapsConfig()
+    places = check_exports(outputs, settings=settings, joint=joint)
+    if scenario is not None:
+        if not any(_format_of(place) == _SCENARIO for place in places):
+            raise ConfigError("output", ", ".join(map(str, places)), f"a path that ends in {_SCENARIO}, for a scenario")
+        settings = settings.model_copy(update={"scenario": scenario})
+    files = _asked(places, settings, joint)
+    with staging_folder(places[0]) as staging:
         stage = source
-        if source.suffix.lower() == _REPORT:
-            config = read_report(source).garage_config()
-            settings = settings or config.maps
-            stage = build(config, staging / "source" / f"{source.stem}.usdc", progress=progress).stage
-        elif source.suffix.lower() not in STAGE_SUFFIXES:
-            raise ConfigError("PATH", str(source), f"a path that ends in {', '.join((*STAGE_SUFFIXES, _REPORT))}")
-        settings = settings or MapsConfig()
-        if scenario is not None:
-            settings = settings.model_copy(update={"scenario": scenario})
-        in_order = [staging / str(number) / place.name for number, place in enumerate(places)]
-        drafts = sorted(in_order, key=lambda draft: [*_WRITERS].index(draft.suffix))
-        files_of: dict[Path, list[Path]] = {}
+        if config is not None:
+            stage = build(config, staging / "source" / "garage.usdc", progress=progress).stage
+        order = sorted(range(len(files)), key=lambda number: [*_WRITERS].index(files[number].format))
+        drafts: dict[int, tuple[Path, ...]] = {}  # of each file that is asked for, by its number
         with without_collector():
-            opened = _Source(stage)
-            opened.read_for(places)
-            written = each_in_a_copy([partial(_write, opened, draft, settings) for draft in drafts], workers)
-            progress("export", 0, len(places))
-            for number, (draft, (files, lines)) in enumerate(zip(drafts, written, strict=True)):
-                files_of[draft] = files
+            opened = _Source(stage, str(source))
+            opened.read_for([asked.format for asked in files])
+            tasks = [partial(_write, opened, staging / str(number), files[number]) for number in order]
+            progress("export", 0, len(files))
+            for number, (written, lines) in zip(order, each_in_a_copy(tasks, workers), strict=True):
+                drafts[number] = written
                 for line in lines:
-                    notice(f"{draft.name}: {line}")
-                progress("export", number + 1, len(places))
-        made = [(place.parent, files_of[draft]) for place, draft in zip(places, in_order, strict=True)]
-        _refuse_twice([folder / file.name for folder, files in made for file in files])
-        return tuple(place for folder, files in made for place in publish(files, folder))
+                    notice(f"{files[number].place.name}: {line}")
+                progress("export", len(drafts), len(files))
+        parents = [asked.place.parent for asked in files]
+        return publish_at(
+            {draft: parent / draft.name for number, parent in enumerate(parents) for draft in drafts[number]}
+        )
 
 
-def _refuse_twice(files: Sequence[Path]) -> None:
-    """Refuse outputs of which one is what another one brings, as a grid brings its masks."""
-    for number, file in enumerate(files):
-        if file in files[:number]:
-            raise ConfigError("output", str(file), "paths of which none is a file that another one brings with it")
-
-
-def check_exports(outputs: Sequence[str | Path]) -> tuple[Path, ...]:
+def check_exports(
+    outputs: Sequence[str | Path], *, settings: MapsConfig | None = None, joint: str = "_"
+) -> tuple[Path, ...]:
     """The paths of exports and of the maps that scenarios name, which can be written; raises as `export`."""
-    places = tuple(map(Path, outputs))
-    if not places:
+    asked = tuple(map(Path, outputs))
+    if not asked:
         raise ConfigError("output", "", f"one or more paths that end in {', '.join(EXPORT_SUFFIXES)}")
-    for number, place in enumerate(places):
-        if place.suffix not in _WRITERS or not place.stem:
+    for number, place in enumerate(asked):
+        if _format_of(place) not in _WRITERS or not place.stem:
             raise ConfigError("output", str(place), f"a path that ends in {', '.join(EXPORT_SUFFIXES)}")
-        if place in places[:number]:
+        if place in asked[:number]:
             raise ConfigError("output", str(place), "each file once")
-        check_name(place)
-        check_writable(place.parent)
-    check_formats(place.suffix for place in places)
-    return tuple(_with_maps(places))
+    places = tuple(_with_maps(asked))
+    brought = [
+        file for each in _asked(places, settings or MapsConfig(), joint) for file in each.files(each.place.parent)
+    ]
+    for number, file in enumerate(brought):
+        if file in brought[:number]:
+            raise ConfigError("output", str(file), "paths of which none is a file that another one brings with it")
+        check_name(file)
+        check_file(file)
+    check_formats(map(_format_of, places))
+    return places
 
 
 def check_formats(suffixes: Iterable[str]) -> None:
@@ -259,9 +304,21 @@ def check_formats(suffixes: Iterable[str]) -> None:
     require(" and ".join(purpose for purpose, _ in asked), [module for _, module in asked])
 
 
+def _asked(places: Sequence[Path], settings: MapsConfig, joint: str) -> list[_Asked]:
+    return [_Asked(place, settings, joint, (_map_beside(place, places) or place).name) for place in places]
+
+
 def _with_maps(places: Sequence[Path]) -> Iterator[Path]:
     for place in places:
         yield place
-        if place.suffix == _SCENARIO and (beside := place.with_suffix(_MAP)) not in places:
-            check_name(beside)
-            yield beside
+        if _format_of(place) == _SCENARIO and _map_beside(place, places) is None:
+            yield place.with_suffix(_MAP)
+
+
+def _map_beside(place: Path, places: Sequence[Path]) -> Path | None:
+    """The map of the same stem in the same folder."""
+    return next((map_ for map_ in places if _format_of(map_) == _MAP and map_.with_suffix(place.suffix) == place), None)
+
+
+def _format_of(path: Path) -> str:
+    return path.suffix.lower()

@@ -7,8 +7,8 @@ import secrets
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import IO
 
@@ -21,11 +21,14 @@ else:
 
 __all__ = [
     "HIDDEN_PREFIX",
-    "check_length",
+    "can_say",
+    "check_file",
     "check_name",
     "check_writable",
+    "drafting",
     "only_run",
     "publish",
+    "publish_at",
     "staging_folder",
     "store",
     "unfinished_folder",
@@ -38,28 +41,58 @@ _KEY = "work.txt"
 _AT_WORK = "another run is at work in it; wait until that has ended, or name another folder"
 _LOCK = "lock.bin"
 """Locked while a run is at work in the folder; the system opens it when the run ends, however that happens."""
+_CONTROL = "control characters"
 _LONGEST_NAME_BYTES = 220
 """File systems take 255, of which other files' endings take some."""
-_UNSPEAKABLE = re.compile(r"[@\\\x00-\x1f\x7f\ud800-\udfff]")
+_UNSPEAKABLE = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
+_UNSPEAKABLE_BY_USD = "@\\"
 
 
-def check_length(path: Path) -> None:
-    """Find out whether files can have a name, and ``_learning.png`` after it; raises `ConfigError` if they cannot."""
-    if len(path.name.encode("utf-8", "surrogatepass")) > _LONGEST_NAME_BYTES:
-        raise ConfigError("output", str(path), f"a file name of at most {_LONGEST_NAME_BYTES} bytes")
+def can_say(path: str | Path) -> bool:
+    """Whether USD and formats of text can say a path: it is in UTF-8, and has no control characters."""
+    return _UNSPEAKABLE.search(str(path)) is None
 
 
-def check_name(path: Path) -> None:
-    """Find out whether a layer that is to be written can have a name, and USD say it.
+def check_name(path: Path, *, of_layer: bool = False) -> None:
+    """Find out whether the name of a file that is to be written can be said in text files.
+
+    Parameters
+    ----------
+    path
+        The file.
+    of_layer
+        Whether USD has to say it too.
 
     Raises
     ------
     ConfigError
         If it cannot.
     """
-    check_length(path)
-    if _UNSPEAKABLE.search(path.name):
-        raise ConfigError("output", str(path), "a file name in UTF-8 without '@', '\\' and control characters")
+    unspeakable = f"'@', '\\' and {_CONTROL}" if of_layer else _CONTROL
+    if not can_say(path.name) or (of_layer and any(sign in path.name for sign in _UNSPEAKABLE_BY_USD)):
+        raise ConfigError("output", str(path), f"a file name in UTF-8 without {unspeakable}")
+
+
+def check_file(path: Path, *, with_it: Iterable[Path] = ()) -> None:
+    """Find out before the work whether a file can stand at a path, and beside it others with a little longer names.
+
+    Raises
+    ------
+    ConfigError
+        If its name is too long, or a folder stands in its place or in that of a file that comes with it.
+    OutputError
+        If its folder cannot be written.
+    """
+    try:
+        bytes_ = len(os.fsencode(path.name))
+    except UnicodeEncodeError:
+        raise ConfigError("output", str(path), "a file name that the system can have") from None
+    if bytes_ > _LONGEST_NAME_BYTES:
+        raise ConfigError("output", str(path), f"a file name of at most {_LONGEST_NAME_BYTES} bytes")
+    check_writable(path.parent)
+    for place in (path, *with_it):
+        if place.is_dir():
+            raise ConfigError("output", str(place), "a path at which no folder stands")
 
 
 def check_writable(folder: Path) -> None:
@@ -79,21 +112,45 @@ def check_writable(folder: Path) -> None:
 
 
 @contextmanager
-def writing(place: Path) -> Iterator[None]:
-    """Raise `OutputError` in place of any other OSError, with the file that it names or else `place`."""
+def writing(place: Path, *, where: str = "") -> Iterator[None]:
+    """Raise `OutputError` in place of any other OSError, with the file that it names or else `place`.
+
+    A file that only this program knows of, as it is not in its place yet, is called `place`, and `where` it is told.
+    """
     try:
         yield
-    except OutputError:
-        raise
     except OSError as error:
-        raise OutputError(error.filename or place, error.strerror or str(error)) from None
+        named, reason = (
+            (error.path, error.reason) if isinstance(error, OutputError) else (error.filename, error.strerror)
+        )
+        if isinstance(named, str | Path) and HIDDEN_PREFIX not in str(named):
+            raise OutputError(named, reason or str(error)) from None
+        raise OutputError(place, f"{reason or error}{where}") from None
 
 
 @contextmanager
-def staging_folder() -> Iterator[Path]:
-    """A temporary folder to make files in; gone afterwards, whatever happened."""
-    with tempfile.TemporaryDirectory(prefix="garage2usd-") as name:
+def staging_folder(place: Path | None = None) -> Iterator[Path]:
+    """A temporary folder to make files in; gone afterwards, whatever happened.
+
+    Parameters
+    ----------
+    place
+        Where what is made goes: errors name it, and not what is in the folder. Left out, they stay as they are.
+
+    Raises
+    ------
+    OutputError
+        If something cannot be written there.
+    """
+    with writing(place or Path(tempfile.gettempdir())):
+        folder = tempfile.TemporaryDirectory(prefix=HIDDEN_PREFIX)
+    with folder as name, drafting(place) if place else nullcontext():
         yield Path(name)
+
+
+def drafting(place: Path) -> AbstractContextManager[None]:
+    """Raise `OutputError` as `writing`, for a file that is made in a folder for temporary files."""
+    return writing(place, where=f" in {tempfile.gettempdir()}, where it is made first")
 
 
 @contextmanager
@@ -131,7 +188,8 @@ def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
             raise OutputError(place, _AT_WORK)
         store(note, key.encode())
         try:
-            yield place
+            with writing(place):
+                yield place
             is_left = False
         except BaseException:
             is_left = any(path.is_file() and path not in {note, lock} for path in place.rglob("*"))
@@ -155,7 +213,7 @@ def only_run(folder: Path) -> Iterator[None]:
         If another one does, or the folder cannot be written.
     """
     lock = folder / f"{HIDDEN_PREFIX}{_LOCK}"
-    with writing(lock):
+    with writing(folder):
         file = lock.open("a+b")
     with file:
         if not _takes(file, lock):
@@ -185,7 +243,12 @@ def _takes(file: IO[bytes], path: Path) -> bool:
 
 
 def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
-    """Move finished files and folders into `folder`, the last one last, replacing what has their names.
+    """Move finished files and folders into `folder` under their names, and return their places; as `publish_at`."""
+    return publish_at({item: folder / item.name for item in items})
+
+
+def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
+    """Move finished files and folders to their places, the last one last, replacing what stands there.
 
     All of them are first copied beside their places under hidden names; only when that went well are they renamed.
 
@@ -199,26 +262,36 @@ def publish(items: Sequence[Path], folder: Path) -> tuple[Path, ...]:
     OutputError
         If they could not be written; what stood there before still does.
     """
-    made = _make_folder(folder)
-    hidden = [folder / f"{HIDDEN_PREFIX}{os.getpid()}-{item.name}" for item in items]
-    places = [folder / item.name for item in items]
-    with writing(folder):
-        try:
-            for item, copy in zip(items, hidden, strict=True):
-                if item.is_dir():
-                    shutil.copytree(item, copy)
-                else:
-                    shutil.copyfile(item, copy)
-            for copy, place in zip(hidden, places, strict=True):
+    made: list[Path] = []
+    hidden = [place.with_name(f"{HIDDEN_PREFIX}{os.getpid()}-{place.name}") for place in places.values()]
+    try:
+        for (item, place), copy in zip(places.items(), hidden, strict=True):
+            made += _make_folder(place.parent)
+            _copy(item, copy, place)
+        for copy, place in zip(hidden, places.values(), strict=True):
+            with writing(place):
                 _replace(copy, place)
-        except BaseException:
-            for copy in hidden:
-                _remove(copy)
-            for parent in made:
-                with suppress(OSError):
-                    parent.rmdir()
-            raise
-    return tuple(places)
+    except BaseException:
+        for copy in hidden:
+            _remove(copy)
+        for parent in sorted(made, reverse=True):  # what lies within a folder goes before it
+            with suppress(OSError):
+                parent.rmdir()
+        raise
+    return tuple(places.values())
+
+
+def _copy(item: Path, copy: Path, place: Path) -> None:
+    """Copy a file, or a folder with all that is in it; what cannot be copied is named by its place."""
+    try:
+        if not item.is_dir():
+            shutil.copyfile(item, copy)
+            return
+        copy.mkdir()
+    except OSError as error:
+        raise OutputError(place, error.strerror or str(error)) from None
+    for inner in item.iterdir():
+        _copy(inner, copy / inner.name, place / inner.name)
 
 
 def store(path: Path, data: bytes) -> None:
@@ -241,7 +314,8 @@ def store(path: Path, data: bytes) -> None:
         hidden.replace(path)
     except OSError as error:
         if not _holds(path, data):  # systems that keep files from being replaced while another process reads them
-            raise OutputError(error.filename or path, error.strerror or str(error)) from None
+            named = path if error.filename == str(hidden) else error.filename
+            raise OutputError(named or path, error.strerror or str(error)) from None
     finally:
         with suppress(OSError):
             hidden.unlink(missing_ok=True)
@@ -256,7 +330,7 @@ def _holds(path: Path, data: bytes) -> bool:
 
 
 def _make_folder(folder: Path) -> list[Path]:
-    """Make `folder` and its parents; returns those that were missing, innermost first."""
+    """Make `folder` and its parents; returns those that were missing."""
     missing = [path for path in (folder, *folder.parents) if not path.exists()]
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)

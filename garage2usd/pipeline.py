@@ -16,7 +16,7 @@ from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
 from garage2usd.layout.tight import tight_stalls
-from garage2usd.output import check_name, check_writable, publish, staging_folder, writing
+from garage2usd.output import check_file, check_name, check_writable, publish_at, staging_folder
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
 from garage2usd.processes import without_collector
 from garage2usd.progress import Progress, silent
@@ -35,6 +35,8 @@ from garage2usd.view.raster import to_image, write_png
 __all__ = ["Build", "Garage", "build", "generate", "generate_plan", "stage_metadata"]
 
 _MOST_CHECKED_STALLS = 10_000
+_NAMES_BESIDE = ("plan.png", "learning.png", "best.png", "labels.json", "report.json")
+"""Of the files that may come with a stage, after its stem and a line."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,16 +177,16 @@ def build(
         If the files cannot be written. They appear whole or not at all.
     """
     path = Path(output)
-    if path.suffix not in set(StageFormat) or not path.stem:
+    if path.suffix.lower() not in set(StageFormat) or not path.stem:
         raise ConfigError("output", str(output), f"a path that ends in {', '.join(StageFormat)}")
-    check_name(path)
+    check_name(path, of_layer=True)
     config = config or GarageConfig()
-    shared = shared_folder(path, config.stage)
-    for folder in filter(None, (path.parent, shared)):
-        check_writable(folder)
+    check_file(path, with_it=(path.with_name(f"{path.stem}_{name}") for name in _NAMES_BESIDE))
+    if shared := shared_folder(path, config.stage):
+        check_writable(shared)
     garage, seconds = _generate(config, seed=seed, tape=tape, progress=progress)
     _check_learnt(garage.plan, learning_curve=learning_curve, best_plans=best_plans)
-    with staging_folder() as staging, writing(staging):
+    with staging_folder(path) as staging:
         start = time.perf_counter()
         folder = staging / "stage"
         folder.mkdir()
@@ -192,7 +194,7 @@ def build(
         made = write_stage(
             garage.layout,
             garage.graph,
-            folder / path.name,
+            folder / f"{path.stem}{path.suffix.lower()}",
             arrangement=arrangement,
             metadata=stage_metadata(garage),
             config=garage.config.stage,
@@ -223,8 +225,9 @@ def build(
         )
         progress("files", 0, 1)
         # the stage comes last: where it stands, all of it does
-        files = [*filter(None, [made.assets]), *drawn, labels, report, made.stage]
-        place_of = dict(zip(files, publish(files, path.parent), strict=True))
+        files = [*filter(None, [made.assets]), *drawn, labels, report]
+        place_of = {file: path.with_name(file.name) for file in files} | {made.stage: path}
+        publish_at(place_of)
     return Build(
         garage=garage,
         stage=place_of[made.stage],

@@ -47,13 +47,14 @@ def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject
     ConfigError
         If it is none of these, or a setting cannot be used.
     """
-    if path.suffix == ".toml":
+    suffix = path.suffix.lower()
+    if suffix == ".toml":
         config = load_config(path)
         return _of_config(config, path, kind="plan"), config
     if is_array_file(path):
         config = config_from_mapping(_given(profile) | matrices_of(path, field=_FIELD))
         return _of_config(config, path, kind="plan"), config
-    if path.suffix != ".json":
+    if suffix != ".json":
         text = read_text(path, field=_FIELD)
         config = config_from_mapping(_given(profile) | {"site": {"structure": text}})
         return _of_config(config, path, kind="plan"), config

@@ -11,6 +11,7 @@ from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
 
 if TYPE_CHECKING:
+    from garage2usd.config.maps import MapsConfig
     from garage2usd.layout import Layout
     from garage2usd.pipeline import Build
 
@@ -82,7 +83,7 @@ def build(
         settings = load_config(config, profile=profile)
     else:
         settings = GarageConfig(**({} if profile is None else {"profile": profile_setting(profile)}))
-    exports = _exports(output, formats)
+    exports = _exports(output, formats, settings.maps)
     notices: list[str] = []
     with Bars(sys.stderr) as progress:
         made = build_garage(
@@ -108,13 +109,14 @@ def build(
     echo_table(("export", str(file)) for file in exports)
 
 
-def _exports(output: Path, formats: str | None) -> tuple[Path, ...]:
+def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple[Path, ...]:
     """What is exported beside a stage; refused before the garage is made if it cannot be."""
     if formats is None:
         return ()
     from garage2usd.exports import check_exports  # noqa: PLC0415 - most builds are not exported
 
-    return check_exports([output.with_name(f"{output.stem}.{name.strip()}") for name in formats.split(",")])
+    files = [output.with_name(f"{output.stem}.{name.strip()}") for name in formats.split(",")]
+    return check_exports(files, settings=settings)
 
 
 def _describe(made: "Build") -> None:

@@ -67,6 +67,7 @@ def dataset(
     if recipe is None or output is None:
         raise click.UsageError("Give a RECIPE and --output FOLDER, or --verify FOLDER.")
     from garage2usd.datasets import load_recipe, make_dataset  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.datasets.shards import empty_splits  # noqa: PLC0415
 
     asked = load_recipe(recipe)
     changed = asked.model_copy(
@@ -75,6 +76,9 @@ def dataset(
             **({"make": asked.make.model_copy(update={"self_contained": True})} if self_contained else {}),
         }
     )
+    for split in empty_splits(changed):
+        share = changed.splits[split] / sum(changed.splits.values()) * changed.count
+        click.echo(f"{split} gets none of the {changed.count} garages: its share is {share:.2g}", err=True)
     with Bars(sys.stderr, unit="garages") as progress:
         made = make_dataset(
             changed, output, worker_count=workers, scheduler=scheduler, resume=resume, progress=progress

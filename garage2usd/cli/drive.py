@@ -12,7 +12,7 @@ from garage2usd.cli.parameters import INPUT_FILE, drive_options, refuse_seed, se
 from garage2usd.errors import ConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from garage2usd.checks import Subject
     from garage2usd.config.maps import DriveConfig
@@ -68,7 +68,7 @@ def drive(
       garage2usd drive garage.usdz --stall A1-08 -o trajectory.csv
       garage2usd drive garage.usdz --stall A1-08 --animate -o car.usdc
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.output import check_name, check_writable  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.output import check_file, check_name  # noqa: PLC0415 - keeps --help instant
 
     if stall is None:
         _refuse_without_stall(entrance=entrance, exit=exit_, leg=leg, animate=animate or None)
@@ -76,11 +76,11 @@ def drive(
         raise ConfigError("output", None, f"a path that ends in {', '.join(_ANIMATION_FORMATS)}, with --animate")
     if output is not None:
         formats = _FORMATS if stall is None else _ANIMATION_FORMATS if animate else _TRAJECTORY_FORMATS
-        if output.suffix not in formats:
+        if output.suffix.lower() not in formats:
             with_stall = "" if stall is None else " with --stall and --animate" if animate else " with --stall"
             raise ConfigError("output", str(output), f"a path that ends in {', '.join(formats)}{with_stall}")
-        check_name(output)
-        check_writable(output.parent)
+        check_name(output, of_layer=output.suffix.lower() in _ANIMATION_FORMATS)
+        check_file(output)
     if stall is not None:
         _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output)
         return
@@ -182,32 +182,40 @@ def _generated(path: Path | None, seed: int | None, progress: "Progress") -> "Ga
 
 def _write_drive(output: Path, driven: "Drive") -> None:
     from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json  # noqa: PLC0415
-    from garage2usd.output import publish, staging_folder  # noqa: PLC0415
     from garage2usd.stage.driving_car import write_driving_car  # noqa: PLC0415
 
-    with staging_folder() as staging:
-        file = staging / output.name
-        if output.suffix == ".csv":
+    def write(file: Path) -> None:
+        if file.suffix == ".csv":
             write_trajectory_csv(file, driven.trajectory)
-        elif output.suffix == ".json":
+        elif file.suffix == ".json":
             write_trajectory_json(file, driven.trajectory, driven.car, driven.facts)
         else:
             write_driving_car(file, driven.motion)
-        publish([file], output.parent)
+
+    _publish(output, write)
 
 
 def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.output import publish, staging_folder  # noqa: PLC0415
     from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
 
-    with staging_folder() as staging:
-        file = staging / output.name
-        if output.suffix == ".json":
+    def write(file: Path) -> None:
+        if file.suffix == ".json":
             write_witness(file, proofs)
         else:
             write_driving_layer(file, proofs)
-        publish([file], output.parent)
+
+    _publish(output, write)
+
+
+def _publish(output: Path, write: "Callable[[Path], None]") -> None:
+    """Have a file written whose name ends in small letters, and put it into its place."""
+    from garage2usd.output import publish_at, staging_folder  # noqa: PLC0415 - keeps --help instant
+
+    with staging_folder(output) as staging:
+        file = staging / f"drive{output.suffix.lower()}"
+        write(file)
+        publish_at({file: output})
 
 
 def _describe(proofs: "Sequence[StallProof]") -> None:

@@ -63,7 +63,7 @@ def plan(
       garage2usd plan samples/paper_7x9.toml --optimum
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.output import check_length, check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
     from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
     from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
     from garage2usd.view.route import find_stall  # noqa: PLC0415
@@ -71,10 +71,9 @@ def plan(
 
     outputs = outputs or (Path(f"{path.stem.removesuffix('_report')}_plan.svg"),)
     for output in outputs:
-        if output.suffix not in _FORMATS or not output.stem:
+        if output.suffix.lower() not in _FORMATS or not output.stem:
             raise ConfigError("output", str(output), f"a path that ends in {', '.join(_FORMATS)}")
-        check_length(output)
-        check_writable(output.parent)
+        check_file(output)
     with Bars(sys.stderr) as progress:
         garage = _garage(path, seed, progress)
         # before a check of a stage, which limits the processor time of what follows
@@ -82,20 +81,16 @@ def plan(
     stall = find_stall(garage.layout, number) if number else None
     marks = _marks(path) if with_findings else []
     drawing = draw_plan(garage.layout, garage.graph, stall=stall, marks=marks)
-    with staging_folder() as staging:
-        made = []
-        for index, output in enumerate(outputs):
-            folder = staging / str(index)
-            folder.mkdir()
-            made.append(folder / output.name)
-            if output.suffix == ".svg":
-                made[-1].write_text(to_svg(drawing), encoding="utf-8")
-            else:
-                write_png(to_image(drawing), made[-1])
-        for file, output in zip(made, outputs, strict=True):
-            publish([file], output.parent)
-            echo_table([("picture", str(output))])
-    echo_table(told)
+    with staging_folder(outputs[0]) as staging:
+        places = {staging / str(number): output for number, output in enumerate(outputs)}
+        for file, output in places.items():
+            with drafting(output):
+                if output.suffix.lower() == ".svg":
+                    file.write_text(to_svg(drawing), encoding="utf-8")
+                else:
+                    write_png(to_image(drawing), file)
+        publish_at(places)
+    echo_table([*(("picture", str(output)) for output in outputs), *told])
 
 
 def _marks(path: Path) -> "list[Mark]":
@@ -138,12 +133,13 @@ def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     from garage2usd.reading.report import read_report  # noqa: PLC0415
     from garage2usd.stage import StageFormat  # noqa: PLC0415
 
-    if path.suffix == ".toml":
+    suffix = path.suffix.lower()
+    if suffix == ".toml":
         return generate(load_config(path), seed=seed, progress=progress)
     refuse_seed(seed)
-    if path.suffix == ".json":
+    if suffix == ".json":
         return generate(read_report(path).garage_config(), progress=progress)
-    if path.suffix in set(StageFormat):
+    if suffix in set(StageFormat):
         if not is_file(path):
             raise ConfigError("PATH", str(path), "an existing file")
         report = path.with_name(f"{path.stem}_report.json")

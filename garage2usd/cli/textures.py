@@ -15,7 +15,7 @@ def textures(folder: Path) -> None:
     from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
 
     check_writable(folder)
-    with staging_folder() as staging:
+    with staging_folder(folder) as staging:
         bake_textures(staging)
         folders = publish(sorted(staging.iterdir()), folder)
     click.echo(f"{sum(len(list(place.iterdir())) for place in folders)} textures in {folder}")

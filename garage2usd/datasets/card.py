@@ -43,8 +43,7 @@ def data_card(recipe: Recipe, rows: Sequence[ManifestRow]) -> str:
         splits=splits,
         is_tar=recipe.shards.form is ShardForm.TAR,
         suffixes=sorted(suffixes),
-        first=first.split if first else "",
-        example=first.key if first else "",
+        example=first,
         stage_suffix=".usdz" if recipe.make.self_contained else ".usdc",
     )
     return text

@@ -46,10 +46,13 @@ class DataSet:
         Where it is.
     rows
         A row a garage, by number; those that could not be made have an error.
+    splits
+        The names of its splits, also of those that are too small for a garage.
     """
 
     folder: Path
     rows: tuple[ManifestRow, ...]
+    splits: tuple[str, ...]
 
     @property
     def failed(self) -> tuple[ManifestRow, ...]:
@@ -57,8 +60,9 @@ class DataSet:
         return tuple(row for row in self.rows if row.error)
 
     def counts(self) -> dict[str, int]:
-        """How many garages each split has."""
-        return dict(Counter(row.split for row in self.rows if not row.error))
+        """How many garages each split has, in the recipe's order."""
+        counted = Counter(row.split for row in self.rows if not row.error)
+        return {split: counted[split] for split in self.splits}
 
 
 def make_dataset(
@@ -105,35 +109,37 @@ def make_dataset(
         check_drives(recipe.make.drives)
     check_formats(f".{name}" for name in recipe.make.exports)
     check_writable(folder)
-    _begin(recipe, folder, resume=resume)
-    with only_run(folder):
-        sweep(folder)
-        return _make(recipe, folder, worker_count, scheduler, progress)
-
-
-def _make(recipe: Recipe, folder: Path, worker_count: int | None, scheduler: str | None, progress: Progress) -> DataSet:
+    _check_folder(recipe, folder, resume=resume)
     from garage2usd.datasets.cluster import workers  # noqa: PLC0415 - it brings Dask, for which no refusal waits
 
     with workers(count=worker_count, scheduler=scheduler) as pool:
-        plans = _plans(recipe, folder, pool, progress)
-        shards = shards_of(recipe, plans)
-        rows = _made(recipe, folder, pool, shards, progress)
+        with writing(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+        with only_run(folder):
+            _check_folder(recipe, folder, resume=resume)  # as another run may have begun here until workers were there
+            store(folder / RECIPE_FILE, recipe.record().encode())
+            sweep(folder)
+            return _make(recipe, folder, pool, progress)
+
+
+def _make(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) -> DataSet:
+    plans = _plans(recipe, folder, pool, progress)
+    shards = shards_of(recipe, plans)
+    rows = _made(recipe, folder, pool, shards, progress)
     rows += [failed_row(drawn, drawn.error) for drawn in plans if drawn.error]
     rows.sort(key=lambda row: row.number)
     sweep(folder)  # what workers that were killed left
     with writing(folder):
         _finish(recipe, folder, plans, rows)
-    return DataSet(folder, tuple(rows))
+    return DataSet(folder, tuple(rows), tuple(recipe.splits))
 
 
-def _begin(recipe: Recipe, folder: Path, *, resume: bool) -> None:
-    """Claim a folder for a recipe, or find out that it is this recipe's."""
+def _check_folder(recipe: Recipe, folder: Path, *, resume: bool) -> None:
+    """Find out whether a folder is new or empty, or holds this recipe's data set and is to be gone on with."""
     note = folder / RECIPE_FILE
     with writing(folder):
-        is_new = not folder.exists() or not any(folder.iterdir())
-        if is_new:
-            folder.mkdir(parents=True, exist_ok=True)
-            store(note, recipe.record().encode())
+        there = folder.iterdir() if folder.exists() else ()
+        if all(path.name.startswith(HIDDEN_PREFIX) for path in there):
             return
         known = note.read_text(encoding="utf-8") if note.is_file() else ""
     if known != recipe.record():
@@ -153,7 +159,7 @@ def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) ->
         if [drawn.number for drawn in plans] == list(range(recipe.count)):
             return plans
     draw = PlanDraw(recipe, _journalled(journal))
-    with writing(journal), journal.open("a", encoding="utf-8") as lines:
+    with writing(file), journal.open("a", encoding="utf-8") as lines:
         while asked := draw.asked():
             left = len(asked)
             progress("plans", recipe.count - left, recipe.count)
@@ -235,13 +241,14 @@ def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequ
     splits = list(recipe.splits)
     figures = [_plan_figures(row, drawn) for row, drawn in zip(rows, plans, strict=True) if not row.error]
     page = folder / f"{HIDDEN_PREFIX}{PAGE_FILE}"
-    write_page(
-        page,
-        sorted(figures, key=lambda plan: splits.index(plan.split)),
-        title=recipe.name,
-        facts={"recipe": RECIPE_FILE, "seed": str(recipe.seed), "garage2usd": VERSION},
-    )
-    page.replace(folder / PAGE_FILE)
+    with writing(folder / PAGE_FILE):
+        write_page(
+            page,
+            sorted(figures, key=lambda plan: splits.index(plan.split)),
+            title=recipe.name,
+            facts={"recipe": RECIPE_FILE, "seed": str(recipe.seed), "garage2usd": VERSION},
+        )
+        page.replace(folder / PAGE_FILE)
     store(folder / CARD_FILE, data_card(recipe, rows).encode())
     store(folder / SUMS_FILE, sums_text(folder).encode())
     with suppress(FileNotFoundError):

@@ -91,6 +91,13 @@ class MakeConfig(Settings):
     self_contained: bool = False
     """Whether each stage is a ``.usdz`` with its assets, instead of referring to the data set's."""
 
+    @field_validator("exports")
+    @classmethod
+    def _once(cls, exports: tuple[str, ...]) -> tuple[str, ...]:
+        if len(set(exports)) < len(exports):
+            raise ValueError("each format once")
+        return exports
+
     @model_validator(mode="after")
     def _has_stage(self) -> Self:
         if (self.exports or self.drives or self.self_contained) and not self.stage:
@@ -241,13 +248,13 @@ def load_recipe(path: str | Path) -> Recipe:
         used.
     """
     path = Path(path)
-    settings = _recorded(path) if path.suffix == ".json" else read_toml(path, field="RECIPE")
+    settings = _recorded(path) if path.suffix.lower() == ".json" else read_toml(path, field="RECIPE")
     garage = settings.get("garage")
     if isinstance(garage, dict) and isinstance(garage.get("profile"), str):
         profile = profile_setting(garage["profile"], folder=path.parent)
         garage["profile"] = profile if isinstance(profile, str) else profile.model_dump(mode="json")
     match settings:
-        case {"make": {"drives": {"rig": str(rig)} as drives}} if rig.endswith(".toml"):
+        case {"make": {"drives": {"rig": str(rig)} as drives}} if rig.lower().endswith(".toml"):
             try:
                 drives["rig"] = read_rig(path.parent / rig).model_dump(mode="json")
             except ConfigError as error:

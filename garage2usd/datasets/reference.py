@@ -135,7 +135,7 @@ def main(folder: Path) -> None:
         garages[seed] = stalls
         click.echo(f"\r{len(garages)} of {GARAGES} garages", nl=False, err=True)
     made = make_reference(garages)
-    with staging_folder() as staging:
+    with staging_folder(folder / REFERENCE_FILE.name) as staging:
         file = staging / REFERENCE_FILE.name
         file.write_text(json_text(made.model_dump(mode="json")), encoding="utf-8")
         (place,) = publish([file], folder)

@@ -124,7 +124,8 @@ def _write_files(garage: Garage, folder: Path, stem: str, make: MakeConfig, asse
             own=f"{stem}.",
         )
         if make.exports:
-            export(stage, [folder / f"{stem}.{name}" for name in make.exports], settings=garage.config.maps)
+            files = [folder / f"{stem}.{name}" for name in make.exports]
+            export(stage, files, settings=garage.config.maps, joint=".")
     if make.labels:
         write_labels(garage.layout, folder / f"{stem}.labels.json", arrangement=arrangement)
     if make.plan:

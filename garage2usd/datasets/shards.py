@@ -18,7 +18,7 @@ from garage2usd.errors import MissingExtraError
 from garage2usd.output import HIDDEN_PREFIX, store, writing
 from garage2usd.randomness import Step, generator
 
-__all__ = ["SHARD_FOLDER", "Shard", "made_rows", "make_shard", "shard_members", "shards_of", "sweep"]
+__all__ = ["SHARD_FOLDER", "Shard", "empty_splits", "made_rows", "make_shard", "shard_members", "shards_of", "sweep"]
 
 SHARD_FOLDER = "shards"
 _SHARD_DIGITS = 6
@@ -66,6 +66,11 @@ def shards_of(recipe: Recipe, plans: Sequence[DrawnPlan]) -> list[Shard]:
     return shards
 
 
+def empty_splits(recipe: Recipe) -> list[str]:
+    """The splits that get no garage, as their shares of so few round to none."""
+    return [split for split, count in proportional(recipe.splits, recipe.count).items() if not count]
+
+
 def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
     """Make a shard's garages and put them into place, with their rows beside them.
 
@@ -88,19 +93,21 @@ def make_shard(recipe: Recipe, folder: Path, shard: Shard) -> list[ManifestRow]:
     OutputError
         If files cannot be written; no shard is left.
     """
-    place = folder / SHARD_FOLDER
+    is_tar = recipe.shards.form is ShardForm.TAR
+    parent = folder / SHARD_FOLDER
+    place = parent / f"{shard.name}.tar" if is_tar else parent / shard.name
     assets = None if recipe.make.self_contained else folder / ASSET_FOLDER
-    with writing(place), _hidden_folder(place) as staging:
+    with writing(place), _hidden_folder(parent) as staging:
         rows = [_row(recipe, drawn, staging, shard, assets) for drawn in shard.plans]
-        if recipe.shards.form is ShardForm.TAR:
-            packed = staging / f"{HIDDEN_PREFIX}{shard.name}.tar"
+        if is_tar:
+            packed = staging / f"{HIDDEN_PREFIX}{place.name}"
             _pack(packed, staging, rows)
-            packed.replace(place / f"{shard.name}.tar")
+            packed.replace(place)
         else:
-            shutil.rmtree(place / shard.name, ignore_errors=True)
-            staging.rename(place / shard.name)
+            shutil.rmtree(place, ignore_errors=True)
+            staging.rename(place)
         # the rows come last: where they stand, all of it does
-        store(place / f"{shard.name}.jsonl", text_of_rows(rows).encode())
+        store(parent / f"{shard.name}.jsonl", text_of_rows(rows).encode())
     return rows
 
 

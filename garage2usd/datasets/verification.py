@@ -164,7 +164,7 @@ def _of_shard(folder: Path, recipe: Recipe, task: _Task) -> list[Fault]:
 
 def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Fault]:
     expected = {f"{row.key}{file.suffix}": file.sha256 for row in task.rows for file in row.files}
-    with staging_folder() as staging:
+    with staging_folder(folder) as staging:
         if (folder / ASSET_FOLDER).is_dir():
             (staging / ASSET_FOLDER).symlink_to(folder / ASSET_FOLDER, target_is_directory=True)
         unpacked = staging / SHARD_FOLDER / task.shard

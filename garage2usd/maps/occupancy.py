@@ -17,7 +17,7 @@ from garage2usd.layout.grounds import Grounds
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupied_ground import floor_of, occupied_ground, ramp_floors
 
-__all__ = ["write_grid"]
+__all__ = ["grid_files", "write_grid"]
 
 Floats = NDArray[np.float64]
 
@@ -35,11 +35,19 @@ _BAND_ROWS = 256
 """Rows that are filled at a time, so that large maps need no more memory for it than small ones."""
 _KEPT_FREE = frozenset({StallUse.ACCESS_AISLE, StallUse.UNREACHABLE})
 _KEEP_OUT = 100
+_KEEP_OUT_MASK, _SPEED_MASK = "keepout", "speed"
 _RAMP_PERCENT, _BUMP_PERCENT, _BUMP_REACH_M = 50, 30, 2.0
 """Most speed on ramps, and over a speed bump and as near to it as a car that slows down for it is."""
 
 
-def write_grid(subject: Subject, path: Path, grid: GridConfig) -> tuple[Path, ...]:
+def grid_files(path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
+    """The files that `write_grid` writes, a YAML file before its picture."""
+    masks = [name for name, is_asked in ((_KEEP_OUT_MASK, grid.keepout), (_SPEED_MASK, grid.speed)) if is_asked]
+    maps = [path, *(_mask_file(path, joint, name) for name in masks)]
+    return tuple(file for yaml in maps for file in (yaml, yaml.with_suffix(".pgm")))
+
+
+def write_grid(subject: Subject, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
     """Write the map of a garage for robots: a YAML file and the picture (PGM) that it names.
 
     Parameters
@@ -52,6 +60,8 @@ def write_grid(subject: Subject, path: Path, grid: GridConfig) -> tuple[Path, ..
     grid
         Size of a cell, the heights between which things count, and whether masks for nav2's keep-out and speed filters
         are written as well.
+    joint
+        What stands between the stem and the name of a mask.
 
     Returns
     -------
@@ -83,18 +93,22 @@ def write_grid(subject: Subject, path: Path, grid: GridConfig) -> tuple[Path, ..
     raster.fill(cells, floor, _FREE)
     thin = _thickened(occupied_ground(subject, grid.low_m, grid.high_m), grid.resolution_m)
     raster.fill(cells, thin, _OCCUPIED)
-    files = _write(path, cells, raster, "trinary")
+    _write(path, cells, raster, "trinary")
     if grid.keepout:
         mask = np.zeros(raster.shape, dtype=np.uint8)
         raster.fill(mask, (stall.polygon for stall in subject.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
-        files += _write(path.with_stem(f"{path.stem}_keepout"), mask, raster, "raw")
+        _write(_mask_file(path, joint, _KEEP_OUT_MASK), mask, raster, "raw")
     if grid.speed:
         mask = np.zeros(raster.shape, dtype=np.uint8)
         raster.fill(mask, ramp_floors(subject), _RAMP_PERCENT)
         bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in subject.solids.standing("speed_bump")]
         raster.fill(mask, bumps, _BUMP_PERCENT)
-        files += _write(path.with_stem(f"{path.stem}_speed"), mask, raster, "raw")
-    return files
+        _write(_mask_file(path, joint, _SPEED_MASK), mask, raster, "raw")
+    return grid_files(path, grid, joint=joint)
+
+
+def _mask_file(path: Path, joint: str, name: str) -> Path:
+    return path.with_stem(f"{path.stem}{joint}{name}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +208,7 @@ def _thicknesses_m(grounds: Grounds) -> Floats:
     return thicknesses
 
 
-def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> tuple[Path, ...]:
+def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> None:
     picture = path.with_suffix(".pgm")
     rows, columns = raster.shape
     with picture.open("wb") as file:
@@ -202,8 +216,14 @@ def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> 
         file.write(cells.data)
     x, y = raster.origin_m
     path.write_text(
-        f"image: {picture.name}\nmode: {mode}\nresolution: {raster.side_m}\norigin: [{x}, {y}, 0.0]\nnegate: 0\n"
+        f"image: {_quoted(picture.name)}\nmode: {_quoted(mode)}\nresolution: {raster.side_m}\n"
+        f"origin: [{x}, {y}, 0.0]\nnegate: 0\n"
         f"occupied_thresh: {_OCCUPIED_THRESHOLD}\nfree_thresh: {_FREE_THRESHOLD}\n",
         encoding="utf-8",
     )
-    return path, picture
+
+
+def _quoted(text: str) -> str:
+    """A text in the double quotes of YAML 1.1 and 1.2, in which signs that cannot be printed stand by their number."""
+    signs = (f"\\{sign}" if sign in '"\\' else sign if sign.isprintable() else f"\\U{ord(sign):08x}" for sign in text)
+    return f'"{"".join(signs)}"'

@@ -12,6 +12,8 @@ _DIGITS = 9
 _DECLARATION = "<?xml version='1.0' encoding='utf-8'?>"
 _INDENT, _END = "  ", " />"
 _SPECIAL = re.compile(r"[&<>\r\n\t]")
+_NOT_OF_XML = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_REPLACEMENT = "\ufffd"
 _ESCAPES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\r": "&#13;", "\n": "&#10;", "\t": "&#09;"}
 )
@@ -77,5 +79,5 @@ def write_xml(root: ET.Element, path: Path) -> None:
 
 
 def write_lines(lines: Iterable[str], path: Path) -> None:
-    """Write the lines of a file's one element, in UTF-8, with line feeds."""
-    path.write_bytes("\n".join([_DECLARATION, *lines, ""]).encode())
+    """Write the lines of a file's one element, in UTF-8, with line feeds; what XML cannot have is a sign for that."""
+    path.write_bytes(_NOT_OF_XML.sub(_REPLACEMENT, "\n".join([_DECLARATION, *lines, ""])).encode())

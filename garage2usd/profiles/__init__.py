@@ -35,7 +35,7 @@ PROFILE_NAMES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
 
 def is_profile_file(name: str) -> bool:
     """Whether a profile is given by a file instead of a name."""
-    return name not in PROFILE_NAMES and (name.endswith(".toml") or "/" in name or "\\" in name)
+    return name not in PROFILE_NAMES and (name.lower().endswith(".toml") or "/" in name or "\\" in name)
 
 
 def load_profile(name_or_file: str | Path, *, folder: Path | None = None) -> Profile:

@@ -6,10 +6,11 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 
-from pxr import Sdf, Tf, Usd
+from pxr import Ar, Sdf, Tf, Usd
 
 from garage2usd.errors import StageError
 from garage2usd.limits import allow_seconds
+from garage2usd.output import can_say
 
 __all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason", "usd_text"]
 
@@ -33,7 +34,7 @@ def open_stage(path: Path) -> Usd.Stage:
         entries, entries outside of it, an entry that occurs twice), or it or a layer that it names is damaged.
     """
     _check_file(path)
-    if path.suffix == ".usdz":
+    if path.suffix.lower() == ".usdz":
         _check_package(path)
     allow_seconds(_LEAST_S + _OPENING_S_PER_MB * path.stat().st_size / 1e6)
     layers = _open_layers(path)
@@ -41,7 +42,7 @@ def open_stage(path: Path) -> Usd.Stage:
         stage = Usd.Stage.Open(layers[0])
     except Tf.ErrorException as error:
         raise StageError(path, f"USD cannot compose it ({usd_reason(error)})") from None
-    files = {used.realPath.partition("[")[0] for used in stage.GetUsedLayers()} - {""}
+    files = {Ar.SplitPackageRelativePathOuter(used.realPath)[0] for used in stage.GetUsedLayers()} - {""}
     allow_seconds(_LEAST_S + _READING_S_PER_MB * sum(Path(file).stat().st_size for file in files) / 1e6)
     return stage
 
@@ -52,7 +53,7 @@ def _open_layers(path: Path) -> list[Sdf.Layer]:
     USD tries a damaged layer again for each prim that refers to it.
     """
     layers: dict[str, Sdf.Layer | None] = {}
-    waiting = [str(path)]
+    waiting = [str(path.absolute())]  # "anon:a.usda" alone is no name of a file to USD
     while waiting:
         name = waiting.pop()
         try:
@@ -87,8 +88,10 @@ def usd_text(read: Callable[[], str]) -> str:
 
 
 def _check_file(path: Path) -> None:
-    if path.suffix not in STAGE_SUFFIXES:
+    if path.suffix.lower() not in STAGE_SUFFIXES:
         raise StageError(path, f"not a stage: a stage ends in {', '.join(STAGE_SUFFIXES)}")
+    if not can_say(path.absolute()):
+        raise StageError(path, "its path is not in UTF-8, or has control characters, which USD does not take")
     try:
         status = path.stat()
     except (OSError, ValueError) as error:

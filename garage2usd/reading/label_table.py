@@ -6,7 +6,7 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
-from garage2usd.documents import is_file, read_bytes
+from garage2usd.documents import is_file, read_text
 from garage2usd.errors import StageError
 from garage2usd.settings import Record, first_fault
 
@@ -122,7 +122,7 @@ def read_label_table(stage: Path) -> LabelTable | None:
     path = stage.with_name(f"{stage.stem}_labels.json")
     if not is_file(path):
         return None
-    text = read_bytes(path, field="labels", max_bytes=_MAX_FILE_BYTES)
+    text = read_text(path, field="labels", max_bytes=_MAX_FILE_BYTES)
     try:
         return LabelTable.model_validate_json(text)
     except ValidationError as error:

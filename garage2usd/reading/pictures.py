@@ -172,7 +172,8 @@ class Pictures:
             Whether red, green and blue are to be stored as sRGB.
         """
         given = [band for band in bands if isinstance(band, Band)]
-        name = PurePosixPath(given[0].file.rpartition("[")[2].removesuffix("]")).stem
+        package, packed = Ar.SplitPackageRelativePathInner(given[0].file)
+        name = PurePosixPath(packed or package).stem
         if self._are_stored(bands, is_srgb=is_srgb):
             file = given[0].file
             return Picture(name, self.plain_kind(file), self.data(file))

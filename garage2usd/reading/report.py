@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from pydantic import AliasChoices, Field, ValidationError
 
 from garage2usd.config import GarageConfig, config_from_mapping
-from garage2usd.documents import MAX_REPORT_BYTES, read_bytes
+from garage2usd.documents import MAX_REPORT_BYTES, read_text
 from garage2usd.errors import ConfigError, ReportError
 from garage2usd.layout.lighting import LightLevels
 from garage2usd.planning import Principles, Score
@@ -163,7 +163,7 @@ def read_report(path: Path) -> Report:
     ReportError
         If it is not a report; names the key, its value and what is allowed.
     """
-    text = read_bytes(path, field="report", max_bytes=MAX_REPORT_BYTES)
+    text = read_text(path, field="report", max_bytes=MAX_REPORT_BYTES)
     try:
         return Report.model_validate_json(text)
     except ValidationError as error:

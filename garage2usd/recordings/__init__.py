@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError
 from garage2usd.extras import BLENDER, RAYS, require
-from garage2usd.output import check_writable, publish, unfinished_folder
+from garage2usd.output import check_file, check_writable, publish, unfinished_folder
 from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
@@ -136,6 +136,7 @@ def record(
     )
     check_along(chosen, along, birds_eye)
     check_writable(folder)
+    check_file(folder / "frames.json")
     drawn_on = find_device(device, has_rays=True) if chosen.cameras else CPU
     opened = open_stage(path)
     progress("drive", 0, 1)

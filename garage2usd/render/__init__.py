@@ -8,7 +8,7 @@ import numpy as np
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
-from garage2usd.output import check_writable, publish, staging_folder
+from garage2usd.output import check_file, check_writable, publish, staging_folder
 from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
@@ -125,6 +125,7 @@ def render_stage(
         raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
     check_blender()
     check_writable(folder)
+    check_file(folder / "frames.json")
     opened = open_stage(path)
     views = _views(opened, cameras, frames, at_m, look_at_m, size_px)
     labels = read_labels(opened, path)
@@ -133,7 +134,7 @@ def render_stage(
         check_slots(slots, kinds, has_birds_eye=any(isinstance(view.lens, Orthographic) for view in views))
         read_slots(opened)  # raises here, and not when all is drawn, where there are none
     drawn_on = find_device(device, has_rays=False)
-    with staging_folder() as staging:
+    with staging_folder(folder) as staging:
         finished = staging / "finished"
         drawn = with_needed(kinds, NEEDED if slots is not None else ())
         drawing = Drawing(opened, labels, views, hidden, drawn, samples, seed, finished, device=drawn_on)

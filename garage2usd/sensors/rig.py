@@ -106,7 +106,7 @@ def read_rig(name_or_path: str | Path) -> Rig:
     name = str(name_or_path)
     if name in RIG_NAMES:
         return _shipped(name)
-    if not name.endswith(".toml"):
+    if not name.lower().endswith(".toml"):
         raise ConfigError("rig", name, f"one of {', '.join(RIG_NAMES)}, or a path that ends in .toml")
     return rig_from_mapping(read_toml(Path(name), field="rig"))
 

@@ -62,7 +62,7 @@ def shared_folder(path: Path, config: StageConfig) -> Path | None:
     """
     if config.assets is AssetPlace.OWN:
         return None
-    if path.suffix == StageFormat.USDZ:
+    if path.suffix.lower() == StageFormat.USDZ:
         raise ConfigError("stage.assets", str(config.assets), "'own' for a .usdz, which holds its assets itself")
     # as USD joins paths, to which a link to a folder is no other folder
     folder = Path(os.path.normpath(path.parent.absolute() / config.asset_folder))

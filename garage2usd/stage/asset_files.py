@@ -9,6 +9,7 @@ from typing import NamedTuple
 from garage2usd.assets import MATERIALS, pascal_case
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
+from garage2usd.output import HIDDEN_PREFIX
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.stage.texture_files import NamedFile, content_name, texture_file
@@ -43,7 +44,7 @@ def asset_file(shape: Spec, quality: TextureQuality) -> AssetFile:
     """
     asset = asset_of(shape)
     # of many small files a folder for each would take a third of the time
-    path = Path(tempfile.gettempdir()) / f"garage2usd-{secrets.token_hex(8)}.usdc"
+    path = Path(tempfile.gettempdir()) / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}.usdc"
     try:
         write_prototype(asset, path, kind=shape.kind, quality=quality)
         data = path.read_bytes()

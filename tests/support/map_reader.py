@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import yaml
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
 
@@ -33,8 +34,8 @@ class ReadMap:
 
 def read_map(path):
     """A map's values: 0 to 100, -1 for unknown."""
-    said = dict(line.split(": ", 1) for line in path.read_text().splitlines())
-    assert said["negate"] == "0"
+    said = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert said["negate"] == 0
     data = (path.parent / said["image"]).read_bytes()
     magic, size, most, pixels = data.split(b"\n", 3)
     columns, rows = map(int, size.split())
@@ -45,9 +46,9 @@ def read_map(path):
     else:
         assert said["mode"] == "trinary"
         darkness = 1 - shade / 255
-        is_free = darkness < float(said["free_thresh"])
-        values = np.where(darkness > float(said["occupied_thresh"]), OCCUPIED, np.where(is_free, FREE, UNKNOWN))
+        is_free = darkness < said["free_thresh"]
+        values = np.where(darkness > said["occupied_thresh"], OCCUPIED, np.where(is_free, FREE, UNKNOWN))
     cells = values.astype(np.int8)[np.frombuffer(pixels, np.uint8).reshape(rows, columns)]
-    x, y, yaw = map(float, said["origin"].strip("[]").split(","))
+    x, y, yaw = said["origin"]
     assert yaw == 0
-    return ReadMap(cells[::-1], (x, y), float(said["resolution"]))
+    return ReadMap(cells[::-1], (x, y), said["resolution"])

@@ -12,12 +12,14 @@ from click.testing import CliRunner
 from PIL import Image
 from support.sample_files import REPOSITORY
 
+import garage2usd
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
 from garage2usd.config import config_schema
 from garage2usd.limits import ONE_THREAD
 from garage2usd.profiles import PROFILE_NAMES
 from garage2usd.progress import time_in_words
+from garage2usd.reading.label_table import read_label_table
 from garage2usd.stage.baked_meshes import MESH_FILE
 
 QUICK = "[plan]\nepisodes = 200\n"
@@ -133,6 +135,30 @@ def test_a_stall_without_a_route_is_drawn(tmp_path, config):
     assert "(1, 3), (1, 4), (1, 5), (2, 2) have no route" in result.output
     assert "\n.." in result.output
     assert "?===" in result.output
+
+
+@pytest.mark.parametrize("mark", ["\ufeff", ""])
+def test_files_of_text_begin_with_a_byte_order_mark_or_not(tmp_path, config, mark):
+    made = garage2usd.build(garage2usd.load_config(config(QUICK)), tmp_path / "g.usdz")
+    report = json.loads(made.report.read_text())
+    texts = {
+        "c.toml": '[site]\nstructure_file = "s.txt"\n[bay]\ncolumn_widths_file = "r.csv"\nrow_depths_file = "c.csv"\n',
+        "s.txt": "\n".join(report["S"]),
+        "r.csv": ",".join(map(str, report["R"])),
+        "c.csv": "\n".join(map(str, report["C"])),
+        "s.json": json.dumps(report["S"]),
+        "p.toml": 'name = "mine"\n',
+        "g_report.json": made.report.read_text(),
+        "g_labels.json": made.labels.read_text(),
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(mark + text, encoding="utf-8")
+    for name in ("c.toml", "s.txt", "s.json", "g_report.json"):
+        checked = run("check", tmp_path / name)
+        assert "checked against" in checked.output, (name, checked.output)
+    assert "checked against mine" in run("check", tmp_path / "s.txt", "--profile", tmp_path / "p.toml").output
+    assert read_label_table(made.stage) is not None
+    assert run("plan", tmp_path / "g_report.json", "-o", tmp_path / "p.svg").exit_code == 0
 
 
 @pytest.mark.parametrize(
@@ -344,7 +370,7 @@ main(sys.argv[1:])
     assert done.returncode == 1
     error = done.stderr.strip().splitlines()[-1]
     assert error.startswith("Error: ")
-    assert "File too large" in error
+    assert error.startswith(f"Error: {tmp_path / 'out' / name}: File too large in ")
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
 

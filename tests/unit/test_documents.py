@@ -1,3 +1,4 @@
+import codecs
 import os
 
 import pytest
@@ -16,6 +17,20 @@ def refused(read, path, **options):
 def test_text_comes_whole(tmp_path):
     (tmp_path / "a.txt").write_text("Stellplätze\n", encoding="utf-8")
     assert read_text(tmp_path / "a.txt", field="FILE") == "Stellplätze\n"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-be"])
+def test_a_byte_order_mark_is_left_out(tmp_path, encoding):
+    mark = codecs.BOM_UTF16_BE if encoding == "utf-16-be" else b""
+    for name, text in (
+        ("a.toml", 'seed = 7\nname = "Stellplätze"\n'),
+        ("a.json", '{"seed": 7, "name": "Stellplätze"}'),
+    ):
+        (tmp_path / name).write_bytes(mark + text.encode(encoding))
+        assert read_text(tmp_path / name, field="FILE") == text
+    expected = {"seed": 7, "name": "Stellplätze"}
+    assert read_toml(tmp_path / "a.toml", field="FILE") == expected
+    assert read_json(tmp_path / "a.json", field="FILE", max_bytes=1000) == expected
 
 
 def test_a_pipe_would_never_end_and_is_refused(tmp_path):

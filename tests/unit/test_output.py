@@ -1,11 +1,12 @@
 import os
+import resource
 import stat
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from garage2usd.errors import OutputError
-from garage2usd.output import check_writable, only_run, publish, staging_folder, store
+from garage2usd.errors import ConfigError, OutputError
+from garage2usd.output import check_file, check_writable, only_run, publish, staging_folder, store
 
 
 def make(staging, name, text):
@@ -42,6 +43,57 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
     assert "missing.txt" in str(caught.value)
     assert [path.name for path in tmp_path.iterdir()] == ["stage.txt"]
     assert (tmp_path / "stage.txt").read_text() == "old"
+
+
+@pytest.mark.parametrize("name", ["a.bin", "assets", "assets/inner"])
+def test_what_a_disk_does_not_take_is_named_by_its_place(tmp_path, name):
+    with staging_folder() as staging:
+        items = [make(staging, "first.txt", "new"), staging / name.partition("/")[0]]
+        make(staging, name if name == "a.bin" else f"{name}/large.bin", "x" * 200_000)
+        error = in_a_copy_with_little_room(lambda: publish(items, tmp_path / "out"))
+    place = tmp_path / "out" / name if name == "a.bin" else tmp_path / "out" / name / "large.bin"
+    assert error == f"{place}: File too large"
+    assert list(tmp_path.iterdir()) == []
+
+
+def draft(path, data):
+    with staging_folder(path) as staging:
+        (staging / "draft.bin").write_bytes(data)
+
+
+@pytest.mark.parametrize("write", [store, draft])
+def test_what_is_not_in_its_place_yet_has_the_name_of_its_place(tmp_path, write):
+    error = in_a_copy_with_little_room(lambda: write(tmp_path / "a.bin", b"x" * 200_000))
+    assert error.startswith(f"{tmp_path / 'a.bin'}: File too large")
+    assert ".garage2usd-" not in error
+    assert list(tmp_path.iterdir()) == []
+
+
+def in_a_copy_with_little_room(work):
+    """What an error says in a process that may write files of 100 kB."""
+    reader, writer = os.pipe()
+    if os.fork() == 0:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+        try:
+            work()
+        except OutputError as error:
+            os.write(writer, str(error).encode())
+        os._exit(0)
+    os.close(writer)
+    os.wait()
+    with os.fdopen(reader) as said:
+        return said.read()
+
+
+def test_a_folder_where_a_file_goes_and_names_that_are_too_long_are_refused(tmp_path):
+    (tmp_path / "a_b.json").mkdir()
+    check_file(tmp_path / "a", with_it=[tmp_path / "a_c.json"])
+    for path, beside in ((tmp_path / "a_b.json", []), (tmp_path / "a", [tmp_path / "a_b.json"])):
+        with pytest.raises(ConfigError, match=r"a_b\.json'; allowed: a path at which no folder stands"):
+            check_file(path, with_it=beside)
+    for name in ("n" * 300, "\ud800"):
+        with pytest.raises(ConfigError, match="a file name "):
+            check_file(tmp_path / name)
 
 
 def test_folders_made_for_a_failed_write_go_again(tmp_path):

@@ -94,6 +94,7 @@ def test_alternatives_are_tried_too():
         ('name = "a"\nwhat = 1', "what"),
         ('name = "a"\n[make]\nstage = false\nexports = ["xodr"]', "make"),
         ('name = "a"\n[make]\nexports = ["dwg"]', "make.exports"),
+        ('name = "a"\n[make]\nexports = ["glb", "osm", "glb"]', "make.exports"),
         ('name = "a"\n[make.drives]\nevery_m = 2', "make.drives.rig"),
         ('name = "a"\n[make.drives]\nrig = "none"', "make.drives.rig"),
         ('name = "a"\n[make.drives]\nrig = "none.toml"', "make.drives.rig"),

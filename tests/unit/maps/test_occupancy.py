@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
+import yaml
 from support.driven_cells import covered
 from support.label_tables import labelled_objects
 from support.map_faults import Fault, planted
@@ -189,6 +190,24 @@ def test_filled_cells_are_those_that_geos_finds_inside(seed):
     x, y = np.meshgrid((np.arange(345) - 20 + 0.5) * 0.1, (np.arange(340)[::-1] - 320 + 0.5) * 0.1)
     inside = shapely.contains_xy(shapely.union_all(grounds), x, -y)  # y is -z
     assert ((cells == 7) == inside).all()
+
+
+NAMES = [
+    "a: b # c", "- a", "a, b", "*a", "&a", "!a", "%a", "@a", "`a`", "{a}", "[a]", "'a'", '"a\\"', "| a", "> a", "? a",
+    " a ", "#", "~", "null", "yes", "1e3", "0x1f", "12:30", "a\x85b", "a\u2028b", "\ufeffa", "é😀", "\U000e0001",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_any_name_is_read_back_as_it_is(made, tmp_path, name):
+    files = write_grid(made[1], tmp_path / f"{name}.yaml", GridConfig(resolution_m=1.0, keepout=True))
+    for file, picture in zip(files[::2], files[1::2], strict=True):
+        text = file.read_text(encoding="utf-8")
+        said = yaml.safe_load(text)
+        assert said["image"] == picture.name
+        assert said["mode"] in {"trinary", "raw"}
+        assert said == yaml.load(text, yaml.CSafeLoader)
+        assert (file.parent / said["image"]).read_bytes()[:2] == b"P5"
 
 
 def test_masks_of_filters(made, tmp_path):
