@@ -263,7 +263,8 @@ def publish_at(places: Mapping[Path, Path]) -> tuple[Path, ...]:
         If they could not be written; what stood there before still does.
     """
     made: list[Path] = []
-    hidden = [place.with_name(f"{HIDDEN_PREFIX}{os.getpid()}-{place.name}") for place in places.values()]
+    start = f"{HIDDEN_PREFIX}{os.getpid()}"
+    hidden = [place.with_name(f"{start}-{number}-{place.name}") for number, place in enumerate(places.values())]
     try:
         for (item, place), copy in zip(places.items(), hidden, strict=True):
             made += _make_folder(place.parent)

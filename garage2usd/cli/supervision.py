@@ -25,7 +25,7 @@ def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
     The child has the limits of `garage2usd.limits`, and gets the signals that ask this process to end. It is forked
     before any library is loaded, so nothing is loaded twice and no thread is lost.
     """
-    for stream in filter(None, (sys.stdout, sys.stderr)):
+    for stream in (sys.stdout, sys.stderr):
         stream.flush()
     supervisor = os.getpid()
     child = os.fork()

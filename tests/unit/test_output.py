@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from garage2usd.errors import ConfigError, OutputError
-from garage2usd.output import check_file, check_writable, only_run, publish, staging_folder, store
+from garage2usd.output import check_file, check_writable, only_run, publish, publish_at, staging_folder, store
 
 
 def make(staging, name, text):
@@ -34,6 +34,12 @@ def test_files_and_folders_replace_what_was_there(tmp_path):
     assert sorted(path.name for path in (tmp_path / "a" / "b").rglob("*")) == ["assets", "new.txt", "stage.txt"]
     assert (tmp_path / "a" / "b" / "stage.txt").read_text() == "new"
     assert not staging.exists()
+
+
+def test_a_place_that_is_named_twice_gets_the_last(tmp_path):
+    with staging_folder() as staging:
+        publish_at({make(staging, name, name): tmp_path / "out.txt" for name in ("1", "2")})
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["2"]
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path):
