@@ -85,7 +85,8 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     "--rig",
     metavar="NAME|FILE",
     shell_complete=_rigs,
-    help="Record with the sensors of a rig: avp_surround, column_camera, lidar_32, woodscape_like or a TOML file.",
+    help="Record with the sensors of a rig: avp_around_view, avp_surround, column_camera, lidar_32, woodscape_like or "
+    "a TOML file.",
 )
 @click.option(
     "--along",

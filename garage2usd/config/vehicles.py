@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-__all__ = ["CAR_BODIES", "DRIVEN_PAINT", "DRIVEN_PLATE", "PAINTS", "CarBody"]
+__all__ = ["CAR_BODIES", "DRIVEN_PAINT", "DRIVEN_PLATE", "PAINTS", "CarBody", "body_named"]
 
 
 @dataclass(frozen=True)
@@ -68,3 +68,8 @@ DRIVEN_PAINT = "blue"
 """Of the car that drives."""
 DRIVEN_PLATE = "G47 B16"
 """What is to be read on its number plates, and on no other car's."""
+
+
+def body_named(name: str) -> CarBody:
+    """A body of the catalogue."""
+    return next(body for body in CAR_BODIES if body.name == name)

@@ -21,9 +21,11 @@ from garage2usd.render.devices import CPU, Device, find_device
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import with_needed, write_mask
 from garage2usd.render.slot_labels import NEEDED, SlotLabels, check_slots
+from garage2usd.sensors.around_view_camera import AroundViewCamera
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.calibration import write_calibration
-from garage2usd.sensors.ego_mask import body_named, ego_mask
+from garage2usd.sensors.camera import Camera
+from garage2usd.sensors.ego_mask import ego_mask
 from garage2usd.sensors.point_cloud_files import CloudFormat
 from garage2usd.sensors.recording import Recording
 from garage2usd.sensors.rig import Rig, read_rig
@@ -164,7 +166,7 @@ def record(
             visible = drawing.draw(work, progress, announce)
             made += _write_calibrations(chosen, finished)
             if scene.birds_eye is not None:
-                made.append(scene.birds_eye.write_masks(finished, body_named(chosen.car)))
+                made.append(scene.birds_eye.write_masks(finished, chosen.body))
         if sweeps is not None and formats:
             announce(sweeps.described)
             about["sweeps"] = sweeps.write(finished, work, progress)
@@ -219,7 +221,8 @@ def check_recording(
     if birds_eye is not None:
         check_birds_eye(rig, kinds)
     if slots is not None:
-        check_slots(slots, kinds, has_birds_eye=birds_eye is not None)
+        has_around_view = any(isinstance(camera, AroundViewCamera) for camera in rig.cameras)
+        check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)
     check_sequences(sequences, rig, kinds, formats)
     without = "not for LiDARs alone: --points without --only" if rig.lidars else ""
     require(f"the rig {rig.name}", _modules_for(rig, sequences), without=without)
@@ -255,14 +258,19 @@ def _modules_for(rig: Rig, sequences: Collection[Sequence]) -> Iterator[str]:
 
 
 def _write_calibrations(rig: Rig, finished: Path) -> list[Path]:
-    """Write the calibration of each camera, and the mask of the car that carries it."""
+    """Write the calibration of each camera, and the mask of the car that carries it.
+
+    Also of those that are not recorded; around views have none of their own, as no format knows them.
+    """
     folders = [finished / name for name in (EGO_FOLDER, _CALIBRATION)]
     for folder in folders:
         folder.mkdir(exist_ok=True)
+    for sensor in rig.sensors:
+        if isinstance(sensor, Camera) and not isinstance(sensor, AroundViewCamera):
+            write_calibration(sensor, finished / _CALIBRATION)
     for camera in rig.cameras:
-        write_calibration(camera, finished / _CALIBRATION)
         if camera.mount == "vehicle":
-            write_mask(ego_mask(camera, body_named(rig.car)), finished / EGO_FOLDER / f"{camera.name}.png")
+            write_mask(ego_mask(camera, rig.body), finished / EGO_FOLDER / f"{camera.name}.png")
     return folders
 
 

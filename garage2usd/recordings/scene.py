@@ -19,7 +19,6 @@ from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import Drawing
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.camera import Camera
-from garage2usd.sensors.ego_mask import body_named
 from garage2usd.sensors.poses import VehiclePose
 from garage2usd.sensors.recording import Recording, Shot
 from garage2usd.sensors.rig import Rig
@@ -80,7 +79,7 @@ class Scene:
         """How the views are drawn: the stage with the vehicle in it, which other cameras than its own see."""
         with_car = work / "stage.usdc"
         with_car.unlink(missing_ok=True)
-        write_stage_with_car(with_car, self._stage, body_named(self._rig.car))
+        write_stage_with_car(with_car, self._stage, self._rig.body)
         moved = [self._way.car_moved(pose) if self._sees_vehicle(camera) else None for camera, _, pose in self.shots]
         moved += [None] * (len(self.views) - len(moved))
         return Drawing(

@@ -10,6 +10,7 @@ import numpy as np
 
 from garage2usd.errors import ConfigError
 from garage2usd.render.pictures import Picture
+from garage2usd.sensors.around_view_camera import AroundViewCamera
 from garage2usd.sensors.camera import PinholeCamera
 from garage2usd.sensors.point_cloud_files import CloudFormat
 from garage2usd.sensors.poses import MAP_TO_Y_UP, y_up_to_stage
@@ -52,6 +53,9 @@ def check_sequences(
         if not rig.lidars and not any(isinstance(camera, PinholeCamera) for camera in rig.cameras):
             raise ConfigError("rig", rig.name, "a rig with a LiDAR or a pinhole camera, for nuScenes")
         away = [sensor.name for sensor in rig.sensors if sensor.mount != "vehicle"]
+        around = [camera.name for camera in rig.cameras if isinstance(camera, AroundViewCamera)]
+        if around:
+            raise ConfigError("rig", around[0], "a rig that records no around view, which nuScenes has no sensor for")
         if away:
             raise ConfigError("rig", away[0], "sensors on the vehicle, for nuScenes")
 

@@ -14,7 +14,6 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.scene import POINTS_FOLDER
 from garage2usd.recordings.way import Way
-from garage2usd.sensors.ego_mask import body_named
 from garage2usd.sensors.lidar import measure
 from garage2usd.sensors.lidar_settings import Lidar
 from garage2usd.sensors.moved_scene import MovedScene, joined
@@ -127,7 +126,7 @@ class Sweeps:
         """The garage with the vehicle in it, which LiDARs that it does not carry see."""
         path = work / "stage_of_lidars.usdc"
         path.unlink(missing_ok=True)
-        write_stage_with_car(path, self.stage, body_named(self._rig.car))
+        write_stage_with_car(path, self.stage, self._rig.body)
         return joined(self.solids, read_ray_scene(open_stage(path), self.labels, only=[EGO_PATH]))
 
     def _files(self, lidar: Lidar, number: int) -> Mapping[str, str]:

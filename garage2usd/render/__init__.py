@@ -131,7 +131,7 @@ def render_stage(
     labels = read_labels(opened, path)
     hidden = _hidden(opened, labels, views)
     if slots is not None:
-        check_slots(slots, kinds, has_birds_eye=any(isinstance(view.lens, Orthographic) for view in views))
+        check_slots(slots, kinds, has_ground_view=any(isinstance(view.lens, Orthographic) for view in views))
         read_slots(opened)  # raises here, and not when all is drawn, where there are none
     drawn_on = find_device(device, has_rays=False)
     with staging_folder(folder) as staging:

@@ -61,6 +61,8 @@ def main() -> None:
     if data:
         _set_up_data(scene, [each.item for each in drawn])
         for frame in data:
+            # where rays start at several cameras, depth tells nothing
+            scene.view_layers[0].use_pass_position = "eyes" in frame["lens"]
             aim(scene, frame, to_blender)
             _move(moving, frame["moved"], to_blender)
             _hide(drawn, frame, is_dark=True)
@@ -242,6 +244,11 @@ def _look_along_rays(camera: bpy.types.Camera, lens: dict[str, Any], width: int,
         macros["MAX_ANGLE"] = lens["max_angle_rad"]
         macros["COUNT"] = len(lens["coefficients"])
         macros["COEFFICIENTS"] = "{" + ", ".join(f"{value:.9e}" for value in lens["coefficients"]) + "}"
+    if "eyes" in lens:
+        macros.update(zip(("LEFT", "FRONT", "RIGHT", "REAR"), lens["car_m"], strict=True))
+        macros["SEAM"] = lens["seam_m"]
+        places = (", ".join(f"{value:.9e}" for value in place) for place in lens["eyes"])
+        macros["EYES"] = "{" + ", ".join(f"vector({place})" for place in places) + "}"
     head = "".join(
         f"#define {name} {value:.9e}\n" if isinstance(value, float) else f"#define {name} {value}\n"
         for name, value in macros.items()

@@ -11,6 +11,7 @@ from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
 from garage2usd.reading.values import metres_per_unit
+from garage2usd.sensors.around_view import SEAM_M, AroundView
 from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.lenses import Fisheye, Pinhole
 from garage2usd.sensors.lenses import Lens as SensorLens
@@ -109,6 +110,19 @@ class View:
         (focal_x, _, across), (_, focal_y, down), _ = self.lens.matrix(self.size_px).tolist()
         return Pinhole(size_px=self.size_px, centre_px=(across, down), focal_px=(focal_x, focal_y))
 
+    def starts_m(self) -> NDArray[np.float64] | None:
+        """Where the rays of an around view start in the stage's axes; float64, shape (rows, columns, 3).
+
+        NaN for pixels that show nothing; None for other lenses.
+        """
+        if not isinstance(self.lens, AroundView):
+            return None
+        middles = self.lens.middles()
+        to_world = self.camera_to_world @ USD_FROM_OPENCV
+        starts = self.lens.starts(middles) @ to_world[:3, :3].T + to_world[:3, 3]
+        seen = np.isfinite(self.lens.rays(middles)).all(axis=1)
+        return np.where(seen[:, None], starts, np.nan).reshape(*self.size_px[::-1], 3)
+
     def lens_job(self) -> dict[str, Any]:
         """Its lens as plain values for Blender."""
         lens = self.lens
@@ -123,6 +137,9 @@ class View:
             return {**job, "stretch": lens.stretch, **fisheye}
         if isinstance(lens, Pinhole):
             return {**job, "stretch": lens.focal_px}
+        if isinstance(lens, AroundView):
+            eyes = [eye.place_m.tolist() for eye in lens.eyes]
+            return {**job, "stretch": [1 / lens.metres_per_px] * 2, "car_m": lens.car_m, "seam_m": SEAM_M, "eyes": eyes}
         raise TypeError(type(lens).__name__)
 
 

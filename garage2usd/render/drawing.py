@@ -134,11 +134,12 @@ class Drawing:
     def take_colour(self, view: View, drawn: Path) -> None:
         """Keep a colour picture that Blender drew."""
         with _whole(self._path(view, Picture.COLOUR)) as part:
-            write_colour(drawn, part)
+            starts_m = view.starts_m()
+            write_colour(drawn, part, seeing=None if starts_m is None else np.isfinite(starts_m).all(axis=-1))
 
     def take_data(self, view: View, drawn: Sequence[Path]) -> None:
         """Keep what Blender saw, as pictures; the list of what is visible comes last, and says that all are there."""
-        surfaces = read_surfaces(drawn, self._axes.T)
+        surfaces = read_surfaces(drawn, self._axes.T, view.starts_m())
         if isinstance(view.lens, Pinhole):  # whose rays Blender measures along
             along = view.lens.rays(view.lens.middles())[:, 2].reshape(surfaces.depth_m.shape)
             surfaces = replace(surfaces, depth_m=(surfaces.depth_m * along).astype(np.float32))

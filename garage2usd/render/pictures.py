@@ -66,7 +66,8 @@ class Surfaces:
     Attributes
     ----------
     depth_m
-        Distance along the camera's axis, infinite where there is nothing; float32, shape (rows, columns).
+        Distance as Blender measures it, or from the start of the ray where that is not the camera; infinite where there
+        is nothing; float32, shape (rows, columns).
     normal
         Towards the camera's side, in the stage's axes, 0 where there is nothing; float32, shape (rows, columns, 3).
     instance
@@ -103,13 +104,19 @@ class VisibleInstance:
         return VisibleInstance(self.id, box, self.pixels + part.pixels)
 
 
-def write_colour(drawn: Path, path: Path) -> None:
-    """Keep the pixels of a picture that Blender drew, without when and how long it drew."""
+def write_colour(drawn: Path, path: Path, *, seeing: NDArray[np.bool_] | None = None) -> None:
+    """Keep the pixels of a picture that Blender drew, without when and how long it drew.
+
+    Where an array of shape (rows, columns) is False they become black.
+    """
     with Image.open(drawn) as image:
-        Image.fromarray(np.asarray(image)).save(path)
+        pixels = np.asarray(image)
+    Image.fromarray(pixels if seeing is None else np.where(seeing[..., None], pixels, 0)).save(path)
 
 
-def read_surfaces(files: Iterable[Path], from_blender: NDArray[np.float64]) -> Surfaces:
+def read_surfaces(
+    files: Iterable[Path], from_blender: NDArray[np.float64], starts_m: NDArray[np.float64] | None = None
+) -> Surfaces:
     """Read Blender's passes, one file for each digit of the ids.
 
     Parameters
@@ -118,11 +125,18 @@ def read_surfaces(files: Iterable[Path], from_blender: NDArray[np.float64]) -> S
         OpenEXR files of several layers, the least digit first.
     from_blender
         Turn from Blender's axes to the stage's; shape (3, 3).
+    starts_m
+        Where the rays start in the stage's axes, from where their depth is measured; NaN for pixels that show nothing;
+        shape (rows, columns, 3). None for rays that start at the camera.
     """
     passes = [_passes(path) for path in files]
     first = passes[0]
     depth = first["Depth"][..., 0].astype(np.float32)
     nothing = depth > _FARTHEST_M
+    if starts_m is not None:
+        places_m = np.stack([first["Position"][..., axis] for axis in range(3)], axis=-1) @ from_blender.T
+        depth = np.linalg.norm(places_m - starts_m, axis=-1).astype(np.float32)
+        nothing |= np.isnan(depth)
     normal = np.stack([first["Normal"][..., axis] for axis in range(3)], axis=-1) @ from_blender.T
     instance = sum(np.rint(each["IndexOB"][..., 0]).astype(np.int64) * INDEX_LIMIT**d for d, each in enumerate(passes))
     return Surfaces(

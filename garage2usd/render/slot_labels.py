@@ -16,6 +16,7 @@ from garage2usd.json_text import json_text
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture, classes_of, read_depth, read_ids, write_ids
+from garage2usd.sensors.around_view import AroundView
 from garage2usd.sensors.birds_eye import FLOOR_CLASSES, Orthographic
 from garage2usd.sensors.coco import CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
 from garage2usd.sensors.dmpr_ps import dmpr_ps
@@ -39,27 +40,27 @@ class SlotFormat(StrEnum):
     PANOPTIC = "panoptic"
     """Panoptic segments of all that is seen: ``panoptic.json`` and the folder ``panoptic``."""
     DMPR_PS = "dmpr-ps"
-    """Marking points, of bird's-eye views alone: the folder ``dmpr_ps``."""
+    """Marking points, of bird's-eye and around views alone: the folder ``dmpr_ps``."""
 
 
 _NEEDS = {SlotFormat.PANOPTIC: Picture.INSTANCE}
 """Kinds of pictures that formats need, beside depth, which all need."""
 
 
-def check_slots(formats: Collection[SlotFormat], kinds: Collection[Picture], *, has_birds_eye: bool) -> None:
+def check_slots(formats: Collection[SlotFormat], kinds: Collection[Picture], *, has_ground_view: bool) -> None:
     """Find out before anything is drawn whether slots can be told in some formats.
 
     Raises
     ------
     ConfigError
-        If a kind of picture that they need is not drawn, or there is no bird's-eye view for DMPR-PS.
+        If a kind of picture that they need is not drawn, or there is no bird's-eye or around view for DMPR-PS.
     """
     needed = {Picture.DEPTH, *(_NEEDS[each] for each in formats if each in _NEEDS)}
     missing = sorted(needed.difference(kinds))
     if missing:
         raise ConfigError("pictures", ",".join(kinds), f"{missing[0]} among them, from which slots are told")
-    if SlotFormat.DMPR_PS in formats and not has_birds_eye:
-        raise ConfigError("slots", str(SlotFormat.DMPR_PS), "other formats where there is no bird's-eye view")
+    if SlotFormat.DMPR_PS in formats and not has_ground_view:
+        raise ConfigError("slots", str(SlotFormat.DMPR_PS), "other formats where there is no bird's-eye or around view")
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +150,7 @@ class SlotLabels:
         folder = self.finished / "dmpr_ps"
         folder.mkdir(exist_ok=True)
         for view in self.views:
-            if isinstance(view.lens, Orthographic):
+            if isinstance(view.lens, Orthographic | AroundView):
                 text = json.dumps(dmpr_ps(records[view.name], slots))
                 (folder / f"{view.name}.json").write_text(text + "\n", encoding="utf-8")
         return folder

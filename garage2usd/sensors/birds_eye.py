@@ -62,7 +62,7 @@ class Orthographic(Lens):
         return np.tile([0.0, 0.0, 1.0], (len(np.asarray(pixels)), 1))
 
     def starts(self, pixels: ArrayLike) -> Floats:
-        """Where the rays of places, shape (n, 2), start, in camera axes and metres; float64, shape (n, 3)."""
+        """See `Lens.starts`."""
         flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) * self.metres_per_px
         return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)
 

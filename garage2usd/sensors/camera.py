@@ -27,6 +27,8 @@ class Camera(Sensor):
 
     size_px: tuple[_Side, _Side]
     """Width and height of its pictures."""
+    recorded: bool = True
+    """Whether its own pictures are recorded; if not, it is there for an around view to look through."""
 
     @property
     @abstractmethod

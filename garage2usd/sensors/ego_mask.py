@@ -5,18 +5,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.config.vehicles import CarBody
 from garage2usd.extras import RAYS, require
+from garage2usd.sensors.around_view import AroundView
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE
 from garage2usd.stage.driving_car import driven_asset
 
-__all__ = ["body_named", "ego_mask", "ego_triangles_m"]
-
-
-def body_named(name: str) -> CarBody:
-    """A body of the catalogue."""
-    return next(body for body in CAR_BODIES if body.name == name)
+__all__ = ["ego_mask", "ego_triangles_m"]
 
 
 def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
@@ -36,18 +32,22 @@ def ego_triangles_m(car: CarBody) -> NDArray[np.float64]:
 def ego_mask(camera: Camera, car: CarBody) -> NDArray[np.bool_]:
     """Whether the ray through the middle of each pixel meets the car that the camera is on; shape (rows, columns).
 
+    Of an around view, whether the pixel stands for ground that the car covers.
+
     Raises
     ------
     MissingExtraError
         If what casts rays is not installed.
     """
+    lens, place = camera.lens, camera.sensor_to_vehicle
+    if isinstance(lens, AroundView):
+        return lens.over_car(lens.middles()).reshape(lens.size_px[::-1])
     require("the mask of a camera's own car", RAYS)
     import trimesh  # noqa: PLC0415 - of an extra
 
     triangles = ego_triangles_m(car)
     numbers = np.arange(3 * len(triangles)).reshape(-1, 3)
     mesh: Any = trimesh.Trimesh(triangles.reshape(-1, 3), numbers, process=False, validate=False)
-    lens, place = camera.lens, camera.sensor_to_vehicle
     rays = lens.rays(lens.middles())
     seen = np.flatnonzero(np.isfinite(rays).all(axis=1))
     directions = rays[seen] @ place[:3, :3].T

@@ -67,6 +67,13 @@ class Lens(ABC):
             Of length 1, in camera axes, float64, shape (n, 3); NaN where the lens sees nothing.
         """
 
+    def starts(self, pixels: ArrayLike) -> Floats:
+        """Where the rays of places, shape (n, 2), start, in camera axes and metres; float64, shape (n, 3).
+
+        At the camera, but for lenses that say otherwise.
+        """
+        return np.zeros((len(np.asarray(pixels)), 3))
+
     @abstractmethod
     def parameters(self) -> Mapping[str, object]:
         """Its model and all of its parameters as plain values, under the names of its attributes."""

@@ -7,11 +7,12 @@ from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, ValidationInfo, field_validator
 
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import CAR_BODIES, CarBody, body_named
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
+from garage2usd.sensors.around_view_camera import AroundViewCamera
 from garage2usd.sensors.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
 from garage2usd.sensors.lidar_settings import Lidar, SolidStateLidar, SpinningLidar
 from garage2usd.sensors.mount import Sensor
@@ -19,6 +20,7 @@ from garage2usd.settings import Settings, validated
 
 __all__ = [
     "RIG_NAMES",
+    "AroundViewCamera",
     "Camera",
     "KannalaBrandtCamera",
     "Lidar",
@@ -32,11 +34,12 @@ __all__ = [
     "rig_from_mapping",
 ]
 
-RIG_NAMES = ("avp_surround", "column_camera", "lidar_32", "woodscape_like")
+RIG_NAMES = ("avp_around_view", "avp_surround", "column_camera", "lidar_32", "woodscape_like")
 """The rigs that are shipped."""
 
 _AnySensor = Annotated[
-    PinholeCamera | KannalaBrandtCamera | WoodScapeCamera | SpinningLidar | SolidStateLidar, Field(discriminator="kind")
+    PinholeCamera | KannalaBrandtCamera | WoodScapeCamera | AroundViewCamera | SpinningLidar | SolidStateLidar,
+    Field(discriminator="kind"),
 ]
 
 
@@ -70,10 +73,28 @@ class Rig(Settings):
                 raise ValueError(f"sensors of different names; {names.count(sensor.name.casefold())} are {sensor.name}")
         return sensors
 
+    @field_validator("sensors")
+    @classmethod
+    def _through_its_cameras(cls, sensors: tuple[Sensor, ...], settings: ValidationInfo) -> tuple[Sensor, ...]:
+        if "car" not in settings.data:
+            return sensors
+        car = body_named(settings.data["car"])
+        cameras = {sensor.name: sensor for sensor in sensors if isinstance(sensor, Camera)}
+        if not any(not isinstance(sensor, Camera) or sensor.recorded for sensor in sensors):
+            raise ValueError("one that is recorded at least")
+        return tuple(
+            sensor.through(cameras, car) if isinstance(sensor, AroundViewCamera) else sensor for sensor in sensors
+        )
+
+    @property
+    def body(self) -> CarBody:
+        """The body of the ego car."""
+        return body_named(self.car)
+
     @property
     def cameras(self) -> tuple[Camera, ...]:
-        """Its cameras."""
-        return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera))
+        """Its cameras whose pictures are recorded."""
+        return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera) and sensor.recorded)
 
     def scaled(self, scale: float) -> Self:
         """The same rig with larger or smaller pictures; raises `ConfigError` where they would be none."""

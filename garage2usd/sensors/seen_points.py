@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.lenses import Lens, Pinhole
 
 __all__ = ["seen_points"]
@@ -21,8 +20,8 @@ def seen_points(
     lens
         Of the picture.
     depth_m
-        As pictures of depth have it: along the axis of pinholes and bird's-eye views, along the ray of fisheyes; not
-        finite where there is nothing; shape (rows, columns).
+        As pictures of depth have it: along the axis of pinholes and bird's-eye views, along the ray of other lenses;
+        not finite where there is nothing; shape (rows, columns).
     sensor_to_world
         From camera axes (OpenCV's) to the world, in metres; float64, shape (4, 4).
 
@@ -36,8 +35,6 @@ def seen_points(
     if isinstance(lens, Pinhole):
         rays /= rays[:, 2:]
     depth = np.where(np.isfinite(depth_m), depth_m, np.nan).reshape(-1, 1)
-    points = rays * depth
-    if isinstance(lens, Orthographic):
-        points += lens.starts(middles)
+    points = lens.starts(middles) + rays * depth
     world: NDArray[np.float64] = points @ sensor_to_world[:3, :3].T + sensor_to_world[:3, 3]
     return world.reshape(*depth_m.shape, 3)

@@ -2,8 +2,9 @@
 
 Usage: python blender_positions.py JOBS.json
 
-Each job has a frame as the renderer's own job has it, a `.npy` file to write, and the sphere's radius. The camera is
-the one of `garage2usd/render/blender.py`, the passes are set up as there, and the world's axes are Blender's.
+Each job has a frame as the renderer's own job has it, a `.npy` file to write, and maybe poles that stand at z = 0: x,
+y, radius and height of each. The camera is the one of `garage2usd/render/blender.py`, the passes are set up as there,
+and the world's axes are Blender's.
 """
 
 import importlib.util
@@ -30,6 +31,8 @@ drawer._set_up_data(scene, list(scene.objects))
 scene.view_layers[0].use_pass_position = True
 for job in jobs:
     path = Path(job["path"])
+    for x, y, radius, height in job.get("poles", ()):
+        bpy.ops.mesh.primitive_cylinder_add(vertices=64, radius=radius, depth=height, location=(x, y, height / 2))
     drawer.aim(scene, job["frame"], Matrix(np.eye(4).tolist()))
     scene.render.filepath = str(path.with_suffix(".exr"))
     bpy.ops.render.render(write_still=True)

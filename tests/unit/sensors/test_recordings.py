@@ -32,7 +32,7 @@ def built(builds):
 @pytest.mark.parametrize(
     ("settings", "field", "allowed"),
     [
-        ({"rig": "surround"}, "rig", "one of avp_surround"),
+        ({"rig": "surround"}, "rig", "one of avp_around_view"),
         ({"along": "1:Z9"}, "stall", "one of the garage's"),
         ({"along": "9:"}, "along", "ENTRANCE:STALL"),
         ({"along": "first:1"}, "along", "ENTRANCE:STALL"),

@@ -9,7 +9,15 @@ import trimesh
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import ConfigError
 from garage2usd.objects.car import CarSpec
-from garage2usd.sensors.rig import RIG_NAMES, KannalaBrandtCamera, Rig, WoodScapeCamera, read_rig, rig_from_mapping
+from garage2usd.sensors.rig import (
+    RIG_NAMES,
+    AroundViewCamera,
+    KannalaBrandtCamera,
+    Rig,
+    WoodScapeCamera,
+    read_rig,
+    rig_from_mapping,
+)
 from garage2usd.stage.prototypes import asset_of
 
 PINHOLE = {"kind": "pinhole", "name": "a", "position_m": [0, 0, 1], "size_px": [64, 48], "focal_px": [50, 50]}
@@ -40,6 +48,9 @@ def test_the_shipped_rigs_hold_what_their_names_say():
     assert lidar.beams_deg[0] == -30.67
     assert lidar.beams_deg[-1] == 10.67
     assert [each.mount for each in read_rig("column_camera").sensors] == ["column"]
+    around = read_rig("avp_around_view")
+    assert [each.name for each in around.cameras] == ["around"]
+    assert [each.model_copy(update={"recorded": True}) for each in around.sensors[1:]] == list(surround.sensors)
 
 
 @pytest.mark.parametrize("name", RIG_NAMES)
@@ -53,7 +64,7 @@ def test_sensors_on_cars_stand_outside_of_the_body_and_near_it(name):
         np.concatenate([part.points for part in asset.parts if "Mirror" not in part.name])
     )
     for sensor in made.sensors:
-        if sensor.mount == "vehicle":
+        if sensor.mount == "vehicle" and not isinstance(sensor, AroundViewCamera):  # which stands on the ground below
             x, y, z = sensor.position_m
             over_faces = ((np.array([-y, z, axle_m - x]) - hull.triangles[:, 0]) * hull.face_normals).sum(axis=1)
             assert 0.0 < over_faces.max() < 0.4, sensor.name
@@ -118,7 +129,9 @@ def test_a_key_of_another_kind_of_sensor_is_not_offered():
 
 
 def test_unknown_rigs_and_cars_are_named(tmp_path):
-    with pytest.raises(ConfigError, match="one of avp_surround, column_camera, lidar_32, woodscape_like, or a path"):
+    with pytest.raises(
+        ConfigError, match="one of avp_around_view, avp_surround, column_camera, lidar_32, woodscape_like, or a path"
+    ):
         read_rig("surround")
     with pytest.raises(ConfigError, match="readable file"):
         read_rig(tmp_path / "none.toml")
