@@ -6,6 +6,7 @@ environment makes; pictures and binary stages differ by what Pillow and USD writ
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -135,11 +136,13 @@ def test_all_commands_make_the_same_in_a_fresh_environment(version, resolution, 
 @pytest.mark.parametrize("resolution", ["lowest-direct", "highest"])
 @pytest.mark.parametrize("version", NAMED)
 def test_each_python_that_is_named_has_wheels_of_all_it_needs(version, resolution):
-    extras = [extra for extra in EXTRAS if (version, extra) not in WITHOUT_WHEELS]
+    extras = [extra for extra in (*EXTRAS, "blender") if (version, extra) not in WITHOUT_WHEELS]
     found = compiled(version, resolution, extras, "--only-binary", ":all:")
     assert compiled(version, resolution, extras) == found  # the minima are such that they have some
     assert {"numpy", "usd-core"} <= {line.partition("==")[0] for line in found}
 
 
-def test_the_least_python_is_the_first_that_is_named():
+def test_every_word_on_pythons_is_the_same():
     assert PROJECT["requires-python"] == f">={NAMED[0]}"
+    candidates = re.search(r"for candidate in (.*); do", (REPOSITORY / "environment.sh").read_text())[1].split()
+    assert {*candidates} == {"python3", *(f"python{version}" for version in NAMED)}
