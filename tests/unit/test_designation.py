@@ -222,3 +222,15 @@ def test_wheel_stops_and_bumps_are_as_low_as_the_profile_asks(kind, clause, usua
     assert highest() == highest(**{clause: 0.2}) == pytest.approx(usual)
     assert highest(**{clause: 0.8 * usual}) == pytest.approx(0.8 * usual)
     assert highest(**{clause: 0.01}) is None
+
+
+def test_a_stall_with_a_gap_beside_it_has_no_access_aisle_beyond():
+    parking, plan = {"accessible_share": 1.0}, {"unreachable_stalls": "drop"}
+    config = GarageConfig(parking=parking, plan=plan, fittings={"stair_cores": False})
+    structure = Structure.from_arrays(cells_from_text(CORE, field="S"), 8.1, 8.1)
+    graph = build_lane_graph(structure, config.bay)
+    middle = {stall.name for stall in lay_out(structure, graph, config).stalls if stall.ordinal % 3 == 2}
+    layout = lay_out(structure, graph, config, unreachable=middle)
+    assert len(layout.stalls) > 2 * len(middle) - 3
+    assert not of_use(layout, StallUse.ACCESSIBLE)
+    assert not of_use(layout, StallUse.ACCESS_AISLE)
