@@ -136,7 +136,7 @@ def record(
     kinds, formats = check_recording(
         chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked
     )
-    check_along(chosen, along, birds_eye)
+    _check_along(chosen, along, birds_eye)
     check_writable(folder)
     check_file(folder / "frames.json")
     drawn_on = find_device(device, has_rays=True) if chosen.cameras else CPU
@@ -229,7 +229,7 @@ def check_recording(
     return kinds, formats
 
 
-def check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> None:
+def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> None:
     """Find out before the work whether a rig records without a drive.
 
     Raises
