@@ -317,8 +317,8 @@ MUTANTS = (
     Mutant(
         "ancestral-references",
         COMPOSE + "Composer.cs",
-        "if (!tree.IsMovedAway()) { tree.Grow(); }\n            depth--;",
-        "depth--;",
+        "if (!tree.IsMovedAway()) { tree.Grow(); }\n            else",
+        "if (tree.IsMovedAway())",
     ),
     Mutant(
         "implied-classes",

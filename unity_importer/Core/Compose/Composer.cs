@@ -101,6 +101,11 @@ namespace Garage.Usd
             if (!speaks) { root.IsSilent = true; }
             var tree = new ArcTree(this, root, arc);
             if (!tree.IsMovedAway()) { tree.Grow(); }
+            else
+            {
+                library.Warn("<" + arc.Parent.Path + "> leads to <" + path + "> of " + arc.Stack.Root.Identifier
+                    + ", which is relocated: nothing is there");
+            }
             depth--;
             return root;
         }
