@@ -83,7 +83,6 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
         cover_end_m=round(cover_end, 6),
         cover_height_m=portal.height_m,
         wall_top_m=round(rise + _PARAPET_M, 6),
-        is_entrance=portal.is_entrance,
     )
 
 

@@ -1,6 +1,7 @@
 """Plates with the names of zones, on the sides of columns and on walls."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import starmap
 from typing import NamedTuple
 
 import numpy as np
@@ -14,15 +15,17 @@ from garage2usd.layout.zones import Zones
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.wall import WallSpec
-from garage2usd.objects.zone_plate import ZonePlateSpec
+from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["zone_plates"]
 
+_AROUND = (Edge.DOWN, Edge.RIGHT, Edge.UP, Edge.LEFT)
+"""Where the sides of a column look, as `ColumnPlatesSpec` has them."""
 _FOOT_M = 1.70
 """Height of lower edges: over what hangs on columns and walls."""
-_SHARE, _HALF_SHARES = 0.88, (0.225, 0.43)
-"""Of a column's side: the width of a plate; of two side by side, where their middles are and their width."""
+_HALF = 0.225
+"""From the middle of a column's side to that of its halves, as a share of its width."""
 _ON_WALL_M, _FROM_END_M = 0.26, 0.15
 """Width of a plate on a wall, and from its middle to the wall's end: between two rows of stalls."""
 _SEEN_FROM_M = 0.5
@@ -36,7 +39,7 @@ _STRAIGHT_M = 0.01
 
 
 class _Side(NamedTuple):
-    """Where a plate may be: its name, the middle of the foot of the column's or wall's side, its yaw, its width."""
+    """A side of a column or a place on a wall: its name, the middle of its foot, where it looks, and its width."""
 
     name: str
     middle: Point
@@ -89,10 +92,14 @@ def zone_plates(
     shown = [str(zones.of(stall.square)) for stall in numbered]
     grounds = grounds_of([stall.corners_m() for stall in numbered])
     middles = np.array([stall.centre_m for stall in numbered])
+    columns = list(columns)
+    sides = list(_column_sides(columns))
+    seen = _seen(sides, blocks)
+    zones_on = dict(zip(seen, starmap(_zones_on, _halves_of(seen, grounds, middles, shown)), strict=True))
     plates: list[Placement] = []
-    sides = _seen(_column_sides(columns), blocks)
-    for side, halves in zip(sides, _halves_of(sides, grounds, middles, shown), strict=True):
-        plates += _plates_on(side, *halves)
+    for number, column in enumerate(columns):
+        own = sides[number * len(_AROUND) : (number + 1) * len(_AROUND)]
+        plates += _on_column(column, tuple(zones_on.get(side, ()) for side in own))
     return plates + _plates_on_walls(_seen(_wall_sides(walls), blocks), grounds, middles, shown, plates)
 
 
@@ -100,10 +107,21 @@ def _column_sides(columns: Iterable[Placement]) -> Iterator[_Side]:
     """The four sides of each column."""
     for column, spec in of_spec(columns, ColumnSpec):
         at = column.position_m[0], column.position_m[2]
-        for edge in Edge:
+        for edge in _AROUND:
             yaw = edge_yaw_rad(edge)
-            name = f"{column.name.replace('Column', 'ZonePlate')}_{edge.name.capitalize()}"
-            yield _Side(name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
+            yield _Side(column.name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
+
+
+def _on_column(column: Placement, sides: tuple[tuple[str, ...], ...]) -> list[Placement]:
+    """The plates on a column, turned so that columns with the same ones share a shape; none if it is bare."""
+    if not any(sides) or not isinstance(column.spec, ColumnSpec):
+        return []
+    turned = [(*sides[turn:], *sides[:turn]) for turn in range(len(sides))]
+    turn = min(range(len(sides)), key=turned.__getitem__)
+    spec = ColumnPlatesSpec(turned[turn], column.spec.size_m)
+    x, _, z = column.position_m
+    name = column.name.replace("Column", "ZonePlates")
+    return [placed(name, spec, (x, z), height_m=_FOOT_M, yaw_rad=edge_yaw_rad(_AROUND[turn]))]
 
 
 def _wall_sides(walls: Iterable[Placement]) -> Iterator[_Side]:
@@ -126,24 +144,13 @@ def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
     return [side for number, side in enumerate(sides) if number not in hidden]
 
 
-def _plates_on(side: _Side, left: _Half, right: _Half) -> list[Placement]:
-    """The plate of a side, or one of each half, or none."""
+def _zones_on(left: _Half, right: _Half) -> tuple[str, ...]:
+    """The zone on the plate of a side, or those on the plates of its halves, or none."""
     near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
-    beside = [half.beside for half in (left, right) if half.beside and half.beside_m <= near_m]
-    plates = [("", 0.0, _SHARE)]
-    if len({*beside}) > 1:
-        across, share = _HALF_SHARES
-        plates = [("_1", -across, share), ("_2", across, share)] if beside == [left.before, right.before] else []
-    return [
-        placed(
-            f"{side.name}{ending}",
-            ZonePlateSpec(zone, round(share * side.width_m, 6)),
-            to_world((across * side.width_m, 0.0), side.middle, side.yaw_rad),
-            height_m=_FOOT_M,
-            yaw_rad=side.yaw_rad,
-        )
-        for zone, (ending, across, share) in zip(beside, plates, strict=False)
-    ]
+    beside = tuple(half.beside for half in (left, right) if half.beside and half.beside_m <= near_m)
+    if len({*beside}) < 2:  # noqa: PLR2004 - before both halves lie stalls of one zone
+        return beside[:1]
+    return beside if beside == (left.before, right.before) else ()
 
 
 def _halves_of(
@@ -155,7 +162,7 @@ def _halves_of(
     at = np.array([side.middle for side in sides])
     ahead = np.array([cos_sin(side.yaw_rad)[::-1] for side in sides])
     right = ahead[:, ::-1] * (1, -1)
-    off_m = np.array([[_HALF_SHARES[0] * side.width_m] for side in sides])
+    off_m = np.array([[_HALF * side.width_m] for side in sides])
     reach = np.stack([at - _SIGHT_M * right, at + _SIGHT_M * (right + ahead)])
     side, stall = shapely.STRtree(grounds).query(shapely.box(*reach.min(axis=0).T, *reach.max(axis=0).T))
     is_before = ((middles[stall] - at[side]) * ahead[side]).sum(axis=1) > 0
@@ -192,10 +199,15 @@ def _plates_on_walls(
     if not sides:
         return []
     zones = np.array(shown)
-    text = np.array([plate.text for _, plate in of_spec(plates, ZonePlateSpec)], dtype=zones.dtype)
+    on_columns = [
+        (plate.text, place.to_world(plate.middle))
+        for place, spec in of_spec(plates, ColumnPlatesSpec)
+        for plate in spec.plates()
+    ]
+    text = np.array([zone for zone, _ in on_columns], dtype=zones.dtype)
     nearest, nearest_m = np.full(len(zones), "", dtype=zones.dtype), np.full(len(zones), np.inf)
     if len(text):
-        at = shapely.points([(plate.position_m[0], plate.position_m[2]) for plate in plates])
+        at = shapely.points([middle for _, middle in on_columns])
         (_, number), nearest_m = shapely.STRtree(at).query_nearest(
             shapely.points(middles), all_matches=False, return_distance=True
         )

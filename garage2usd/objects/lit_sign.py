@@ -1,4 +1,4 @@
-"""Lit signs over vehicle doors and ramps: who may drive through, and who may not."""
+"""Lit signs over vehicle doors: who may drive through, and who may not."""
 
 from enum import StrEnum
 
@@ -13,7 +13,7 @@ from garage2usd.assets.mesh import Part, make_part
 
 __all__ = ["Way", "lit_sign"]
 
-_MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.8, 0.06
+_MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.5, 0.06
 _LENGTH = 5.6
 """In heights of the sign, as all measures of what is on it."""
 _TEXT = 0.5

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.lit_sign import Way, lit_sign
 from garage2usd.objects.outline import Point, Polygon, rectangle
 
 __all__ = ["KIND", "RampSpec"]
@@ -30,7 +29,6 @@ _HEADER_M = 0.3
 _DRAIN_M = 0.2
 _SLAT_M = 0.04
 _FLAT = 1e-6
-_SIGN_GAP_M = 0.2
 
 
 @dataclass(frozen=True)
@@ -51,8 +49,6 @@ class RampSpec(Spec, kind=KIND):
         Run where the slab over its foot ends, and height of that slab's underside.
     wall_top_m
         Height of the side walls.
-    is_entrance
-        Whether cars come down it.
     """
 
     width_m: float
@@ -62,10 +58,9 @@ class RampSpec(Spec, kind=KIND):
     cover_end_m: float
     cover_height_m: float
     wall_top_m: float
-    is_entrance: bool
 
     def asset(self) -> Asset:
-        """A grooved floor with kerbs, side walls, a slab over its foot with a lit sign, and a drain."""
+        """A grooved floor with kerbs, side walls, a slab over its foot and a drain."""
         half, (start, _), (end, _) = self.width_m / 2, self.profile[0], self.profile[-1]
         cover_end, cover_low, cover_high = self.cover_end_m, self.cover_height_m, self.profile[-1][1]
         threshold = _strip(self.threshold_width_m / 2, [(0.0, 0.0), (start, 0.0)])
@@ -90,8 +85,6 @@ class RampSpec(Spec, kind=KIND):
                 ),
                 _kerb(f"{name}Kerb", half, side, self.profile),
             ]
-        sign_room = (-half, half), (cover_high + _SIGN_GAP_M, self.wall_top_m - _SIGN_GAP_M)
-        parts += lit_sign("Sign", Way.IN if self.is_entrance else Way.NOT_IN, *sign_room, -cover_end, looks_back=True)
         return Asset(tuple(parts))
 
     def outlines(self) -> tuple[Polygon, ...]:

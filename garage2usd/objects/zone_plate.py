@@ -1,17 +1,22 @@
 """Plates with the zone on columns and walls."""
 
+import math
 import string
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
-import shapely
+import numpy as np
+from numpy.typing import NDArray
 from shapely import affinity
 
-from garage2usd.assets.flat import GRID_M, upright_triangles
+from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, text_shape
-from garage2usd.assets.mesh import Asset, Part, make_part
+from garage2usd.assets.mesh import Asset, Face, make_part, pascal_case
 from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Point
 
-__all__ = ["KIND", "ZONE_PLATE_HEIGHT_M", "ZonePlateSpec"]
+__all__ = ["KIND", "ZONE_PLATE_HEIGHT_M", "ColumnPlatesSpec", "Plate", "ZonePlateSpec"]
 
 KIND = Kind(
     "zone_plate",
@@ -24,10 +29,24 @@ KIND = Kind(
 )
 
 ZONE_PLATE_HEIGHT_M = 0.36
-_LIFT_M = 0.004
+_LIFT_M, _INK_M = 0.004, 0.007
+"""From what bears a plate to its front, and to what is written there."""
 _TEXT_SHARE = (0.86, 0.74)
 """Of the width and the height of a field."""
 _HUES = ("zone_blue", "zone_orange", "zone_green", "zone_red", "zone_violet", "zone_teal")
+_SHARES = {1: ((0.0, 0.88),), 2: ((-0.225, 0.43), (0.225, 0.43))}
+"""Of a column's side with one plate or two: where the middle of each is, and its width."""
+_YAWS_RAD = (0.0, math.pi / 2, math.pi, -math.pi / 2)
+_Faces = NDArray[np.float64]
+
+
+class Plate(NamedTuple):
+    """A plate: the zone on it, the middle (x, z) of its lower edge, where it looks, and its width."""
+
+    text: str
+    middle: Point
+    yaw_rad: float
+    width_m: float
 
 
 @dataclass(frozen=True)
@@ -37,27 +56,69 @@ class ZonePlateSpec(Spec, kind=KIND):
     text: str
     width_m: float
 
+    def plates(self) -> tuple[Plate, ...]:
+        """The one plate."""
+        return (Plate(self.text, (0.0, 0.0), 0.0, self.width_m),)
+
     def asset(self) -> Asset:
         """The letter in white on the colour of its zone, and beside it the number in black on white."""
-        letter, number = self.text[0], self.text[1:]
-        hue = _HUES[string.ascii_uppercase.index(letter) % len(_HUES)]
-        half = self.width_m / 2
-        return Asset(
-            (
-                *_field("Letter", letter, (-half, 0.0), (hue, "sign_white")),
-                *_field("Number", number, (0.0, half), ("sign_white", "sign_black")),
-            ),
+        return _asset(self.plates())
+
+
+@dataclass(frozen=True)
+class ColumnPlatesSpec(Spec, kind=KIND):
+    """The plates on a square column; origin in its middle, at their lower edges.
+
+    Attributes
+    ----------
+    sides
+        The zones on the sides that look to +Z, +X, -Z and -X, from left to right: none, one or two.
+    column_size_m
+        Side of the column.
+    """
+
+    sides: tuple[tuple[str, ...], ...]
+    column_size_m: float
+
+    def plates(self) -> tuple[Plate, ...]:
+        """All plates, side by side."""
+        size = self.column_size_m
+        found: list[Plate] = []
+        for (cos, sin), yaw, zones in zip(((1, 0), (0, 1), (-1, 0), (0, -1)), _YAWS_RAD, self.sides, strict=True):
+            for zone, (across, share) in zip(zones, _SHARES.get(len(zones), ()), strict=True):
+                x, z = across * size, size / 2
+                middle = round(x * cos + z * sin, 6), round(z * cos - x * sin, 6)
+                found.append(Plate(zone, middle, yaw, round(share * size, 6)))
+        return tuple(found)
+
+    def asset(self) -> Asset:
+        """Its plates, each as `ZonePlateSpec` has it."""
+        return _asset(self.plates())
+
+
+def _asset(plates: Iterable[Plate]) -> Asset:
+    """The faces of plates, a part for each material."""
+    faces: dict[str, list[Face]] = {}
+    for plate in plates:
+        cos, sin = round(math.cos(plate.yaw_rad)), round(math.sin(plate.yaw_rad))
+        for material, triangles in _fields(plate.text, plate.width_m):
+            x, y, z = np.moveaxis(triangles, 2, 0)
+            turned = np.stack([x * cos + z * sin, y, z * cos - x * sin], axis=2)
+            place = np.array((plate.middle[0], 0.0, plate.middle[1]))
+            faces.setdefault(material, []).extend(turned + place)
+    return Asset(tuple(make_part(pascal_case(key), each, key) for key, each in sorted(faces.items())))
+
+
+def _fields(text: str, width_m: float) -> Iterator[tuple[str, _Faces]]:
+    """Material and faces of the field with the letter and of that with the number, and of what is written there."""
+    hue = _HUES[string.ascii_uppercase.index(text[0]) % len(_HUES)]
+    fields = ((text[0], -width_m / 2, 0.0, hue, "sign_white"), (text[1:], 0.0, width_m / 2, "sign_white", "sign_black"))
+    for written, left, right, ground, ink in fields:
+        height, length = ZONE_PLATE_HEIGHT_M, GLYPH_WIDTH + GLYPH_PITCH * (len(written) - 1)
+        shape = text_shape(written, min(_TEXT_SHARE[1] * height, _TEXT_SHARE[0] * (right - left) / length))
+        shape = affinity.translate(shape, (left + right) / 2)
+        yield (
+            ground,
+            np.array([[(left, 0, _LIFT_M), (right, 0, _LIFT_M), (right, height, _LIFT_M), (left, height, _LIFT_M)]]),
         )
-
-
-def _field(name: str, text: str, across_m: tuple[float, float], materials: tuple[str, str]) -> tuple[Part, Part]:
-    """The part of a plate from left to right, and what is written on it, of two materials."""
-    (left, right), (ground, ink) = across_m, materials
-    height, length = ZONE_PLATE_HEIGHT_M, GLYPH_WIDTH + GLYPH_PITCH * (len(text) - 1)
-    shape = text_shape(text, min(_TEXT_SHARE[1] * height, _TEXT_SHARE[0] * (right - left) / length))
-    shape = affinity.translate(shape, (left + right) / 2)
-    around = shapely.difference(shapely.box(left, -height / 2, right, height / 2), shape, grid_size=GRID_M)
-    return (
-        make_part(f"{name}Field", upright_triangles(around, middle_m=height / 2, front_m=_LIFT_M), ground),
-        make_part(name, upright_triangles(shape, middle_m=height / 2, front_m=_LIFT_M), ink),
-    )
+        yield ink, upright_triangles(shape, middle_m=height / 2, front_m=_INK_M)

@@ -32,7 +32,7 @@ from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
-from garage2usd.objects.zone_plate import ZonePlateSpec
+from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
 
 
 def footprint(placement):
@@ -82,6 +82,8 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(0.52, body.length_m)
         case NumberSpec():
             return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
+        case ColumnPlatesSpec():
+            return _centred(spec.column_size_m + 0.01, spec.column_size_m + 0.01)
         case ZonePlateSpec():
             return shapely.box(-spec.width_m / 2, 0, spec.width_m / 2, 0.01)
         case SprinklerSpec():

@@ -32,7 +32,7 @@ from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
-from garage2usd.objects.zone_plate import ZonePlateSpec
+from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
 
 MARKINGS = (
     Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW, Paint.LANE_LINE),
@@ -58,7 +58,6 @@ SPECS = {
         cover_end_m=9.3,
         cover_height_m=3.2,
         wall_top_m=4.8,
-        is_entrance=True,
     ),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
     "raised_barrier": BarrierSpec(arm_m=6.1, is_raised=True, elbow_m=2.75),
@@ -92,6 +91,7 @@ SPECS = {
         f"plate_{text}": ZonePlateSpec(text, 0.528)
         for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]
     },
+    "column_plates": ColumnPlatesSpec((("A1",), ("A1", "B1"), (), ("K12",)), 0.6),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
 }

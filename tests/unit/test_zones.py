@@ -89,10 +89,19 @@ def test_plates_of_any_garage_show_the_zones_of_the_stalls(seed):
 
 def test_on_the_border_of_two_zones_each_half_of_a_side_has_its_own_plate():
     layout = laid_out()
-    shown = {plate.name: plate.spec.text for plate in layout.of_kind("zone_plate")}
     # between the squares (0, 3) and (0, 4), both of which hold stalls
-    assert (shown["ZonePlate_r01_c04_Up_1"], shown["ZonePlate_r01_c04_Up_2"]) == ("B1", "A1")
-    assert (shown["ZonePlate_r01_c04_Left"], shown["ZonePlate_r01_c04_Right"]) == ("A1", "B1")
+    column = next(place for place in layout.of_kind("zone_plate") if place.name == "ZonePlates_r01_c04")
+    x, _, z = column.position_m
+    shown = {(round(at_x - x, 3), round(at_z - z, 3)): zone for zone, (at_x, at_z), _ in plates_of(column)}
+    assert (shown[-0.135, -0.3], shown[0.135, -0.3]) == ("A1", "B1")
+    assert (shown[-0.3, 0.0], shown[0.3, 0.0]) == ("A1", "B1")
+
+
+def plates_of(placement):
+    """(zone, middle, way that it looks) of each plate of an object; (x, z) in the garage."""
+    for plate in placement.spec.plates():
+        yaw = placement.yaw_rad + plate.yaw_rad
+        yield plate.text, placement.to_world(plate.middle), np.array([np.sin(yaw), np.cos(yaw)])
 
 
 def test_what_hangs_on_a_column_covers_no_plate():
@@ -106,22 +115,15 @@ def assert_plates_show_the_zones_before_them(layout):
     """The stall nearest before a plate is of its zone, the plate nearest to a stall too, and each zone has one."""
     stalls = [stall for stall in layout.stalls if stall.number]
     zones = np.array([stall.number.split("-")[0] for stall in stalls])
-    plates = layout.of_kind("zone_plate")
-    assert {plate.spec.text for plate in plates} == {*zones.tolist()}
+    plates = [plate for placement in layout.of_kind("zone_plate") for plate in plates_of(placement)]
+    assert {text for text, _, _ in plates} == {*zones.tolist()}
     middles = np.array([stall.centre_m for stall in stalls])
     grounds = np.array([shapely.Polygon(stall.corners_m()) for stall in stalls])
-    places = np.array([plate.position_m for plate in plates])[:, [0, 2]]
-    texts = np.array([plate.spec.text for plate in plates])
-    for plate, place in zip(plates, places, strict=True):
-        ahead = np.array([np.sin(plate.yaw_rad), np.cos(plate.yaw_rad)])
+    for text, place, ahead in plates:
         before = np.flatnonzero((middles - place) @ ahead > 0)
         distances = shapely.distance(shapely.Point(place), grounds[before])
         # of stalls that are as near as each other, one at least
         nearest = before[distances < distances.min() + 1e-3]
-        assert plate.spec.text in zones[nearest], plate.name
-    nearest = cdist(middles, places).argmin(axis=1)
-    assert [
-        stall.number
-        for stall, plate in zip(stalls, nearest, strict=True)
-        if not stall.number.startswith(f"{texts[plate]}-")
-    ] == []
+        assert text in zones[nearest], place
+    nearest = cdist(middles, [place for _, place, _ in plates]).argmin(axis=1)
+    assert [plates[plate][0] for plate in nearest.tolist()] == zones.tolist()
