@@ -52,13 +52,10 @@ class _Half(NamedTuple):
 
     Attributes
     ----------
-    before
-        Zone of the stall before the side that is nearest to this half; empty if none is in sight.
     beside, beside_m
-        The same of the stalls before this half alone, and how far that stall's ground is; infinitely far without one.
+        Zone of the nearest stall, and how far its ground is; empty and infinitely far if none is in sight.
     """
 
-    before: str = ""
     beside: str = ""
     beside_m: float = np.inf
 
@@ -82,9 +79,9 @@ def zone_plates(
     Notes
     -----
     Each side of a column shows the zone of the nearest stalls before it. A side that a block hides is bare, as is one
-    without a stall in sight. Before a side on the border of two zones lie stalls of both: each half of it has a plate
-    of its own then, or it is bare where the stalls before one half are nearer to the other, too. Stalls that are
-    nearest to a plate of another zone, or of a garage without columns, have one on a wall.
+    without a stall in sight, and one on the border of two zones, before which lie stalls of both; the sides around it
+    show one zone each. Stalls to which a plate of another zone is the nearest, as there is no column about, have one
+    on a wall.
     """
     numbered = [stall for stall in stalls if stall.number]
     if not numbered:
@@ -145,12 +142,10 @@ def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
 
 
 def _zones_on(left: _Half, right: _Half) -> tuple[str, ...]:
-    """The zone on the plate of a side, or those on the plates of its halves, or none."""
+    """The zone on the plate of a side, or none where stalls of two are about as near."""
     near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
     beside = tuple(half.beside for half in (left, right) if half.beside and half.beside_m <= near_m)
-    if len({*beside}) < 2:  # noqa: PLR2004 - before both halves lie stalls of one zone
-        return beside[:1]
-    return beside if beside == (left.before, right.before) else ()
+    return beside[:1] if len({*beside}) == 1 else ()
 
 
 def _halves_of(
@@ -175,10 +170,8 @@ def _halves_of(
         order = np.lexsort((stall, distances_m(place[side], middles[stall]).round(6), far_m, side))
         order = order[far_m[order] <= _SIGHT_M]
         found = [_Half()] * len(sides)
-        for row in _first_of_each(order, side):
-            found[side[row]] = _Half(shown[stall[row]])
         for row in _first_of_each(order[turn * to_right_m[order] > -_STRAIGHT_M], side):
-            found[side[row]] = _Half(found[side[row]].before, shown[stall[row]], float(far_m[row]))
+            found[side[row]] = _Half(shown[stall[row]], float(far_m[row]))
         halves.append(found)
     return list(zip(*halves, strict=True))
 

@@ -7,7 +7,7 @@ import shapely
 from shapely import affinity
 
 from garage2usd.assets.faces import box_faces, moved
-from garage2usd.assets.flat import GRID_M, upright_triangles
+from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_shape
 from garage2usd.assets.mesh import Part, make_part
 
@@ -21,7 +21,7 @@ _SYMBOLS_AT = (-2.3, 2.3)
 _ARROW = ((-0.1, -0.36), (0.1, -0.36), (0.1, 0.0), (0.3, 0.0), (0.0, 0.36), (-0.3, 0.0), (-0.1, 0.0))
 _PLATE, _DISC, _BAR = 0.84, 0.38, (0.27, 0.07)
 """Of the sign of no entry: side of the white plate, radius of the disc, half of its bar's length and width."""
-_DEPTH_M = 0.06
+_DEPTH_M, _LIFT_M = 0.06, 0.004
 
 
 class Way(StrEnum):
@@ -74,20 +74,15 @@ def lit_sign(
         return []
     symbol = shapely.Polygon(_ARROW) if way.is_open else _around_disc()
     drawn = shapely.union_all([text_shape(way, _TEXT), *(affinity.translate(symbol, end) for end in _SYMBOLS_AT)])
-    panel = shapely.box(-_LENGTH / 2, -0.5, _LENGTH / 2, 0.5)
-    legend, ground = (
-        upright_triangles(
-            affinity.scale(shape, height, height, origin=(0, 0)), middle_m=(low + high) / 2, front_m=_DEPTH_M
-        )
-        for shape in (drawn, shapely.difference(panel, drawn, grid_size=GRID_M))
-    )
+    drawn = affinity.scale(drawn, height, height, origin=(0, 0))
     x, y = _LENGTH * height / 2, (low + high) / 2
-    housing = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="nf")
+    box = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="n")
+    legend = upright_triangles(drawn, middle_m=y, front_m=_DEPTH_M + _LIFT_M)
     turn = np.array([-1.0, 1.0, -1.0] if looks_back else [1.0, 1.0, 1.0])
     place = ((left + right) / 2, 0.0, wall_m)
     hue = "sign_green" if way.is_open else "sign_red"
     return [
-        make_part(name, moved([face * turn for face in (*housing, *ground)], place), hue),
+        make_part(name, moved([face * turn for face in box], place), hue),
         make_part(f"{name}Legend", moved([face * turn for face in legend], place), "exit_white"),
     ]
 

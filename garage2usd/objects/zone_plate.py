@@ -61,7 +61,7 @@ class ZonePlateSpec(Spec, kind=KIND):
         return (Plate(self.text, (0.0, 0.0), 0.0, self.width_m),)
 
     def asset(self) -> Asset:
-        """The letter in white on the colour of its zone, and beside it the number in black on white."""
+        """The letter in white on the colour of its zone, and beside it the number in that colour on white."""
         return _asset(self.plates())
 
 
@@ -112,7 +112,7 @@ def _asset(plates: Iterable[Plate]) -> Asset:
 def _fields(text: str, width_m: float) -> Iterator[tuple[str, _Faces]]:
     """Material and faces of the field with the letter and of that with the number, and of what is written there."""
     hue = _HUES[string.ascii_uppercase.index(text[0]) % len(_HUES)]
-    fields = ((text[0], -width_m / 2, 0.0, hue, "sign_white"), (text[1:], 0.0, width_m / 2, "sign_white", "sign_black"))
+    fields = ((text[0], -width_m / 2, 0.0, hue, "sign_white"), (text[1:], 0.0, width_m / 2, "sign_white", hue))
     for written, left, right, ground, ink in fields:
         height, length = ZONE_PLATE_HEIGHT_M, GLYPH_WIDTH + GLYPH_PITCH * (len(written) - 1)
         shape = text_shape(written, min(_TEXT_SHARE[1] * height, _TEXT_SHARE[0] * (right - left) / length))
