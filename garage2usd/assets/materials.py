@@ -152,7 +152,6 @@ MATERIALS: dict[str, Material] = {
         colour_rgb=(0.5, 0.02, 0.02), roughness=0.4, emissive_rgb=(0.9, 0.05, 0.03), touch=Touch.STEEL
     ),
     "sign_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, touch=Touch.STEEL),
-    "sign_black": Material(colour_rgb=(0.02, 0.02, 0.02), roughness=0.45, touch=Touch.STEEL),
     "zone_blue": Material(colour_rgb=(0.02, 0.10, 0.36), roughness=0.45, touch=Touch.STEEL),
     "zone_orange": Material(colour_rgb=(0.68, 0.20, 0.01), roughness=0.45, touch=Touch.STEEL),
     "zone_green": Material(colour_rgb=(0.02, 0.22, 0.07), roughness=0.45, touch=Touch.STEEL),

@@ -92,11 +92,11 @@ def zone_plates(
     columns = list(columns)
     sides = list(_column_sides(columns))
     seen = _seen(sides, blocks)
-    zones_on = dict(zip(seen, starmap(_zones_on, _halves_of(seen, grounds, middles, shown)), strict=True))
+    zone_on = dict(zip(seen, starmap(_zone_on, _halves_of(seen, grounds, middles, shown)), strict=True))
     plates: list[Placement] = []
     for number, column in enumerate(columns):
         own = sides[number * len(_AROUND) : (number + 1) * len(_AROUND)]
-        plates += _on_column(column, tuple(zones_on.get(side, ()) for side in own))
+        plates += _on_column(column, tuple(zone_on.get(side, "") for side in own))
     return plates + _plates_on_walls(_seen(_wall_sides(walls), blocks), grounds, middles, shown, plates)
 
 
@@ -109,7 +109,7 @@ def _column_sides(columns: Iterable[Placement]) -> Iterator[_Side]:
             yield _Side(column.name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
 
 
-def _on_column(column: Placement, sides: tuple[tuple[str, ...], ...]) -> list[Placement]:
+def _on_column(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
     """The plates on a column, turned so that columns with the same ones share a shape; none if it is bare."""
     if not any(sides) or not isinstance(column.spec, ColumnSpec):
         return []
@@ -141,11 +141,11 @@ def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
     return [side for number, side in enumerate(sides) if number not in hidden]
 
 
-def _zones_on(left: _Half, right: _Half) -> tuple[str, ...]:
-    """The zone on the plate of a side, or none where stalls of two are about as near."""
+def _zone_on(left: _Half, right: _Half) -> str:
+    """The zone on the plate of a side; empty where none is in sight, or stalls of two are about as near."""
     near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
-    beside = tuple(half.beside for half in (left, right) if half.beside and half.beside_m <= near_m)
-    return beside[:1] if len({*beside}) == 1 else ()
+    beside = {half.beside for half in (left, right) if half.beside and half.beside_m <= near_m}
+    return beside.pop() if len(beside) == 1 else ""
 
 
 def _halves_of(

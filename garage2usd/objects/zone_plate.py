@@ -34,8 +34,8 @@ _LIFT_M, _INK_M = 0.004, 0.007
 _TEXT_SHARE = (0.86, 0.74)
 """Of the width and the height of a field."""
 _HUES = ("zone_blue", "zone_orange", "zone_green", "zone_red", "zone_violet", "zone_teal")
-_SHARES = {1: ((0.0, 0.88),), 2: ((-0.225, 0.43), (0.225, 0.43))}
-"""Of a column's side with one plate or two: where the middle of each is, and its width."""
+_SHARE = 0.88
+"""Width of a plate, of that of a column's side."""
 _YAWS_RAD = (0.0, math.pi / 2, math.pi, -math.pi / 2)
 _Faces = NDArray[np.float64]
 
@@ -72,24 +72,23 @@ class ColumnPlatesSpec(Spec, kind=KIND):
     Attributes
     ----------
     sides
-        The zones on the sides that look to +Z, +X, -Z and -X, from left to right: none, one or two.
+        The zones on the sides that look to +Z, +X, -Z and -X; empty where a side is bare.
     column_size_m
         Side of the column.
     """
 
-    sides: tuple[tuple[str, ...], ...]
+    sides: tuple[str, ...]
     column_size_m: float
 
     def plates(self) -> tuple[Plate, ...]:
-        """All plates, side by side."""
-        size = self.column_size_m
-        found: list[Plate] = []
-        for (cos, sin), yaw, zones in zip(((1, 0), (0, 1), (-1, 0), (0, -1)), _YAWS_RAD, self.sides, strict=True):
-            for zone, (across, share) in zip(zones, _SHARES.get(len(zones), ()), strict=True):
-                x, z = across * size, size / 2
-                middle = round(x * cos + z * sin, 6), round(z * cos - x * sin, 6)
-                found.append(Plate(zone, middle, yaw, round(share * size, 6)))
-        return tuple(found)
+        """One on each side that is not bare."""
+        half, width = self.column_size_m / 2, round(_SHARE * self.column_size_m, 6)
+        middles = (0.0, half), (half, 0.0), (0.0, -half), (-half, 0.0)
+        return tuple(
+            Plate(zone, middle, yaw, width)
+            for zone, middle, yaw in zip(self.sides, middles, _YAWS_RAD, strict=True)
+            if zone
+        )
 
     def asset(self) -> Asset:
         """Its plates, each as `ZonePlateSpec` has it."""

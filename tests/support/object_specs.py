@@ -91,7 +91,7 @@ SPECS = {
         f"plate_{text}": ZonePlateSpec(text, 0.528)
         for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]
     },
-    "column_plates": ColumnPlatesSpec((("A1",), ("A1", "B1"), (), ("K12",)), 0.6),
+    "column_plates": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
 }
