@@ -35,16 +35,17 @@ def judged(profile, **settings):
     return findings, judged_layout(garage.layout, garage.graph, config)[1]
 
 
+ROOM_FOR_CORES = {"personnel_exits", "exit_distance", "exit_distance_sprinklered"}
+"""One stall in ten gives way to stair cores at most. Besides, no grid may be narrower than an aisle."""
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_a_garage_misses_no_clause_that_build_does_not_name(seed):
     findings, unmet = judged(random_profile(seed), seed=seed)
-    assert {finding.clause or finding.rule for finding in findings} <= {entry.clause for entry in unmet}
-
-
-def test_few_clauses_of_random_profiles_have_to_be_named():
-    named = [entry.clause for seed in range(40, 60) for entry in judged(random_profile(seed), seed=seed)[1]]
-    missed = [clause for clause in named if not clause.startswith(("van_", "stalls_per_van"))]
-    assert len(missed) <= 4, missed
+    missed = {finding.clause or finding.rule for finding in findings}
+    assert missed <= {entry.clause for entry in unmet}
+    # all others are designed to
+    assert missed <= ROOM_FOR_CORES | {"column_spacing"}
 
 
 SECONDS = {
