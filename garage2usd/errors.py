@@ -1,5 +1,6 @@
 """One hierarchy of errors: what failed, the value, what is allowed, and the seed that reproduces it."""
 
+import os
 from collections.abc import Sequence
 
 __all__ = [
@@ -199,5 +200,7 @@ _BRIEF_CHARACTERS = 80
 
 
 def _brief(value: object) -> str:
+    """A value in one line: a path whole, as its end tells most; of others no more than their beginning."""
     text = repr(value).replace("\n", "")  # arrays take a line a row
-    return text if len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."
+    is_path = isinstance(value, str) and os.sep in value and "\n" not in value
+    return text if is_path or len(text) <= _BRIEF_CHARACTERS else f"{text[:_BRIEF_CHARACTERS]}..."

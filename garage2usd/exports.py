@@ -1,5 +1,7 @@
 """A stage, or the garage that a report tells of, in the formats of programs that read no USD."""
 
+# Over 300 lines: every format is a few lines here, and what is asked for is checked, written and published as one.
+
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path

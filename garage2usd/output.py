@@ -1,5 +1,7 @@
 """Output that is whole or absent: made elsewhere, then moved into place."""
 
+# Over 300 lines: what is refused before the work, what is made elsewhere and what is moved hold only together.
+
 import errno
 import os
 import re

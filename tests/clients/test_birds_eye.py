@@ -350,9 +350,9 @@ def hull_of(prim):
 
 def test_slots_are_refused_where_they_cannot_be_told():
     with pytest.raises(ConfigError, match="slots"):
-        check_slots([SlotFormat.DMPR_PS], KINDS, has_birds_eye=False)
+        check_slots([SlotFormat.DMPR_PS], KINDS, has_ground_view=False)
     with pytest.raises(ConfigError, match="depth among them"):
-        check_slots([SlotFormat.JSON], [Picture.COLOUR], has_birds_eye=True)
+        check_slots([SlotFormat.JSON], [Picture.COLOUR], has_ground_view=True)
     with pytest.raises(ConfigError, match="instance among them"):
-        check_slots([SlotFormat.PANOPTIC], [Picture.DEPTH], has_birds_eye=True)
-    check_slots(list(SlotFormat), KINDS, has_birds_eye=True)
+        check_slots([SlotFormat.PANOPTIC], [Picture.DEPTH], has_ground_view=True)
+    check_slots(list(SlotFormat), KINDS, has_ground_view=True)

@@ -89,7 +89,9 @@ def test_a_structure_file_is_read_beside_the_configuration(tmp_path):
     assert config.site.structure_file is None
 
 
-@pytest.mark.parametrize("content", [b"seed = ", b"\xff\xfe", b'[site]\nstructure_file = "nowhere.txt"\n'])
+@pytest.mark.parametrize(
+    "content", [b"seed = ", b"\xff\xfes", b"\xfe\x01", b'[site]\nstructure_file = "nowhere.txt"\n']
+)
 def test_unreadable_files_are_configuration_errors(tmp_path, content):
     (tmp_path / "garage.toml").write_bytes(content)
     with pytest.raises(ConfigError):

@@ -59,7 +59,7 @@ def test_what_is_missing_is_named_before_the_work(case, inputs, tmp_path, monkey
         monkeypatch.setitem(sys.modules, module, None)
     run = CliRunner().invoke(main, [str(word) for word in command])
     assert run.exit_code == 1, run.output
-    (line,) = run.stderr.splitlines()
+    (line,) = [line for line in run.stderr.splitlines() if " gets none of the " not in line]  # so few garages
     assert line.endswith(f"pip install 'garage2usd[{extra}]'")
     assert {path.name for path in tmp_path.iterdir()} == inputs
 
