@@ -9,6 +9,7 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
+from garage2usd.errors import ConfigError
 
 if TYPE_CHECKING:
     from garage2usd.config.maps import MapsConfig
@@ -115,6 +116,8 @@ def _exports(output: Path, formats: str | None, settings: "MapsConfig") -> tuple
         return ()
     from garage2usd.exports import check_exports  # noqa: PLC0415 - most builds are not exported
 
+    if not output.name:
+        raise ConfigError("output", str(output), "a path with a name, beside which exports go")
     files = [output.with_name(f"{output.stem}.{name.strip()}") for name in formats.split(",")]
     return check_exports(files, settings=settings)
 

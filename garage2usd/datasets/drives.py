@@ -10,7 +10,7 @@ from pydantic import Field, field_validator
 from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError
 from garage2usd.randomness import Step, generator
-from garage2usd.recordings import CloudFormat, check_recording, record
+from garage2usd.recordings import CloudFormat, Device, check_recording, record
 from garage2usd.recordings import Sequence as SequenceFormat
 from garage2usd.render import Picture, SlotFormat
 from garage2usd.sensors.birds_eye import BirdsEye
@@ -126,6 +126,7 @@ def record_drives(
                 scale=config.scale,
                 samples=config.samples,
                 seed=seed % _SEEDS,
+                device=Device.CPU,  # whose bytes are the same on every worker
                 pictures=config.pictures,
                 slots=config.slots or None,
                 birds_eye=config.birds_eye,

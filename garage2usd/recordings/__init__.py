@@ -225,7 +225,7 @@ def check_recording(
         check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)
     check_sequences(sequences, rig, kinds, formats)
     without = "not for LiDARs alone: --points without --only" if rig.lidars else ""
-    require(f"the rig {rig.name}", _modules_for(rig, sequences), without=without)
+    require(f"the rig {rig.name}", _modules_for(rig, sequences, birds_eye), without=without)
     return kinds, formats
 
 
@@ -239,7 +239,7 @@ def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> Non
     """
     if along is not None:
         return
-    moving = next((sensor for sensor in rig.sensors if sensor.mount != "world"), None)
+    moving = next((sensor for sensor in rig.recorded if sensor.mount != "world"), None)
     if moving is not None:
         whose = f"for the sensor {moving.name}, which is mounted on the {moving.mount} and not in the world"
         raise ConfigError("along", None, f"ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves, {whose}")
@@ -247,11 +247,15 @@ def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> Non
         raise ConfigError("along", None, "a drive, along which bird's-eye views are recorded")
 
 
-def _modules_for(rig: Rig, sequences: Collection[Sequence]) -> Iterator[str]:
-    """What a rig needs of extras; rays also find the own car in pictures, and the boxes that sequences tell."""
+def _modules_for(rig: Rig, sequences: Collection[Sequence], birds_eye: BirdsEye | None) -> Iterator[str]:
+    """What a rig needs of extras.
+
+    Rays also find the own car in pictures, the boxes that sequences tell, and whether a car finds room under something.
+    """
+    is_on_car = any(camera.mount == "vehicle" for camera in rig.cameras)
     if rig.cameras:
         yield from BLENDER
-    if rig.lidars or sequences or any(camera.mount == "vehicle" for camera in rig.cameras):
+    if rig.lidars or sequences or is_on_car or birds_eye is not None:
         yield from RAYS
     if Sequence.ROS2 in sequences:
         yield "rosbags"

@@ -40,15 +40,12 @@ def check_birds_eye(rig: Rig, kinds: Collection[Picture]) -> None:
     ------
     ConfigError
         If the rig has no cameras, beside whose pictures they are drawn, or no picture is that tells free space.
-    MissingExtraError
-        If what casts rays, which tell whether a car finds room, is not installed.
     """
     if not rig.cameras:
         raise ConfigError("birds_eye", rig.name, "bird's-eye views beside the pictures of a rig with cameras")
     if not {Picture.SEMANTIC, Picture.INSTANCE}.intersection(kinds):
         allowed = f"{Picture.SEMANTIC} or {Picture.INSTANCE} among them, from which free space is told"
         raise ConfigError("pictures", ",".join(kinds), allowed)
-    import garage2usd.sensors.driven_surface  # noqa: F401, PLC0415 - raises here, and not when all is drawn
 
 
 class BirdsEyeViews:

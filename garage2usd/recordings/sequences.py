@@ -52,7 +52,7 @@ def check_sequences(
     if Sequence.NUSCENES in asked:
         if not rig.lidars and not any(isinstance(camera, PinholeCamera) for camera in rig.cameras):
             raise ConfigError("rig", rig.name, "a rig with a LiDAR or a pinhole camera, for nuScenes")
-        away = [sensor.name for sensor in rig.sensors if sensor.mount != "vehicle"]
+        away = [sensor.name for sensor in rig.recorded if sensor.mount != "vehicle"]
         around = [camera.name for camera in rig.cameras if isinstance(camera, AroundViewCamera)]
         if around:
             raise ConfigError("rig", around[0], "a rig that records no around view, which nuScenes has no sensor for")

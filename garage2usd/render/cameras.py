@@ -95,7 +95,7 @@ class View:
         return matrix
 
     def intrinsics(self) -> NDArray[np.float64] | None:
-        """The matrix K for pixels whose corners are whole numbers, float64, shape (3, 3); None for fisheyes."""
+        """The matrix K for pixels whose corners are whole numbers, float64, shape (3, 3); None for other lenses."""
         if isinstance(self.lens, Lens):
             return self.lens.matrix(self.size_px)
         if isinstance(self.lens, Pinhole):

@@ -118,7 +118,7 @@ class Drawing:
         progress("render", total - left, total)
         if left:
             announce(self._described(jobs))
-            tempo = _Tempo(self.samples if self._has_colour else 1, jobs, announce)
+            tempo = _Tempo(self.samples if any(job["colour"] for job in jobs) else 1, jobs, announce)
             waiting = _Waiting(self, [(self.views[number], jobs[number]) for number in order])
             lift()
 

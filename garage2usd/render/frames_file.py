@@ -20,7 +20,8 @@ _CONVENTIONS = {
     "intrinsics": "u = (K @ p_camera)[0] / z, v likewise; pixel (column, row) covers [column, column + 1) and its "
     "middle is column + 0.5",
     "depth": "z of the camera (planar, not along the ray) in metres, 32-bit float, channel Z; infinite where there is "
-    "nothing; of fisheyes, whose frames say so, the distance along the ray",
+    "nothing; of fisheyes, whose frames say so, the distance along the ray, which in around views starts at the camera "
+    "that serves the pixel",
     "normals": "of the surface without normal maps, in the world's axes, channels X, Y, Z; 0 where there is nothing",
     "instance": "id = red + 256 * green + 65536 * blue; 0 is nothing, or nothing labelled; number plates have "
     "the id of their car",

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pydantic import Field, PrivateAttr, field_validator
 
 from garage2usd.config.vehicles import CarBody
+from garage2usd.errors import ConfigError
 from garage2usd.sensors.around_view import SECTORS, AroundView, Eye
 from garage2usd.sensors.camera import Camera
 from garage2usd.settings import Settings
@@ -16,6 +17,7 @@ __all__ = ["AroundViewCamera", "ServingCameras"]
 
 _VIEW_FROM_SENSOR = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """Columns: right, down and into the ground, in axes that look forward, left and up."""
+_LEAST_PX_M, _LARGEST_PX_M = 0.001, 1.0
 _Metres = Annotated[float, Field(ge=-100.0, le=100.0)]
 
 
@@ -38,7 +40,7 @@ class AroundViewCamera(Camera):
     """`"around_view"`."""
     position_m: tuple[_Metres, _Metres, Annotated[float, Field(ge=0.0, le=0.0)]] = (1.4, 0.0, 0.0)
     """x and y of the picture's middle, and 0, as it is on the ground."""
-    metres_per_px: float = Field(0.02, ge=0.001, le=1.0)
+    metres_per_px: float = Field(0.02, ge=_LEAST_PX_M, le=_LARGEST_PX_M)
     """Width and height of a pixel on the ground."""
     cameras: ServingCameras = ServingCameras()
     """The cameras that it looks through."""
@@ -119,7 +121,11 @@ class AroundViewCamera(Camera):
         return Eye(camera.name, camera.lens, np.linalg.inv(self.sensor_to_vehicle) @ camera.sensor_to_vehicle)
 
     def _resized(self, size_px: tuple[int, int]) -> dict[str, object]:
-        return {"metres_per_px": self.metres_per_px * self.size_px[0] / size_px[0]}
+        metres_per_px = self.metres_per_px * self.size_px[0] / size_px[0]
+        if not _LEAST_PX_M <= metres_per_px <= _LARGEST_PX_M:
+            allowed = f"with which pixels of {self.name} are {_LEAST_PX_M} to {_LARGEST_PX_M} m wide"
+            raise ConfigError("scale", size_px[0] / self.size_px[0], allowed)
+        return {"metres_per_px": metres_per_px}
 
     def _axes(self) -> NDArray[np.float64]:
         return _VIEW_FROM_SENSOR

@@ -78,13 +78,9 @@ class Rig(Settings):
     def _through_its_cameras(cls, sensors: tuple[Sensor, ...], settings: ValidationInfo) -> tuple[Sensor, ...]:
         if "car" not in settings.data:
             return sensors
-        car = body_named(settings.data["car"])
-        cameras = {sensor.name: sensor for sensor in sensors if isinstance(sensor, Camera)}
         if not any(not isinstance(sensor, Camera) or sensor.recorded for sensor in sensors):
             raise ValueError("one that is recorded at least")
-        return tuple(
-            sensor.through(cameras, car) if isinstance(sensor, AroundViewCamera) else sensor for sensor in sensors
-        )
+        return _looking_through(sensors, body_named(settings.data["car"]))
 
     @property
     def body(self) -> CarBody:
@@ -96,10 +92,24 @@ class Rig(Settings):
         """Its cameras whose pictures are recorded."""
         return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera) and sensor.recorded)
 
+    @property
+    def recorded(self) -> tuple[Sensor, ...]:
+        """Its sensors but for the cameras that are not recorded."""
+        return tuple(sensor for sensor in self.sensors if not isinstance(sensor, Camera) or sensor.recorded)
+
     def scaled(self, scale: float) -> Self:
-        """The same rig with larger or smaller pictures; raises `ConfigError` where they would be none."""
-        sensors = [sensor.scaled(scale) if isinstance(sensor, Camera) else sensor for sensor in self.sensors]
-        return self.model_copy(update={"sensors": tuple(sensors)})
+        """The same rig with larger or smaller pictures, where any are recorded.
+
+        Raises
+        ------
+        ConfigError
+            If they would be too small or too large.
+        """
+        sensors = tuple(
+            sensor.scaled(scale) if isinstance(sensor, Camera) and sensor.recorded else sensor
+            for sensor in self.sensors
+        )
+        return self.model_copy(update={"sensors": _looking_through(sensors, self.body)})
 
     def without_cameras(self) -> Self:
         """The same rig with its LiDARs alone, of which it needs one."""
@@ -109,6 +119,12 @@ class Rig(Settings):
     def lidars(self) -> tuple[SpinningLidar | SolidStateLidar, ...]:
         """Its LiDARs."""
         return tuple(sensor for sensor in self.sensors if isinstance(sensor, SpinningLidar | SolidStateLidar))
+
+
+def _looking_through(sensors: tuple[Sensor, ...], car: CarBody) -> tuple[Sensor, ...]:
+    """Sensors whose around views look through the cameras among them."""
+    cameras = {sensor.name: sensor for sensor in sensors if isinstance(sensor, Camera)}
+    return tuple(sensor.through(cameras, car) if isinstance(sensor, AroundViewCamera) else sensor for sensor in sensors)
 
 
 def read_rig(name_or_path: str | Path) -> Rig:

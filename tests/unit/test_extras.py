@@ -27,6 +27,11 @@ CASES = {
     "pictures": (["bpy"], RENDER, "blender"),
     "pictures that are read": (["OpenEXR"], RENDER, "blender"),
     "fisheyes": (["embreex"], [*RENDER, "--rig", "avp_surround", *ALONG], "sensors"),
+    "views from above": (
+        ["bpy", "embreex"],
+        [*RENDER, "--rig", "column_camera", *ALONG, "--birds-eye", "0.02"],
+        "blender,sensors",
+    ),
     "all that a rig needs": (
         ["bpy", "trimesh", "rosbags"],
         [*RENDER, "--rig", "lidar_32", *ALONG, "--also", "ros2"],

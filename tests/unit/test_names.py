@@ -254,3 +254,12 @@ def test_every_command_refuses_a_folder_in_the_place_of_a_file(built, tmp_path, 
     assert taken in done.output.splitlines()[-1]
     assert [path.name for path in tmp_path.iterdir()] == [taken]
     assert not list((tmp_path / taken).iterdir())
+
+
+@pytest.mark.parametrize("output", [".", "/"])
+def test_an_output_without_a_name_is_refused_with_and_without_exports(output):
+    for exports in ([], ["--with", "glb"]):
+        done = run("build", *exports, "-o", output)
+        assert done.exit_code == 2, (done.output, done.exception)
+        (line,) = done.output.splitlines()
+        assert line.startswith(f"Error: output: got {output!r}")

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from garage2usd.errors import ConfigError
+from garage2usd.errors import ConfigError, StageError
+from garage2usd.recordings import record
 from garage2usd.sensors.rig import read_rig, rig_from_mapping
 
 CAMERA = {
@@ -150,3 +151,26 @@ def test_the_shipped_rig_sees_all_the_ground_around_the_car():
     middles = camera.lens.middles()
     unseen = np.isnan(camera.lens.rays(middles)).any(axis=1)
     assert (unseen == camera.lens.over_car(middles)).all()
+
+
+def test_scale_is_of_what_is_recorded_and_the_view_looks_through_the_cameras_of_its_rig():
+    rig = rig_of({}, {**FRONT, "recorded": True}, REAR, LEFT, RIGHT).scaled(0.5)
+    around, front, rear, *_ = rig.sensors
+    assert around.size_px == (200, 250)
+    assert front.size_px == (320, 240)
+    assert rear.size_px == (640, 480)
+    assert [eye.lens.size_px for eye in around.lens.eyes] == [(320, 240), *[(640, 480)] * 3]
+    assert rig_from_mapping(rig.model_dump(mode="json")) == rig
+
+
+def test_a_scale_with_pixels_of_more_than_a_metre_is_refused():
+    with pytest.raises(ConfigError, match=r"pixels of around are 0\.001 to 1\.0 m wide"):
+        rig_of({"metres_per_px": 0.2}).scaled(0.1)
+
+
+def test_a_camera_that_is_not_recorded_asks_for_no_drive(tmp_path):
+    watching = {**CAMERA, "name": "watching", "mount": "world", "position_m": [0, 0, 2], "recorded": True}
+    rig = rig_from_mapping({"name": "own", "sensors": [watching, FRONT]})
+    assert [sensor.name for sensor in rig.recorded] == ["watching"]
+    with pytest.raises(StageError):  # and not for want of a drive
+        record(tmp_path / "none.usdz", tmp_path / "out", rig=rig, along=None, pictures=["colour"])
