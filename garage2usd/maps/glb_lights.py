@@ -59,6 +59,9 @@ def punctual_light(
         if light.luminance_nit > 0 and brightest > 0 and not light.candela:
             remarks.add("lights without a size shine nothing unless they are normalized", path)
         return None
+    if light.kind != "DistantLight" and light.cone_deg <= 0:
+        remarks.add("lights in a cone without an angle shine nothing", path)
+        return None
     for reason in unsaid_of(prim):
         remarks.add(reason, path)
     made: dict[str, Any] = {"intensity": shortest([strength])[0]}

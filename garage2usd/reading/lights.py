@@ -21,6 +21,7 @@ _AHEAD = {"RectLight": 1.0, "DiskLight": 1.0, "SphereLight": 1 / 4, "CylinderLig
 _ELLIPSOID = 1.6075
 """Exponent of K. Thomsen's formula for the area of an ellipsoid, which is off by 1 % at most."""
 _ALL_ROUND_DEG, _HALF_ROUND_DEG = 180.0, 90.0
+_LINKS = ("lightLink", "shadowLink")
 _MOST, _MOST_STOPS = 1e9, 64.0
 
 
@@ -175,4 +176,20 @@ def unsaid_of(prim: Usd.Prim) -> list[str]:
         found.append("IES profiles of lights are left out")
     if focus and number_of(focus) > 0:
         found.append("the focus of lights is left out")
+    picture = prim.GetAttribute("inputs:texture:file")
+    if picture and isinstance(value := picture.Get(READ_AT), Sdf.AssetPath) and value.path:
+        found.append("pictures on lights are left out")
+    if any(_number(prim, name) != 1 for name in ("inputs:diffuse", "inputs:specular") if prim.HasAttribute(name)):
+        found.append("shares of diffuse and specular light are left out")
+    if prim.HasAttribute("inputs:shadow:enable") and prim.GetAttribute("inputs:shadow:enable").Get(READ_AT) is False:
+        found.append("lights that cast no shadows shine as others do")
+    if any(_has_targets(prim, f"collection:{name}:{part}") for name in _LINKS for part in ("includes", "excludes")):
+        found.append("lights that are linked to some prims shine on all")
+    if _has_targets(prim, "light:filters"):
+        found.append("filters of lights are left out")
     return found
+
+
+def _has_targets(prim: Usd.Prim, name: str) -> bool:
+    relationship = prim.GetRelationship(name)
+    return bool(relationship) and bool(relationship.GetTargets())

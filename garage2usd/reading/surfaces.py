@@ -20,7 +20,7 @@ from garage2usd.reading.textures import (
     TextureReader,
     source_of,
 )
-from garage2usd.reading.values import READ_AT, numbers_of, vector_of
+from garage2usd.reading.values import READ_AT, vector_of
 
 __all__ = ["PLAIN", "Rgb", "SurfaceLook", "SurfaceReader", "stands_alone"]
 
@@ -29,6 +29,8 @@ _PREVIEW = "UsdPreviewSurface"
 _BRIGHTEST = 1e4
 _DEFAULT_ROUGHNESS = 0.5
 _DEFAULT_IOR = 1.5
+_STRAIGHT = (0.0, 0.0, 1.0)
+"""The normal of a surface without a normal map."""
 _MOST_IOR = 1e3
 _COLOUR_READERS = frozenset({f"{PRIMVAR_READER}float3", f"{PRIMVAR_READER}float4"})
 
@@ -137,13 +139,15 @@ class SurfaceReader:
         """The surface of a prim without a material, by what it says of itself."""
         primvars = UsdGeom.PrimvarsAPI(prim)
         opacity = primvars.FindPrimvarWithInheritance("displayOpacity")
-        shares = numbers_of(opacity.GetAttr(), np.float64) if opacity and opacity.HasValue() else np.ones(1)
-        share = _within(float(shares.mean()), 1.0) if len(shares) else 1.0
+        shares = _rows(opacity, 1) if opacity and opacity.HasValue() else None
+        share = 1.0 if shares is None or not len(shares) else _within(float(shares.mean()), 1.0)
+        if shares is not None and len(np.unique(shares)) > 1:
+            self._remarks.add("numbers by point are carried as their mean", prim.GetPath())
         colour = primvars.FindPrimvarWithInheritance("displayColor")
-        if not colour or colour.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
+        if not colour or not colour.HasValue() or colour.GetTypeName() != Sdf.ValueTypeNames.Color3fArray:
             return SurfaceLook(opacity=share)
-        values = numbers_of(colour.GetAttr(), np.float64, width=3)
-        if not len(values):
+        values = _rows(colour, 3)
+        if values is None or not len(values):
             return SurfaceLook(opacity=share)
         red, green, blue = np.clip(np.nan_to_num(values), 0, 1).mean(axis=0).tolist()
         varies = colour.GetInterpolation() != UsdGeom.Tokens.constant and len(values) > 1
@@ -165,6 +169,13 @@ class SurfaceReader:
         clearcoat, coat_roughness = shader.number("clearcoat", 0.0), shader.number("clearcoatRoughness", 0.01)
         is_specular = shader.number("useSpecularWorkflow", 0.0).values[0] > 0
         specular = shader.colour("specularColor", (0.0,) * 3) if is_specular else None
+        if emissive.primvar or (specular and specular.primvar):
+            self._remarks.add(
+                "colours by point of what glows or reflects are carried as their mean", material.GetPath()
+            )
+        normal = shader.given("normal", _STRAIGHT)
+        if normal.texture is None and normal.values != _STRAIGHT:
+            self._remarks.add("normals that are the same all over are left out", material.GetPath())
         return SurfaceLook(
             colour_rgb=_rgb(colour),
             emissive_rgb=_rgb(emissive),
@@ -174,22 +185,29 @@ class SurfaceReader:
             clearcoat=clearcoat.values[0],
             clearcoat_roughness=coat_roughness.values[0],
             occlusion=occlusion.values[0],
-            ior=shader.number("ior", _DEFAULT_IOR, most=_MOST_IOR).values[0],
+            ior=self._mean(shader.number("ior", _DEFAULT_IOR, most=_MOST_IOR), "ior"),
             specular_rgb=_rgb(specular) if specular else None,
             colour_texture=colour.texture,
             opacity_texture=opacity.texture,
             roughness_texture=roughness.texture,
             metallic_texture=None if is_specular else metallic.texture,
-            normal_texture=shader.given("normal", (0.0, 0.0, 1.0)).texture,
+            normal_texture=normal.texture,
             occlusion_texture=occlusion.texture,
             emissive_texture=emissive.texture,
             clearcoat_texture=clearcoat.texture,
             clearcoat_roughness_texture=coat_roughness.texture,
             specular_texture=specular.texture if specular else None,
             colour_name=colour.primvar,
-            opacity_threshold=shader.number("opacityThreshold", 0.0).values[0],
+            opacity_threshold=self._mean(shader.number("opacityThreshold", 0.0), "opacityThreshold"),
             name=material.GetPrim().GetName(),
         )
+
+    def _mean(self, given: _Given, name: str) -> float:
+        """The number of an input that nobody takes a texture for: the mean of what one gives."""
+        if given.texture is None:
+            return given.values[0]
+        self._remarks.add(f"textures of {name} are carried as their mean", given.texture.file)
+        return self.pictures.mean(given.texture.band())
 
     def given(self, source: Source, default: tuple[float, ...], prim: Usd.Prim, *, is_colour: bool) -> _Given:
         """What a source gives to an input."""

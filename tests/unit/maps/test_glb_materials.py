@@ -116,6 +116,12 @@ def test_files_go_as_they_are_where_they_can(tmp_path):
             "opacity textures that lie unlike the colour's are carried as their mean (1)",
         ),
         (
+            "a texture of what has none",
+            case(texture("T", "noise.png", sourceColorSpace='"raw"'), primvar(), ior="T.outputs:g"),
+            "textures of ior are carried as their mean (1)",
+        ),
+        ("a normal", case(normal=(0.6, 0.0, 0.8)), "normals that are the same all over are left out (1): /W/M"),
+        (
             "another node",
             case(
                 'def Shader "N" {\n uniform token info:id = "ND_noise2d"\n float outputs:r\n}',
@@ -139,6 +145,26 @@ def test_what_gltf_cannot_say_is_named(about, said, named, tmp_path):
     _, remarks = exported(material_stage(tmp_path, said), tmp_path)
     (line,) = remarks
     assert line.startswith(named)
+
+
+INDEXED = """
+color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0)] (interpolation = "constant")
+int[] primvars:displayColor:indices = [1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("said", "colour"),
+    [(INDEXED, (0, 1, 0)), ("color3f[] primvars:displayColor", (0.5, 0.5, 0.5))],
+    ids=["by its index", "without a value"],
+)
+def test_a_prim_without_a_material_has_its_own_colour(said, colour, tmp_path):
+    path = tmp_path / "cube.usda"
+    path.write_text(f'#usda 1.0\n(\nmetersPerUnit = 1\nupAxis = "Y"\n)\ndef Cube "C" {{\n{said}\n}}\n')
+    glb, remarks = exported(Usd.Stage.Open(str(path)), tmp_path)
+    assert remarks == []
+    (material,) = glb.json["materials"]
+    assert material["pbrMetallicRoughness"]["baseColorFactor"][:3] == pytest.approx(colour, abs=1e-6)
 
 
 def test_another_surface_is_named(tmp_path):

@@ -172,6 +172,33 @@ def Cube "Box" { }
     ]
 
 
+UNSAID = {
+    "asset inputs:texture:file = @a.png@": "pictures on lights are left out",
+    "float inputs:diffuse = 0": "shares of diffuse and specular light are left out",
+    "float inputs:specular = 0.5": "shares of diffuse and specular light are left out",
+    "bool inputs:shadow:enable = 0": "lights that cast no shadows shine as others do",
+    "rel collection:lightLink:includes = </W>": "lights that are linked to some prims shine on all",
+    "rel collection:shadowLink:excludes = </W>": "lights that are linked to some prims shine on all",
+    "rel light:filters = </W>": "filters of lights are left out",
+    "float inputs:shaping:focus = 2": "the focus of lights is left out",
+}
+
+
+@pytest.mark.parametrize("said", UNSAID)
+def test_what_gltf_cannot_say_of_a_light_is_named(said, tmp_path):
+    schemas = '(prepend apiSchemas = ["ShapingAPI", "ShadowAPI"])'
+    _, remarks = written(tmp_path, f'def RectLight "L" {schemas} {{\n{said}\n}}\n')
+    flat = "flat lights shine as spots, as strongly as straight ahead (1): /W/L"
+    assert remarks == [f"{UNSAID[said]} (1): /W/L", flat]
+
+
+def test_a_cone_without_an_angle_is_no_light(tmp_path):
+    cone = 'def SphereLight "L" (prepend apiSchemas = ["ShapingAPI"]) {\nfloat inputs:shaping:cone:angle = 0\n}\n'
+    lights, remarks = written(tmp_path, f'{cone}def Cube "Box" {{\n}}\n')
+    assert lights == {}
+    assert remarks == ["lights in a cone without an angle shine nothing (1): /W/L"]
+
+
 def test_the_viewer_gets_the_same_candela(tmp_path):
     (tmp_path / "lights.usda").write_text(HEAD.format(metres=1, prims=BULBS))
     scene = read_scene(open_stage(tmp_path / "lights.usda"), tmp_path / "lights.usda")
