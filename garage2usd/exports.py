@@ -23,7 +23,7 @@ from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.output import check_file, check_name, drafting, publish_at, staging_folder
 from garage2usd.pipeline import build
 from garage2usd.processes import each_in_a_copy, without_collector
-from garage2usd.progress import Progress, silent
+from garage2usd.progress import Progress, silent, unheard
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks
@@ -168,10 +168,6 @@ def _write(source: _Source, folder: Path, asked: _Asked) -> tuple[tuple[Path, ..
     return asked.files(folder), remarks.lines()
 
 
-def _unheard(_line: str) -> None:
-    """Take no notice."""
-
-
 EXPORT_SUFFIXES = tuple(sorted(_WRITERS))
 """What the files that `export` makes end in: GLB scenes, Lanelet2 maps, OpenDRIVE maps, OpenSCENARIO scenarios, and
 YAML files of occupancy grids."""
@@ -185,7 +181,7 @@ def export(
     scenario: ScenarioConfig | None = None,
     progress: Progress = silent,
     workers: int = 1,
-    notice: Notice = _unheard,
+    notice: Notice = unheard,
     joint: str = "_",
 ) -> tuple[Path, ...]:
     """Write a garage in other formats.

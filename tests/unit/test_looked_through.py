@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from pxr import Gf, Usd, UsdGeom
+from support.held_stage import held_aloft
 from support.sample_files import REPOSITORY
 
 from garage2usd.assets.faces import box_faces
@@ -73,14 +74,7 @@ def test_portals_and_ramps_are_open_from_above_in_every_form(builds, form):
 
 def test_a_garage_that_stands_elsewhere_is_open_at_the_same_places(builds, tmp_path):
     stage = Usd.Stage.Open(str(builds(HAND_DRAWN, "usdc", "instanced").stage))
-    over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
-    UsdGeom.SetStageUpAxis(over, UsdGeom.Tokens.z)
-    UsdGeom.SetStageMetersPerUnit(over, 0.01)
-    held = UsdGeom.Xform.Define(over, "/Held")
-    held.AddTranslateOp().Set(Gf.Vec3d(300.0, -200.0, 450.0))
-    held.AddScaleOp().Set(Gf.Vec3f(100.0))
-    held.AddRotateXOp().Set(90.0)
-    held.GetPrim().GetReferences().AddReference(stage.GetRootLayer().realPath)
+    over = held_aloft(stage, tmp_path)
     plain, lifted = (find_overhead(each, read_drawn_prims(each, {})) for each in (stage, over))
     assert plain.hangs.sum() > 100
     assert lifted.hangs.tolist() == plain.hangs.tolist()

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from pxr import Gf, Usd, UsdGeom
+from pxr import Usd, UsdGeom
+from support.held_stage import held_aloft
 from support.rays import Rays
 from support.sample_files import REPOSITORY
 from support.slot_frames import equidistant, pinhole, shot_from
@@ -173,15 +174,7 @@ def polygon_area(ring):
 
 
 def test_slots_of_a_stage_with_z_up_in_centimetres(stage, tmp_path):
-    over = Usd.Stage.CreateNew(str(tmp_path / "over.usda"))
-    UsdGeom.SetStageUpAxis(over, UsdGeom.Tokens.z)
-    UsdGeom.SetStageMetersPerUnit(over, 0.01)
-    held = UsdGeom.Xform.Define(over, "/Held")
-    held.AddTranslateOp().Set(Gf.Vec3d(300.0, -200.0, 450.0))
-    held.AddScaleOp().Set(Gf.Vec3f(100.0))
-    held.AddRotateXOp().Set(90.0)
-    held.GetPrim().GetReferences().AddReference(stage.GetRootLayer().realPath)
-    over.SetDefaultPrim(held.GetPrim())
+    over = held_aloft(stage, tmp_path)
     plain, held_slots = read_slots(stage), read_slots(over)
     assert (held_slots.ground_axes, held_slots.up_axis) == ((0, 1), 2)
     for one, other in zip(plain.slots, held_slots.slots, strict=True):
