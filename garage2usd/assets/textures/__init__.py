@@ -1,0 +1,5 @@
+"""The shipped textures: what draws them, and where they are."""
+
+from garage2usd.assets.textures.baking import bake_textures, texture_folder
+
+__all__ = ["bake_textures", "texture_folder"]

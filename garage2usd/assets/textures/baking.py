@@ -1,0 +1,88 @@
+"""The baked texture set: procedural, tileable, in three qualities, the same bytes on every machine."""
+
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from garage2usd.assets.plate_texture import bake_plates
+from garage2usd.assets.stain_texture import bake_stains
+from garage2usd.assets.textures.ceilings import CEILINGS
+from garage2usd.assets.textures.floors import FLOORS
+from garage2usd.assets.textures.paints import PAINTS
+from garage2usd.assets.textures.pixels import Bakers, Pixels
+from garage2usd.assets.textures.steel import STEELS
+from garage2usd.assets.textures.walls import WALLS
+from garage2usd.config.stage import TextureQuality
+
+__all__ = ["bake_textures", "texture_folder"]
+
+_BAKERS: Bakers = {
+    **FLOORS,
+    **PAINTS,
+    **WALLS,
+    **CEILINGS,
+    **STEELS,
+    "stains.png": bake_stains,
+    "plate_characters.png": bake_plates,
+}
+_SEED = 20_260_101
+_DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}
+_JPEG_QUALITY = 90
+_RGBA = 4
+_ALPHA_STEPS = 28
+_DRAWN_IN_FEW_COLOURS = frozenset({"plate_characters"})
+"""Saved with a palette, in half the bytes."""
+_COLOUR_STEP, _PALETTE_BYTES = 12, 768
+
+
+def texture_folder(quality: TextureQuality) -> Path:
+    """The folder of the texture set in a quality: inside the installed package, else at the top of the repository."""
+    package = Path(__file__).parents[2]
+    shipped = package / "textures"
+    return (shipped if shipped.is_dir() else package.parent / "textures") / quality
+
+
+def bake_textures(folder: Path) -> None:
+    """Write the whole set into an existing folder, each quality into a folder of its own.
+
+    A pixel of a lower quality is the mean of those that it covers, so that it still repeats.
+    """
+    for quality in _DIVISORS:
+        (folder / quality).mkdir()
+    for name, bake in _BAKERS.items():
+        rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence([_SEED, *name.encode()])))
+        pixels = bake(rng)
+        for quality, divisor in _DIVISORS.items():
+            _save(pixels, divisor, folder / quality / name)
+
+
+def _save(pixels: Pixels, divisor: int, path: Path) -> None:
+    picture = Image.fromarray(pixels).reduce(divisor)
+    if pixels.shape[2] == _RGBA:
+        # its colours are few and each cell has one of them, its opacity is fine where there is little of it
+        alpha = np.rint(np.sqrt(np.asarray(picture.getchannel("A")) / 255.0) * _ALPHA_STEPS)
+        opaque = np.rint((alpha / _ALPHA_STEPS) ** 2 * 255).astype(np.uint8)
+        entries, picture = _palette(np.dstack([pixels[::divisor, ::divisor, :3], opaque]))
+        picture.putpalette(entries[:, :3].tobytes())
+        picture.save(path, format="PNG", optimize=True, transparency=entries[:, 3].tobytes())
+    elif path.stem in _DRAWN_IN_FEW_COLOURS:
+        colours = np.rint(np.asarray(picture) / _COLOUR_STEP).astype(np.uint8) * np.uint8(_COLOUR_STEP)
+        entries, picture = _palette(colours)
+        picture.putpalette(entries.tobytes() + bytes(_PALETTE_BYTES - entries.size))
+        picture.save(path, format="PNG", optimize=True)
+    elif path.suffix == ".jpg":
+        # colours that meet at sharp edges need all their pixels
+        subsampling = "4:4:4" if path.stem == "hazard" else "4:2:0"
+        picture.save(path, format="JPEG", quality=_JPEG_QUALITY, subsampling=subsampling, optimize=True)
+    else:
+        picture.save(path, format="PNG", optimize=True)
+
+
+def _palette(colours: Pixels) -> tuple[Pixels, Image.Image]:
+    """The colours that there are, in order, a row each; and which of them each pixel has."""
+    # sorted as whole numbers, which is much faster than as rows
+    places = 256 ** np.arange(colours.shape[2], dtype=np.uint32)[::-1]
+    numbers, index = np.unique((colours * places).sum(axis=2, dtype=np.uint32), return_inverse=True)
+    entries = (numbers[:, None] // places % 256).astype(np.uint8)
+    return entries, Image.fromarray(index.reshape(colours.shape[:2]).astype(np.uint8))
