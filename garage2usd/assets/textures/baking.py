@@ -13,6 +13,8 @@ from garage2usd.assets.textures.paints import PAINTS
 from garage2usd.assets.textures.pixels import Bakers, Pixels
 from garage2usd.assets.textures.steel import STEELS
 from garage2usd.assets.textures.walls import WALLS
+from garage2usd.assets.textures.wear import WEAR
+from garage2usd.assets.worn_paint import WEAR_STEPS, wear_palette
 from garage2usd.config.stage import TextureQuality
 
 __all__ = ["bake_textures", "texture_folder"]
@@ -23,13 +25,16 @@ _BAKERS: Bakers = {
     **WALLS,
     **CEILINGS,
     **STEELS,
+    **WEAR,
     "stains.png": bake_stains,
     "plate_characters.png": bake_plates,
 }
 _SEED = 20_260_101
 _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}
 _JPEG_QUALITY = 90
-_RGBA = 4
+_RGBA, _LEVELS_ALONE = 4, 2
+_WEAR_PAINT_RGB, _WEAR_GROUND_RGB = (0.75, 0.75, 0.72), (0.16, 0.16, 0.15)
+"""Linear colours that wear is shipped in: white on concrete."""
 _ALPHA_STEPS = 28
 _DRAWN_IN_FEW_COLOURS = frozenset({"plate_characters"})
 """Saved with a palette, in half the bytes."""
@@ -59,7 +64,11 @@ def bake_textures(folder: Path) -> None:
 
 def _save(pixels: Pixels, divisor: int, path: Path) -> None:
     picture = Image.fromarray(pixels).reduce(divisor)
-    if pixels.shape[2] == _RGBA:
+    if pixels.ndim == _LEVELS_ALONE:
+        picture = Image.fromarray(np.rint(np.asarray(picture) * ((WEAR_STEPS - 1) / 255)).astype(np.uint8))
+        picture.putpalette(wear_palette(_WEAR_PAINT_RGB, _WEAR_GROUND_RGB))
+        picture.save(path, format="PNG", optimize=True)
+    elif pixels.shape[2] == _RGBA:
         # its colours are few and each cell has one of them, its opacity is fine where there is little of it
         alpha = np.rint(np.sqrt(np.asarray(picture.getchannel("A")) / 255.0) * _ALPHA_STEPS)
         opaque = np.rint((alpha / _ALPHA_STEPS) ** 2 * 255).astype(np.uint8)

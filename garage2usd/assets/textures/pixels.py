@@ -10,7 +10,7 @@ from garage2usd.assets.fields import Field
 __all__ = ["Bakers", "Pixels", "distance_to", "levels", "mixed_over", "normal_map", "packed", "shaded"]
 
 Pixels = NDArray[np.uint8]
-"""uint8, shape (rows, columns, 3), or 4 with alpha."""
+"""uint8, shape (rows, columns, 3), or 4 with alpha; (rows, columns) where it is levels of wear alone."""
 Bakers = dict[str, Callable[[np.random.Generator], Pixels]]
 """What draws each texture, by its file name."""
 

@@ -1,0 +1,185 @@
+"""Patterns of floors and walls as periodic fields: cracks, stones, joints, strokes, trowel marks.
+
+Like `fields`, without sines, exponentials and matrix products.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.fields import Field
+
+__all__ = ["Cells", "cells", "joint", "strokes", "trowel_marks"]
+
+Shape = tuple[int, int]
+_AROUND = [(down, across) for down in (-1, 0, 1) for across in (-1, 0, 1)]
+_FINE = 1024
+
+
+class Cells(NamedTuple):
+    """The cells of the points of a jittered lattice (Worley 1996).
+
+    Attributes
+    ----------
+    which
+        Number of the cell that each pixel is in; int64, shape (rows, columns).
+    from_point
+        Distance from its point, in pixels.
+    from_edge
+        Distance from the nearest edge between two cells, in pixels.
+    """
+
+    which: NDArray[np.int64]
+    from_point: Field
+    from_edge: Field
+
+
+def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Field, Field] | None = None) -> Cells:
+    """Cells of irregular polygons, `count` down and across, periodic.
+
+    Parameters
+    ----------
+    rng, shape
+        What draws, and rows and columns.
+    count
+        Cells down and across, at least three each way.
+    warp
+        By how many pixels down and across each place is shifted first, which bends the edges.
+    """
+    rows, columns = count
+    jitter_down, jitter_across = (rng.integers(0, _FINE, size=count) / _FINE for _ in range(2))
+    down, across = np.arange(shape[0], dtype=np.float64)[:, None], np.arange(shape[1], dtype=np.float64)[None, :]
+    shift_down, shift_across = warp or (0.0, 0.0)
+    high, wide = shape[0] / rows, shape[1] / columns
+    down, across = (down + shift_down) / high + np.zeros(shape), (across + shift_across) / wide + np.zeros(shape)
+    row, column = np.floor(down).astype(np.int64), np.floor(across).astype(np.int64)
+
+    nearest, second = np.full(shape, np.inf), np.full(shape, np.inf)
+    which = np.zeros(shape, dtype=np.int64)
+    places = [[np.zeros(shape), np.zeros(shape)] for _ in range(2)]
+    for step_down, step_across in _AROUND:
+        i, j = (row + step_down) % rows, (column + step_across) % columns
+        y = (row + step_down + jitter_down[i, j] - down) * high
+        x = (column + step_across + jitter_across[i, j] - across) * wide
+        away = y * y + x * x
+        is_nearest, is_second = away < nearest, (away >= nearest) & (away < second)
+        for axis, value in enumerate((y, x)):
+            places[1][axis] = np.where(is_nearest, places[0][axis], np.where(is_second, value, places[1][axis]))
+            places[0][axis] = np.where(is_nearest, value, places[0][axis])
+        second = np.where(is_nearest, nearest, np.where(is_second, away, second))
+        nearest = np.where(is_nearest, away, nearest)
+        which = np.where(is_nearest, i * columns + j, which)
+    # the edge is the line between the two points that is as far from both
+    (near_y, near_x), (far_y, far_x) = places
+    apart = np.sqrt((far_y - near_y) ** 2 + (far_x - near_x) ** 2)
+    return Cells(which, np.sqrt(nearest), (second - nearest) / (2.0 * np.maximum(apart, 1e-6)))
+
+
+def joint(from_middle: Field, width: Field | float) -> Field:
+    """What share of each pixel a line covers, however thin it is.
+
+    Parameters
+    ----------
+    from_middle
+        Distance of the pixel's middle from that of the line, in pixels, not negative.
+    width
+        Of the line, in pixels.
+    """
+    covered: Field = np.clip(np.minimum(from_middle + 0.5, width / 2) - np.maximum(from_middle - 0.5, -width / 2), 0, 1)
+    return covered
+
+
+def strokes(
+    rng: np.random.Generator,
+    shape: Shape,
+    count: int,
+    length: tuple[float, float],
+    width: tuple[float, float],
+    bend: float = 0.3,
+) -> Field:
+    """Soft strokes that any way may take, 0 to 1.
+
+    Parameters
+    ----------
+    rng, shape, count
+        What draws, rows and columns, and how many strokes.
+    length, width
+        Smallest and largest, in pixels.
+    bend
+        How far its middle may lie beside a stroke's chord, in lengths.
+    """
+    field = np.zeros(shape)
+    for _ in range(count):
+        place = np.array([_part(rng) * side for side in shape])
+        along = _direction(rng)
+        reach = _between(rng, length)
+        half = _between(rng, width) / 2
+        strength = _between(rng, (0.25, 1.0))
+        beside = np.array([-along[1], along[0]]) * (bend * reach * (2.0 * _part(rng) - 1.0))
+        parts = np.arange(0.0, 1.0, min(0.7 * max(half, 0.7) / reach, 0.2))[:, None]
+        dots = place + along * reach * parts + beside * (4.0 * parts * (1.0 - parts))
+        for (y, x), part in zip(dots, parts[:, 0], strict=True):
+            ends = min(1.0, 5.0 * part, 5.0 * (1.0 - part))
+            _dot(field, float(y), float(x), half, strength * ends)
+    return field
+
+
+def _dot(field: Field, y: float, x: float, half: float, strength: float) -> None:
+    """Leave a dot in a field where there is less; thinner than a pixel it is fainter."""
+    reach = int(half) + 2
+    rows, columns = int(y) + np.arange(-reach, reach + 1), int(x) + np.arange(-reach, reach + 1)
+    away = np.sqrt((rows - y)[:, None] ** 2 + (columns - x)[None, :] ** 2)
+    window = np.ix_(rows % field.shape[0], columns % field.shape[1])
+    field[window] = np.maximum(field[window], strength * joint(away, 2.0 * half))
+
+
+def trowel_marks(rng: np.random.Generator, shape: Shape, count: int, radius: tuple[float, float], ring: float) -> Field:
+    """Arcs of the turning blades of a power trowel, about -1 to 1, most of them near 0.
+
+    Parameters
+    ----------
+    rng, shape, count
+        What draws, rows and columns, and how many places the trowel was at.
+    radius
+        Smallest and largest, in pixels.
+    ring
+        How far apart the arcs of one place are, in pixels.
+    """
+    field = np.zeros(shape)
+    rows, columns = shape
+    for _ in range(count):
+        y, x = int(rng.integers(rows)), int(rng.integers(columns))
+        size = _between(rng, radius)
+        along = _direction(rng)
+        reach = int(size) + 1
+        steps = np.arange(-reach, reach + 1, dtype=np.float64)
+        away = np.sqrt(steps[:, None] ** 2 + steps[None, :] ** 2)
+        tones = rng.integers(0, _FINE, size=int(size / ring) + 3) * (2.0 / _FINE) - 1.0
+        low = (away / ring).astype(np.int64)
+        part = away / ring - low
+        low = np.minimum(low, len(tones) - 2)
+        arcs = tones[low] * (1.0 - part) + tones[low + 1] * part
+        turned = (along[0] * steps[:, None] + along[1] * steps[None, :]) / np.maximum(away, 1.0)
+        side = np.clip((turned - 0.1) / 0.8, 0.0, 1.0)
+        rim = np.clip((size - away) / (0.15 * size), 0.0, 1.0) * np.clip(away / (0.5 * size), 0.0, 1.0)
+        field[np.ix_((y + steps.astype(int)) % rows, (x + steps.astype(int)) % columns)] += arcs * side * rim
+    return field
+
+
+def _part(rng: np.random.Generator) -> float:
+    return int(rng.integers(_FINE)) / _FINE
+
+
+def _between(rng: np.random.Generator, ends: tuple[float, float]) -> float:
+    return ends[0] + (ends[1] - ends[0]) * _part(rng)
+
+
+def _direction(rng: np.random.Generator) -> NDArray[np.float64]:
+    """A unit vector of any direction, down and across."""
+    while True:
+        down, across = 2.0 * _part(rng) - 1.0, 2.0 * _part(rng) - 1.0
+        square = down * down + across * across
+        if 0.01 < square <= 1.0:  # noqa: PLR2004
+            length = float(np.sqrt(square))
+            return np.array([down / length, across / length])

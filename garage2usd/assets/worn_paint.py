@@ -1,0 +1,90 @@
+"""Pictures of worn paint: how worn it is as an index, what that looks like as a palette."""
+
+import struct
+import zlib
+from collections.abc import Iterator
+
+from garage2usd.errors import ConfigError
+
+__all__ = ["WEAR_STEPS", "painted", "wear_palette"]
+
+Rgb = tuple[float, float, float]
+
+WEAR_STEPS = 16
+"""Indices of such a picture: 0 is fresh paint, the last the bare ground."""
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_LENGTH = struct.Struct(">I")
+_PALETTE = b"PLTE"
+_SHORTEST = 12
+"""Bytes of a chunk without data: length, kind and checksum."""
+
+
+def wear_palette(paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
+    """Red, green and blue of each index in sRGB, mixed in linear light; 3 bytes an index.
+
+    Parameters
+    ----------
+    paint_rgb, ground_rgb
+        Linear colours of the paint and of what it is on, 0 to 1.
+    """
+    bare = [index / (WEAR_STEPS - 1) for index in range(WEAR_STEPS)]
+    return bytes(
+        _srgb_byte(paint * (1 - share) + ground * share)
+        for share in bare
+        for paint, ground in zip(paint_rgb, ground_rgb, strict=True)
+    )
+
+
+def painted(png: bytes, paint_rgb: Rgb, ground_rgb: Rgb) -> bytes:
+    """The same picture of wear in other colours: no pixel is decoded, so all machines give the same bytes.
+
+    Parameters
+    ----------
+    png
+        An indexed PNG of at most `WEAR_STEPS` colours, such as the shipped ``wear_*.png``.
+    paint_rgb, ground_rgb
+        Linear colours of the paint and of what it is on, 0 to 1.
+
+    Raises
+    ------
+    ConfigError
+        If it is no such PNG.
+    """
+    palette = wear_palette(paint_rgb, ground_rgb)
+    pieces, replaced = [_SIGNATURE], 0
+    for kind, data in _chunks(png):
+        if kind == _PALETTE:
+            if len(data) > len(palette):
+                raise _unfit(f"one of {len(data) // 3} colours")
+            replaced += 1
+        held = palette[: len(data)] if kind == _PALETTE else data
+        pieces += [_LENGTH.pack(len(held)), kind, held, _LENGTH.pack(zlib.crc32(kind + held))]
+    if replaced != 1:
+        raise _unfit("one without a palette")
+    return b"".join(pieces)
+
+
+def _chunks(png: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """The kind and the data of each chunk of a PNG."""
+    if not png.startswith(_SIGNATURE):
+        raise _unfit("no PNG")
+    place = len(_SIGNATURE)
+    while place < len(png):
+        rest = len(png) - place
+        length = _LENGTH.unpack_from(png, place)[0] if rest >= _SHORTEST else rest
+        end = place + _SHORTEST + length
+        if end > len(png):
+            raise _unfit("one that ends within a chunk")
+        yield png[place + 4 : place + 8], png[place + 8 : end - 4]
+        place = end
+
+
+def _unfit(what: str) -> ConfigError:
+    return ConfigError("picture of wear", what, f"an indexed PNG of at most {WEAR_STEPS} colours")
+
+
+def _srgb_byte(linear: float) -> int:
+    """A linear value as sRGB in 8 bits, by IEC 61966-2-1."""
+    value = min(max(linear, 0.0), 1.0)
+    encoded = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055  # noqa: PLR2004
+    return round(255 * encoded)
