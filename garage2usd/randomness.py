@@ -4,7 +4,7 @@ from enum import IntEnum, unique
 
 import numpy as np
 
-__all__ = ["Step", "derived_seed", "generator"]
+__all__ = ["Step", "derived_seed", "generator", "named_generator"]
 
 
 @unique
@@ -21,6 +21,7 @@ class Step(IntEnum):
     CONES = 8
     FLOOR_STAINS = 12
     NUMBER_PLATES = 13
+    LOOK = 14
     ARRANGEMENTS = 20
     LIDAR = 30
     GARAGES = 40
@@ -42,6 +43,11 @@ def generator(seed: int, step: Step, attempt: int = 0) -> np.random.Generator:
         Number of the restart, so that a restarted step draws anew.
     """
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, int(step), attempt])))
+
+
+def named_generator(seed: int, step: Step, name: str) -> np.random.Generator:
+    """The generator of a part of a step that has a name, so that what is drawn for one cannot move another."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, int(step), *name.encode()])))
 
 
 def derived_seed(seed: int, step: Step, *numbers: int) -> int:

@@ -1,6 +1,6 @@
 """What objects are made of, as plain values: meshes, materials and textures, free of any file format."""
 
-from garage2usd.assets.materials import MATERIALS, VARYING, Material, Touch
+from garage2usd.assets.materials import MATERIALS, VARYING, Finish, Material, PaintedTexture, Rgb, Texture, Touch
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight, pascal_case
 from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
 
@@ -11,10 +11,14 @@ __all__ = [
     "VARYING",
     "Asset",
     "Collider",
+    "Finish",
     "Material",
     "NonVisual",
+    "PaintedTexture",
     "Part",
     "RectLight",
+    "Rgb",
+    "Texture",
     "Touch",
     "pascal_case",
 ]

@@ -2,12 +2,33 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 from garage2usd.config.vehicles import PAINTS
 
-__all__ = ["MATERIALS", "VARYING", "Material", "Touch"]
+__all__ = ["MATERIALS", "VARYING", "Finish", "Material", "PaintedTexture", "Rgb", "Texture", "Touch"]
 
 Rgb = tuple[float, float, float]
+
+
+class PaintedTexture(NamedTuple):
+    """A texture of paint that shows what it is painted on where it is worn.
+
+    Attributes
+    ----------
+    mask
+        File name in the texture folder: a picture of indices, how worn the paint is.
+    paint_rgb, ground_rgb
+        Linear colours of the paint and of what shows below it.
+    """
+
+    mask: str
+    paint_rgb: Rgb
+    ground_rgb: Rgb
+
+
+Texture = str | PaintedTexture
+"""A file name in the texture folder, or what a texture is made from."""
 
 
 class Touch(StrEnum):
@@ -29,7 +50,9 @@ class Material:
     colour_rgb
         Linear base colour where there is no texture.
     colour_texture, packed_texture, normal_texture
-        File names in the texture folder. A packed one holds occlusion, roughness and metallic in red, green and blue.
+        Textures. A packed one holds occlusion, roughness and metallic in red, green and blue.
+    tint_rgb
+        Linear factor of the colour texture.
     roughness, metallic, opacity, clearcoat
         0 to 1.
     has_alpha
@@ -47,10 +70,11 @@ class Material:
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
-    colour_texture: str | None = None
+    colour_texture: Texture | None = None
+    tint_rgb: Rgb = (1.0, 1.0, 1.0)
     roughness: float = 0.6
-    packed_texture: str | None = None
-    normal_texture: str | None = None
+    packed_texture: Texture | None = None
+    normal_texture: Texture | None = None
     metallic: float = 0.0
     opacity: float = 1.0
     has_alpha: bool = False
@@ -61,10 +85,25 @@ class Material:
     repeat_up_m: float | None = None
     touch: Touch = Touch.CONCRETE
 
-    def textures(self) -> tuple[str, ...]:
-        """The file names that it uses."""
+    def textures(self) -> tuple[Texture, ...]:
+        """The textures that it uses."""
         names = (self.colour_texture, self.packed_texture, self.normal_texture)
         return tuple(name for name in names if name is not None)
+
+
+class Finish(NamedTuple):
+    """What a garage has in the place of a material.
+
+    Attributes
+    ----------
+    key
+        Of the material in `MATERIALS` that tells what it is to touch and to sensors.
+    material
+        How it looks.
+    """
+
+    key: str
+    material: Material
 
 
 _PAINT_RGB: dict[str, Rgb] = {
@@ -116,6 +155,10 @@ MATERIALS: dict[str, Material] = {
     "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
     "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
     "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_stall": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_number": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_band": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_ghost": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "wall_concrete": Material(
         colour_texture="wall_colour.jpg",

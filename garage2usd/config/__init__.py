@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError, field_validator
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
+from garage2usd.config.look import LookConfig
 from garage2usd.config.maps import MapsConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
@@ -24,6 +25,7 @@ __all__ = [
     "BayConfig",
     "FittingsConfig",
     "GarageConfig",
+    "LookConfig",
     "MapsConfig",
     "ParkingConfig",
     "PlanConfig",
@@ -51,6 +53,8 @@ class GarageConfig(Settings):
     """Walls, lights, ducts, bumps, stops and signs."""
     parking: ParkingConfig = ParkingConfig()
     """Parked cars."""
+    look: LookConfig = LookConfig()
+    """How it looks."""
     stage: StageConfig = StageConfig()
     """The stage's files."""
     maps: MapsConfig = MapsConfig()

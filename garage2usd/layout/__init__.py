@@ -3,13 +3,13 @@
 import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.config import GarageConfig
+from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
@@ -35,6 +35,7 @@ from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zone_plates import zone_plates
 from garage2usd.layout.zones import Zones, stall_numbers, with_numbers
+from garage2usd.look import drawn_look
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
@@ -78,6 +79,8 @@ class Layout:
         The stair cores.
     compartments
         Number of each square's fire compartment, from 1; 0 outside and on obstacles. int32, shape (rows, cols).
+    look
+        How it looks, with what its seed draws of it.
     unreachable
         Names of the stalls that are marked or left out.
     """
@@ -89,6 +92,7 @@ class Layout:
     illuminance: LightLevels
     cores: tuple[Core, ...]
     compartments: NDArray[np.int32]
+    look: LookConfig = field(default_factory=LookConfig)
     unreachable: frozenset[str] = frozenset()
 
     def counts(self) -> dict[str, int]:
@@ -185,7 +189,7 @@ def lay_out(
         If a lane or a door is too narrow for cars, a stall that is named is not there or takes no car, or all are
         left out.
     """
-    bay, fittings, seed = config.bay, config.fittings, config.seed
+    bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
     is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
     compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
@@ -214,6 +218,7 @@ def lay_out(
                 tile,
                 grid,
                 bay,
+                look=look.markings,
                 has_bump=tile.square in with_bump,
                 crossing_m=crossings.get(tile.square),
                 kept_free=core_on[tile.square].landing(tile) if tile.square in core_on else None,
@@ -222,7 +227,7 @@ def lay_out(
         ]
         yield floors
         yield floor_stains(grid, floors, stalls, fittings, draws)
-        yield stall_panels(stalls)
+        yield stall_panels(stalls, look.markings)
         yield wheel_stops(stalls, fittings, config.standard)
         yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
@@ -258,6 +263,7 @@ def lay_out(
         illuminance,
         tuple(cores),
         compartments,
+        look,
         frozenset(unreachable),
     )
 

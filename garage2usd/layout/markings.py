@@ -4,6 +4,7 @@ from functools import lru_cache
 
 import shapely
 
+from garage2usd.config.look import BandForm, MarkingsLook
 from garage2usd.layout.placement import box_inside
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -15,8 +16,8 @@ __all__ = [
     "corner_lines",
     "dashes",
     "edge_line",
+    "entry_band",
     "hatching",
-    "stall_lines",
     "stripes",
     "two_way_arrows",
     "zebra",
@@ -35,18 +36,6 @@ _MIN_HATCHED_M = 1.0
 _STRIPE_WIDTH_M, _STRIPE_PERIOD_M = 0.15, 0.5
 
 
-def stall_lines(width_m: float, length_m: float) -> tuple[Marking, ...]:
-    """The lines of one stall, mouth at +Z: half of each side line, which the neighbour completes, and the rear line."""
-    half_width, half_length, half_line = width_m / 2, length_m / 2, LINE_WIDTH_M / 2
-    rear = -half_length + LINE_WIDTH_M
-    shapes = (
-        rectangle(-half_width, -half_length, half_width, rear),
-        rectangle(-half_width, rear, -half_width + half_line, half_length),
-        rectangle(half_width - half_line, rear, half_width, half_length),
-    )
-    return tuple(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_LINE) for shape in shapes)
-
-
 @lru_cache(maxsize=4096)
 def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: tuple[float, float]) -> Marking:
     """The yellow line along one edge of a lane square, `setback` from it.
@@ -56,6 +45,27 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
     half, (low, high) = half_x if edge.along_x else half_z, trims
     box = box_inside(edge, (half_x, half_z), (low - half, half - high), (setback, setback + LINE_WIDTH_M))
     return Marking(rectangle(*box), Surface.PAINT_YELLOW, Paint.LANE_LINE)
+
+
+@lru_cache(maxsize=1024)
+def entry_band(
+    edge: Edge, half_x: float, half_z: float, trims: tuple[float, float], look: MarkingsLook
+) -> tuple[Marking, ...]:
+    """What runs on a lane square along the entries of stalls at one edge; ``trims`` as for `edge_line`."""
+    if look.band is BandForm.NONE:
+        return ()
+    half, (low, high) = half_x if edge.along_x else half_z, trims
+
+    def strip(near: float, far: float, surface: Surface) -> Marking:
+        box = box_inside(edge, (half_x, half_z), (low - half, half - high), (round(near, 6), round(far, 6)))
+        return Marking(rectangle(*box), surface, Paint.LANE_LINE)
+
+    gap, line = look.band_gap_m, look.line_width_m
+    first = strip(gap, gap + line, Surface.PAINT_STALL)
+    if look.band is BandForm.LINE:
+        return (first,)
+    inner = gap + line + look.band_width_m
+    return first, strip(gap + line, inner, Surface.PAINT_BAND), strip(inner, inner + line, Surface.PAINT_STALL)
 
 
 @lru_cache(maxsize=4096)

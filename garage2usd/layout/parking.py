@@ -8,12 +8,14 @@ from functools import lru_cache
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig, ParkingConfig
+from garage2usd.config.look import MarkingsLook
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.errors import ConfigError
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.markings import hatching, stall_lines
+from garage2usd.layout.markings import hatching
 from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.stall_lines import stall_lines
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.panel import Surface
@@ -102,14 +104,14 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequenc
     return tuple(turned)
 
 
-def stall_panels(stalls: tuple[Stall, ...]) -> list[Placement]:
+def stall_panels(stalls: tuple[Stall, ...], look: MarkingsLook) -> list[Placement]:
     """The floor of each stall with its lines."""
-    return [stall.placement("Stall", _stall_panel(stall.width_m, stall.length_m, stall.use)) for stall in stalls]
+    return [stall.placement("Stall", _stall_panel(stall.width_m, stall.length_m, stall.use, look)) for stall in stalls]
 
 
 @lru_cache
-def _stall_panel(width_m: float, length_m: float, use: StallUse) -> StallSpec:
-    lines = stall_lines(width_m, length_m)
+def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsLook) -> StallSpec:
+    lines = stall_lines(width_m, length_m, look)
     if not use.takes_cars:
         lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
     return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))

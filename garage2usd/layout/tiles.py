@@ -1,6 +1,7 @@
 """Squares in metres: where each one lies, what surrounds it, and its floor and ceiling."""
 # Over 300 lines: a square's floor, markings and ceiling are drawn from the same tile and what surrounds it.
 
+import itertools
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
@@ -9,18 +10,21 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.config.look import MarkingsLook
 from garage2usd.layout.markings import (
     LINE_WIDTH_M,
     arrow,
     corner_lines,
     dashes,
     edge_line,
+    entry_band,
     hatching,
     stripes,
     two_way_arrows,
     zebra,
 )
 from garage2usd.layout.placement import Placement, box_inside, stall_name
+from garage2usd.layout.stall_lines import outer_spans
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.outline import Box, Point, Polygon, rectangle
@@ -197,6 +201,7 @@ def floor_panel(
     grid: TileGrid,
     bay: BayConfig,
     *,
+    look: MarkingsLook,
     has_bump: bool,
     crossing_m: float | None = None,
     kept_free: Box | None = None,
@@ -209,14 +214,14 @@ def floor_panel(
     openings: list[Polygon] = []
     markings: tuple[Marking, ...]
     if tile.cell is Cell.LANE:
-        markings = _lane_markings(tile, grid, has_bump=has_bump, crossing_m=crossing_m)
+        markings = _lane_markings(tile, grid, look, has_bump=has_bump, crossing_m=crossing_m)
     elif tile.cell is Cell.FREE:
         places = grid.stall_places.get(tile.square, [])
         openings = [stall_rectangle(tile, place.row, place.slot, bay) for place in places]
         if kept_free is not None:
-            markings = (*_row_end_lines(tile, places, bay), *stripes(*kept_free))
+            markings = (*_row_end_lines(tile, places, bay, look), *stripes(*kept_free))
         else:
-            markings = _row_end_lines(tile, places, bay) if places else hatching(tile.half_x_m, tile.half_z_m)
+            markings = _row_end_lines(tile, places, bay, look) if places else hatching(tile.half_x_m, tile.half_z_m)
     else:
         markings = _portal_markings(tile)
     spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
@@ -233,24 +238,25 @@ def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
 def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Polygon:
     """The rectangle of one stall of a row in the tile's coordinates."""
     start = _row_start_m(row, bay) + slot * bay.stall_width_m
-    return _row_rectangle(tile, row.edge, start, start + bay.stall_width_m, bay.stall_length_m)
+    return _row_rectangle(tile, row.edge, start, start + bay.stall_width_m, (0.0, bay.stall_length_m))
 
 
-def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, length: float) -> Polygon:
-    """A rectangle that reaches `length` into a tile from one edge, from `start` to `end` along it."""
-    box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), (0.0, length))
+def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, depth: tuple[float, float]) -> Polygon:
+    """A rectangle on a tile by how far it lies inside one edge, from `start` to `end` along that."""
+    box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), depth)
     return rectangle(*(round(side, 6) for side in box))
 
 
-def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig) -> tuple[Marking, ...]:
+def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig, look: MarkingsLook) -> tuple[Marking, ...]:
     """The outer half of the lines beside stalls that have no other one there."""
     lines: list[Marking] = []
+    half_line, spans = look.line_width_m / 2, outer_spans(bay.stall_length_m, look)
     for place in places:
         start = _row_start_m(place.row, bay) + place.slot * bay.stall_width_m
-        ends = [start - LINE_WIDTH_M / 2] * place.is_first + [start + bay.stall_width_m] * place.is_last
-        for end in ends:
-            shape = _row_rectangle(tile, place.row.edge, end, end + LINE_WIDTH_M / 2, bay.stall_length_m)
-            lines.append(Marking(shape, Surface.PAINT_WHITE, Paint.STALL_LINE))
+        ends = [start - half_line] * place.is_first + [start + bay.stall_width_m] * place.is_last
+        for end, span in itertools.product(ends, spans):
+            shape = _row_rectangle(tile, place.row.edge, end, end + half_line, span)
+            lines.append(Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE))
     return tuple(lines)
 
 
@@ -259,13 +265,18 @@ def _row_start_m(row: StallRow, bay: BayConfig) -> float:
     return -row.count * bay.stall_width_m / 2
 
 
-def _lane_markings(tile: Tile, grid: TileGrid, *, has_bump: bool, crossing_m: float | None) -> tuple[Marking, ...]:
+def _lane_markings(
+    tile: Tile, grid: TileGrid, look: MarkingsLook, *, has_bump: bool, crossing_m: float | None
+) -> tuple[Marking, ...]:
     half_x, half_z, setback = tile.half_x_m, tile.half_z_m, grid.setback_m
     markings: list[Marking] = []
     for edge in Edge:
         if not tile.drivable[edge] and not tile.stall_mouths[edge]:
             low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
             markings.append(edge_line(edge, half_x, half_z, setback, (low, high)))
+        elif not tile.drivable[edge]:
+            low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
+            markings.extend(entry_band(edge, half_x, half_z, (low, high), look))
     for vertical in (Edge.UP, Edge.DOWN):
         for horizontal in (Edge.LEFT, Edge.RIGHT):
             beyond = grid.neighbour(tile, vertical, horizontal)

@@ -24,6 +24,9 @@ class Surface(StrEnum):
     STALL_ACCESSIBLE = "stall_accessible"
     PAINT_WHITE = "paint_white"
     PAINT_YELLOW = "paint_yellow"
+    PAINT_STALL = "paint_stall"
+    PAINT_BAND = "paint_band"
+    PAINT_GHOST = "paint_ghost"
 
 
 _MATERIALS = {
@@ -33,6 +36,9 @@ _MATERIALS = {
     Surface.STALL_ACCESSIBLE: "stall_blue",
     Surface.PAINT_WHITE: "paint_white",
     Surface.PAINT_YELLOW: "paint_yellow",
+    Surface.PAINT_STALL: "paint_stall",
+    Surface.PAINT_BAND: "paint_band",
+    Surface.PAINT_GHOST: "paint_ghost",
 }
 
 

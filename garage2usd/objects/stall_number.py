@@ -26,4 +26,4 @@ class NumberSpec(Spec, kind=KIND):
     def asset(self) -> Asset:
         """White digits a few millimetres over the floor."""
         shape = text_shape(self.digits, self.height_m)
-        return Asset((flat_part("Paint", shape, "paint_white", height_m=PAINT_LIFT_M, collider=None),))
+        return Asset((flat_part("Paint", shape, "paint_number", height_m=PAINT_LIFT_M, collider=None),))

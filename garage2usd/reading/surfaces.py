@@ -12,6 +12,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdShade
 
 from garage2usd.reading.pictures import ALPHA, Pictures
 from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.taxonomy import finish_of
 from garage2usd.reading.textures import (
     PRIMVAR_READER,
     USUAL_COORDINATES,
@@ -59,7 +60,7 @@ class SurfaceLook:
     opacity_threshold
         What is less opaque is not drawn, and all else is opaque; 0 where all is drawn as opaque as it is.
     name
-        Of the material, empty for none; two materials of other names that look alike are equal.
+        Of the material that it is made of, empty for none; two materials of other names that look alike are equal.
     """
 
     colour_rgb: Rgb = (0.5, 0.5, 0.5)
@@ -201,7 +202,7 @@ class SurfaceReader:
             specular_texture=specular.texture if specular else None,
             colour_name=colour.primvar,
             opacity_threshold=self._mean(shader.number("opacityThreshold", 0.0), "opacityThreshold"),
-            name=material.GetPrim().GetName(),
+            name=finish_of(material.GetPrim()),
         )
 
     def _mean(self, given: _Given, name: str) -> float:

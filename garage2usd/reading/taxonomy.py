@@ -7,7 +7,17 @@ from pxr import Usd, Vt
 
 from garage2usd.reading.values import READ_AT, lacks
 
-__all__ = ["LABELS", "LABELS_SCHEMA", "OBJECT_TAXONOMY", "SQUARE_TAXONOMY", "label_of", "labels_name", "labels_of"]
+__all__ = [
+    "FINISH",
+    "LABELS",
+    "LABELS_SCHEMA",
+    "OBJECT_TAXONOMY",
+    "SQUARE_TAXONOMY",
+    "finish_of",
+    "label_of",
+    "labels_name",
+    "labels_of",
+]
 
 OBJECT_TAXONOMY = "class"
 """Instance name of the labels that name an object's class."""
@@ -17,6 +27,8 @@ LABELS = "semantics:labels"
 """Namespace of the attributes."""
 LABELS_SCHEMA = "SemanticsLabelsAPI"
 """The schema, applied once for each taxonomy."""
+FINISH = "garage:material:finish"
+"""Attribute of a material that names what it is made of where its own name says what it usually is."""
 _ARRAYS = Vt.TokenArray, Vt.StringArray
 
 
@@ -30,6 +42,13 @@ def label_of(prim: Usd.Prim, taxonomy: str = OBJECT_TAXONOMY) -> str:
     """The first label of a prim in a taxonomy; empty for none. Raises what `labels_of` raises."""
     labels = _value(prim, taxonomy)
     return str(labels[0]) if labels else ""
+
+
+def finish_of(material: Usd.Prim) -> str:
+    """Name of the material that a material is made of: what its finish says, else its own."""
+    attribute = material.GetAttribute(FINISH)
+    finish = attribute.Get(READ_AT) if attribute else None
+    return finish if isinstance(finish, str) and finish else material.GetName()
 
 
 def labels_of(prim: Usd.Prim, taxonomy: str) -> tuple[str, ...]:

@@ -71,8 +71,10 @@ _OF_TOUCH = {
     Touch.PLASTIC: MaterialClass.PLASTIC,
 }
 _OF_KEY = {
-    "paint_white": MaterialClass.ROAD_PAINT,
-    "paint_yellow": MaterialClass.ROAD_PAINT,
+    **dict.fromkeys(
+        ("paint_white", "paint_stall", "paint_number", "paint_band", "paint_ghost", "paint_yellow"),
+        MaterialClass.ROAD_PAINT,
+    ),
     "glass": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
     "mirror": MaterialClass.MIRROR,

@@ -12,6 +12,7 @@ from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
 from garage2usd.errors import ConfigError
 from garage2usd.json_text import json_text
 from garage2usd.layout import Layout
+from garage2usd.look import finishes_of
 from garage2usd.objects import Spec
 from garage2usd.output import store
 from garage2usd.progress import Progress, silent
@@ -184,10 +185,10 @@ def write_stage(
 def _asset_files(layout: Layout, config: StageConfig, progress: Progress) -> dict[Spec, AssetFile]:
     """The assets of the shapes of a layout."""
     shapes = list(dict.fromkeys(spec.shape for spec in layout.placements.specs))
-    files = {}
+    files, finishes = {}, finishes_of(layout.look)
     for done, shape in enumerate(shapes):
         progress("assets", done, len(shapes))
-        files[shape] = asset_file(shape, config.texture_quality)
+        files[shape] = asset_file(shape, config.texture_quality, finishes)
     return files
 
 

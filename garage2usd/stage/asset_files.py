@@ -2,11 +2,12 @@
 
 import secrets
 import tempfile
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.assets import MATERIALS, pascal_case
+from garage2usd.assets import MATERIALS, Finish, pascal_case
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
 from garage2usd.output import HIDDEN_PREFIX
@@ -32,26 +33,42 @@ class AssetFile(NamedTuple):
     textures: tuple[NamedFile, ...]
 
 
-@lru_cache(maxsize=4096)
-def asset_file(shape: Spec, quality: TextureQuality) -> AssetFile:
-    """The layer of a shape whose textures have a quality.
+def asset_file(shape: Spec, quality: TextureQuality, finishes: Mapping[str, Finish]) -> AssetFile:
+    """The layer of a shape.
+
+    Parameters
+    ----------
+    shape
+        The shape.
+    quality
+        Of its textures.
+    finishes
+        What the garage has in the place of materials, by their keys.
 
     Notes
     -----
     What is authored is kept for the next garage of the process: the 4096 assets that were used last. Twenty garages of
-    7 x 9 squares need 346, which take 2.6 MB; the largest is a car of at most 150 KB. The bytes depend on the shape and
-    the quality alone, so that a stage is the same whatever was built before it.
+    7 x 9 squares need 346, which take 2.6 MB; the largest is a car of at most 150 KB. The bytes depend on the shape,
+    the quality and the finishes that it has alone, so that a stage is the same whatever was built before it.
     """
-    asset = asset_of(shape)
+    materials = {part.material for part in asset_of(shape).parts}
+    return _asset_file(shape, quality, tuple((key, finishes[key]) for key in sorted(materials & finishes.keys())))
+
+
+@lru_cache(maxsize=4096)
+def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Finish], ...]) -> AssetFile:
+    asset, finishes = asset_of(shape), dict(own)
     # of many small files a folder for each would take a third of the time
     path = Path(tempfile.gettempdir()) / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}.usdc"
     try:
-        write_prototype(asset, path, kind=shape.kind, quality=quality)
+        write_prototype(asset, path, kind=shape.kind, quality=quality, finishes=finishes)
         data = path.read_bytes()
     finally:
         path.unlink(missing_ok=True)
-    textures = {texture for part in asset.parts for texture in MATERIALS[part.material].textures()}
+    keys = dict.fromkeys(part.material for part in asset.parts)
+    materials = [finishes[key].material if key in finishes else MATERIALS[key] for key in keys]
+    textures = {texture_file(texture, quality) for material in materials for texture in material.textures()}
     return AssetFile(
         NamedFile(content_name(pascal_case(shape.kind.name), data, ".usdc"), data),
-        tuple(texture_file(texture, quality) for texture in sorted(textures)),
+        tuple(sorted(textures)),
     )

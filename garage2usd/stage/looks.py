@@ -2,8 +2,8 @@
 
 from pxr import Gf, Sdf
 
-from garage2usd.assets import Material, NonVisual
-from garage2usd.reading.taxonomy import LABELS_SCHEMA, labels_name
+from garage2usd.assets import Material, NonVisual, Texture, pascal_case
+from garage2usd.reading.taxonomy import FINISH, LABELS_SCHEMA, labels_name
 from garage2usd.stage.authoring import apply_schemas, attribute, connect, define, words
 
 __all__ = ["PACKED_CHANNELS", "TEXTURE_FOLDER", "define_material", "label_material", "set_glow", "set_varying"]
@@ -16,6 +16,7 @@ _MATERIAL_TAXONOMY = "material"
 """Taxonomy of what materials are made of, beside the classes of objects."""
 _NON_VISUAL = "omni:simready:nonvisual"
 """Namespace of SimReady's attributes for LiDAR, radar and ultrasound."""
+_UNTINTED = (1.0, 1.0, 1.0)
 _TYPES = Sdf.ValueTypeNames
 
 
@@ -25,6 +26,7 @@ def define_material(
     material: Material,
     *,
     non_visual: NonVisual,
+    finish: str = "",
     varies: bool = False,
     is_switched: bool = False,
 ) -> None:
@@ -38,6 +40,8 @@ def define_material(
         Its textures have the names of their files.
     non_visual
         What it is to sensors that do not see colours.
+    finish
+        Key of the material that it is made of, where its own name says another one.
     varies
         Whether variants decide its colour and finish, by `set_varying`.
     is_switched
@@ -45,6 +49,8 @@ def define_material(
     """
     look = define(layer, path, "Material")
     label_material(look, non_visual.base)
+    if finish:
+        attribute(look, FINISH, _TYPES.Token, pascal_case(finish), uniform=True)
     attribute(look, f"{_NON_VISUAL}:base", _TYPES.Token, non_visual.base)
     attribute(look, f"{_NON_VISUAL}:coating", _TYPES.Token, non_visual.coating)
     words(look, f"{_NON_VISUAL}:attributes", non_visual.attributes)
@@ -93,6 +99,8 @@ def _author_colour(surface: Sdf.PrimSpec, path: Sdf.Path, material: Material) ->
         return
     colour = attribute(surface, "inputs:diffuseColor", _TYPES.Color3f)
     reader = _reader(surface.layer, path, "ColourTexture", material.colour_texture, "sRGB")
+    if material.tint_rgb != _UNTINTED:
+        attribute(reader, "inputs:scale", _TYPES.Float4, Gf.Vec4f(*material.tint_rgb, 1))
     colour.connectionPathList.explicitItems = [attribute(reader, "outputs:rgb", _TYPES.Float3).path]
     if material.has_alpha:
         connect(surface, "inputs:opacity", _TYPES.Float, attribute(reader, "outputs:a", _TYPES.Float))
@@ -115,8 +123,8 @@ def _author_plain_finish(surface: Sdf.PrimSpec, material: Material) -> None:
     attribute(surface, "inputs:metallic", _TYPES.Float, material.metallic)
 
 
-def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: str, colour_space: str) -> Sdf.PrimSpec:
-    """A reader of a texture."""
+def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_space: str) -> Sdf.PrimSpec:
+    """A reader of a texture, which has the name of its file."""
     reader = _shader(layer, path.AppendChild(name), "UsdUVTexture")
     attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(f"./{TEXTURE_FOLDER}/{file}"))
     attribute(reader, "inputs:sourceColorSpace", _TYPES.Token, colour_space)

@@ -9,7 +9,20 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, UsdGeom, Vt
 from pxr import Kind as ModelKind
 
-from garage2usd.assets import BASE_OF_TOUCH, MATERIALS, NON_VISUAL, VARYING, Asset, Part, RectLight, Touch, pascal_case
+from garage2usd.assets import (
+    BASE_OF_TOUCH,
+    MATERIALS,
+    NON_VISUAL,
+    VARYING,
+    Asset,
+    Finish,
+    Material,
+    Part,
+    RectLight,
+    Touch,
+    pascal_case,
+)
+from garage2usd.assets.colours import material_colour
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
@@ -24,7 +37,7 @@ from garage2usd.stage.authoring import (
     order_operations,
     relationship,
 )
-from garage2usd.stage.display_colours import display_colour, material_colour
+from garage2usd.stage.display_colours import display_colour
 from garage2usd.stage.looks import define_material, label_material, set_glow, set_varying
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
@@ -35,6 +48,9 @@ NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
 TUBE_COLOUR_RGB = (1.0, 0.97, 0.92)
 """Linear."""
+
+USUAL: Mapping[str, Finish] = {}
+"""The finishes of a garage whose materials are all as usual."""
 
 _ROOT = "Asset"
 """Name of the root prim of every asset, so that equal assets have equal bytes whatever their files are called."""
@@ -58,7 +74,9 @@ _FRICTION = {
 }
 
 
-def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQuality) -> None:
+def write_prototype(
+    asset: Asset, path: Path, *, kind: Kind, quality: TextureQuality, finishes: Mapping[str, Finish] = USUAL
+) -> None:
     """Author `asset` as a ``.usdc``; its bytes do not depend on the name of the file.
 
     Parameters
@@ -71,7 +89,12 @@ def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQua
         What it is: its semantic class, and its name in the model's assetInfo.
     quality
         Of the textures that it refers to, in the folder ``textures`` beside the file.
+    finishes
+        What takes the place of materials, by their keys.
     """
+    of = {
+        key: finishes.get(key, Finish(key, MATERIALS[key])) for key in sorted({part.material for part in asset.parts})
+    }
     with new_layer(path, default_prim=_ROOT) as layer:
         root = define(
             layer,
@@ -83,30 +106,32 @@ def write_prototype(asset: Asset, path: Path, *, kind: Kind, quality: TextureQua
         root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
         define(layer, root.path.AppendChild("Geom"), "Scope")
         looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
-        switched = _glowing(asset) if asset.light is not None else set()
-        for key in sorted({part.material for part in asset.parts}):
-            material = named_textures(MATERIALS[key], quality)
+        glowing = {key: finish.material for key, finish in of.items() if any(finish.material.emissive_rgb)}
+        switched = glowing if asset.light is not None else {}
+        for key, finish in of.items():
             define_material(
                 layer,
                 _look(looks, key),
-                material,
-                non_visual=NON_VISUAL[key],
+                named_textures(finish.material, quality),
+                non_visual=NON_VISUAL[finish.key],
+                finish=finish.key if finish.key != key else "",
                 varies=key in VARYING,
                 is_switched=key in switched,
             )
-        for touch in sorted(_touched(asset)):
+        touches = {part.material: of[part.material].material.touch for part in asset.parts if part.collider is not None}
+        for touch in sorted(set(touches.values())):
             _define_friction(layer, looks, touch)
         for label in pieces_of(asset):
             define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
         for part in asset.parts:
-            define_mesh(layer, _place(root.path, part), part, looks)
+            define_mesh(layer, _place(root.path, part), part, looks, finish=of[part.material].material)
         if asset.paints:
             _define_paints(root, asset.paints)
         else:
-            _display(root, display_colour(asset))
+            _display(root, display_colour(asset, finishes))
         if asset.light is not None:
             _define_light(layer, root.path.AppendChild("Light"), asset.light)
-            _define_power(root, asset.light, sorted(switched))
+            _define_power(root, asset.light, switched)
 
 
 def _place(root: Sdf.Path, part: Part) -> Sdf.Path:
@@ -120,14 +145,6 @@ def _look(looks: Sdf.Path, key: str) -> Sdf.Path:
 
 def _friction(looks: Sdf.Path, touch: Touch) -> Sdf.Path:
     return looks.AppendChild(f"Friction{touch.capitalize()}")
-
-
-def _touched(asset: Asset) -> set[Touch]:
-    return {MATERIALS[part.material].touch for part in asset.parts if part.collider is not None}
-
-
-def _glowing(asset: Asset) -> set[str]:
-    return {part.material for part in asset.parts if any(MATERIALS[part.material].emissive_rgb)}
 
 
 def _define_friction(layer: Sdf.Layer, looks: Sdf.Path, touch: Touch) -> None:
@@ -153,14 +170,14 @@ def _display(prim: Sdf.PrimSpec, colour_rgb: tuple[float, float, float]) -> None
     attribute(prim, "primvars:displayColor", _TYPES.Color3fArray, Vt.Vec3fArray([Gf.Vec3f(*colour_rgb)]))
 
 
-def _define_power(root: Sdf.PrimSpec, light: RectLight, glowing: Iterable[str]) -> None:
+def _define_power(root: Sdf.PrimSpec, light: RectLight, glowing: Mapping[str, Material]) -> None:
     """Light and glow as the variants on and off, on being selected."""
     shares = {"on": 1.0, "off": 0.0}
     for name, variant in _define_variants(root, POWER_SET, shares):
         intensity = shares[name] * light.luminance_nit / NITS_PER_INTENSITY
         attribute(_over(variant, "Light"), "inputs:intensity", _TYPES.Float, intensity)
-        for key in glowing:
-            red, green, blue = (shares[name] * channel for channel in MATERIALS[key].emissive_rgb)
+        for key, material in glowing.items():
+            red, green, blue = (shares[name] * channel for channel in material.emissive_rgb)
             set_glow(_over(variant, "Looks", pascal_case(key), "Surface"), (red, green, blue))
 
 
@@ -181,8 +198,12 @@ def _over(variant: Sdf.PrimSpec, *names: str) -> Sdf.PrimSpec:
     return Sdf.CreatePrimInLayer(variant.layer, path)
 
 
-def define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) -> None:
-    """Define one mesh with the material of its key, and its collider if it has one."""
+def define_mesh(
+    layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path, *, finish: Material | None = None
+) -> None:
+    """Define one mesh with the material of its key, or what takes its place, and its collider if it has one."""
+    usual = MATERIALS[part.material]
+    finish = finish or usual
     mesh = define(layer, path, "Mesh")
     points = Vt.Vec3fArray.FromNumpy(part.points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)
@@ -193,14 +214,26 @@ def define_mesh(layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path) -
     # the attribute of the schema takes no indices, with which a car is half as large
     _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
     if len(part.st):
-        _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(part.st), part.st_indices)
+        st = part.st * _repeats(usual, finish) if finish != usual else part.st
+        _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(st), part.st_indices)
     relationship(mesh, "material:binding", [_look(looks, part.material)])
     if part.collider is None:
         apply_schemas(mesh, "MaterialBindingAPI")
         return
     apply_schemas(mesh, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI")
     attribute(mesh, "physics:approximation", _TYPES.Token, part.collider.value, uniform=True)
-    relationship(mesh, "material:binding:physics", [_friction(looks, MATERIALS[part.material].touch)])
+    relationship(mesh, "material:binding:physics", [_friction(looks, finish.touch)])
+
+
+def _repeats(usual: Material, finish: Material) -> NDArray[np.float32]:
+    """How often the textures of a finish repeat where those of the usual material do once, along U and V."""
+    return np.array(
+        [
+            usual.repeat_m / finish.repeat_m,
+            (usual.repeat_up_m or usual.repeat_m) / (finish.repeat_up_m or finish.repeat_m),
+        ],
+        dtype=np.float32,
+    )
 
 
 def _define_primvar(

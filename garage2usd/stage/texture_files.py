@@ -5,8 +5,9 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from garage2usd.assets import Material
+from garage2usd.assets import Material, PaintedTexture, Texture
 from garage2usd.assets.textures import texture_folder
+from garage2usd.assets.worn_paint import painted
 from garage2usd.config.stage import TextureQuality
 
 __all__ = ["NamedFile", "content_name", "named_textures", "texture_file"]
@@ -27,18 +28,20 @@ def content_name(stem: str, data: bytes, suffix: str) -> str:
     return f"{stem}_{hashlib.sha256(data).hexdigest()[:_DIGITS]}{suffix}"
 
 
-@lru_cache(maxsize=128)
-def texture_file(texture: str, quality: TextureQuality) -> NamedFile:
-    """A texture of the shipped set in a quality; read once a process."""
-    path = texture_folder(quality) / texture
+@lru_cache(maxsize=256)
+def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
+    """A texture of the shipped set in a quality, or what is made from one; read once a process."""
+    path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
     data = path.read_bytes()
+    if isinstance(texture, PaintedTexture):
+        data = painted(data, texture.paint_rgb, texture.ground_rgb)
     return NamedFile(content_name(path.stem, data, path.suffix), data)
 
 
 def named_textures(material: Material, quality: TextureQuality) -> Material:
     """A material whose textures have the names that `texture_file` gives them."""
 
-    def name(texture: str | None) -> str | None:
+    def name(texture: Texture | None) -> str | None:
         return None if texture is None else texture_file(texture, quality).name
 
     return replace(

@@ -1,0 +1,61 @@
+"""Colours of materials: from sRGB to linear light, and the mean of a texture."""
+
+from functools import lru_cache
+
+import numpy as np
+from PIL import Image
+
+from garage2usd.assets.materials import Material, PaintedTexture, Rgb, Texture
+from garage2usd.assets.textures import texture_folder
+from garage2usd.config.stage import TextureQuality
+
+__all__ = ["linear_rgb", "material_colour", "mean_colour"]
+
+_OPAQUE = 255
+_SRGB = np.arange(_OPAQUE + 1) / _OPAQUE
+_LINEAR = np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4)  # noqa: PLR2004
+"""Linear value of each step of sRGB, by IEC 61966-2-1."""
+_PLACES = 3
+
+
+def linear_rgb(colour: str) -> Rgb:
+    """Linear red, green and blue of a colour ``#rrggbb``, to four decimals."""
+    red, green, blue = (round(float(_LINEAR[int(colour[start : start + 2], 16)]), 4) for start in (1, 3, 5))
+    return red, green, blue
+
+
+def material_colour(material: Material) -> Rgb:
+    """Linear colour of a material, the mean where a texture has its colours."""
+    if material.colour_texture is None:
+        return material.colour_rgb
+    red, green, blue = (
+        round(mean * tint, _PLACES)
+        for mean, tint in zip(mean_colour(material.colour_texture), material.tint_rgb, strict=True)
+    )
+    return red, green, blue
+
+
+@lru_cache(maxsize=256)
+def mean_colour(texture: Texture) -> Rgb:
+    """Linear mean of a texture, weighted by its opacity where it has one."""
+    if isinstance(texture, PaintedTexture):
+        worn = _mean_wear(texture.mask)
+        red, green, blue = (
+            round(paint * (1 - worn) + ground * worn, _PLACES)
+            for paint, ground in zip(texture.paint_rgb, texture.ground_rgb, strict=True)
+        )
+        return red, green, blue
+    with Image.open(texture_folder(TextureQuality.LOW) / texture) as picture:
+        *channels, opacity = np.asarray(picture.convert("RGBA")).reshape(-1, 4).T
+    weights = None if opacity.min() == _OPAQUE else opacity / _OPAQUE
+    counts = (np.bincount(channel, weights, minlength=len(_LINEAR)) for channel in channels)
+    red, green, blue = (round(float(count @ _LINEAR) / max(float(count.sum()), 1.0), _PLACES) for count in counts)
+    return red, green, blue
+
+
+@lru_cache(maxsize=16)
+def _mean_wear(mask: str) -> float:
+    """Mean share of the paint that is worn, 0 to 1."""
+    with Image.open(texture_folder(TextureQuality.LOW) / mask) as picture:
+        entries = len(picture.getpalette() or ()) // 3
+        return float(np.asarray(picture).mean()) / max(entries - 1, 1)

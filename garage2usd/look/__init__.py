@@ -1,0 +1,39 @@
+"""How a garage looks: what its seed draws of it, and the finishes that take the place of usual materials."""
+
+from garage2usd.assets import Finish
+from garage2usd.config.look import LookConfig
+from garage2usd.look.axes import Axes
+from garage2usd.look.ceiling import drawn_ceiling
+from garage2usd.look.columns import drawn_columns
+from garage2usd.look.floor import drawn_floor, floor_finishes
+from garage2usd.look.lights import drawn_lights
+from garage2usd.look.markings import drawn_markings, paint_finishes
+from garage2usd.look.numbers import drawn_numbers
+from garage2usd.look.signs import drawn_signs
+from garage2usd.look.walls import drawn_walls
+
+__all__ = ["drawn_look", "finishes_of"]
+
+
+def drawn_look(look: LookConfig, seed: int) -> LookConfig:
+    """The look of a garage: what is given, and in the place of what is drawn, what its seed draws.
+
+    Each axis has a generator of its own, so that one that is given leaves the others as they are.
+    """
+    axes = Axes(look, seed)
+    return LookConfig(
+        floor=drawn_floor(axes.of("floor")),
+        markings=drawn_markings(axes.of("markings")),
+        numbers=drawn_numbers(axes.of("numbers")),
+        columns=drawn_columns(axes.of("columns")),
+        walls=drawn_walls(axes.of("walls")),
+        ceiling=drawn_ceiling(axes.of("ceiling")),
+        lights=drawn_lights(axes.of("lights")),
+        signs=drawn_signs(axes.of("signs")),
+    )
+
+
+def finishes_of(look: LookConfig) -> dict[str, Finish]:
+    """The finishes of a look by the keys of the materials that they stand for; without those that stay as usual."""
+    floor = floor_finishes(look.floor)
+    return {**floor, **paint_finishes(look.markings, look.numbers, floor)}

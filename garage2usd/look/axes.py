@@ -1,0 +1,81 @@
+"""The axes of a look: what is given of each, or what the seed draws."""
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+import numpy as np
+
+from garage2usd.config.look import LookConfig
+from garage2usd.randomness import Step, named_generator
+
+__all__ = ["Axes", "Group"]
+
+Value = TypeVar("Value")
+_BYTE = 255
+
+
+class Axes:
+    """All axes of a look."""
+
+    def __init__(self, look: LookConfig, seed: int) -> None:
+        self._look, self._drawn, self._seed = look, frozenset(look.axes), seed
+
+    def of(self, group: str) -> "Group":
+        """The axes of one group."""
+        section = getattr(self._look, group)
+        given = {
+            key: getattr(section, key) for key in type(section).model_fields if f"{group}.{key}" not in self._drawn
+        }
+        return Group(group, given, self._seed)
+
+
+class Group:
+    """The axes of one group: each method gives the value of an axis, drawn if it is not given."""
+
+    def __init__(self, name: str, given: Mapping[str, object], seed: int) -> None:
+        self._name, self._given, self._seed = name, given, seed
+
+    def one_of(self, axis: str, weights: Mapping[Value, float]) -> Value:
+        """One of some values, each as often as its weight says in relation to the others."""
+        if axis in self._given:
+            return self._given[axis]  # type: ignore[return-value]
+        return self._pick(self._generator(axis), weights)
+
+    def colour(self, axis: str, weights: Mapping[str, float], *, tone: float = 0.0, hue: float = 0.0) -> str:
+        """One of some colours ``#rrggbb``, made darker or lighter.
+
+        Parameters
+        ----------
+        axis, weights
+            As for `one_of`; what is no such colour is left as it is.
+        tone
+            Standard deviation of the logarithm of a factor for all three channels.
+        hue
+            The same of one for each.
+        """
+        if axis in self._given:
+            return str(self._given[axis])
+        generator = self._generator(axis)
+        colour = self._pick(generator, weights)
+        factors = np.exp(generator.normal(0.0, tone or 0.0) + generator.normal(0.0, hue or 0.0, 3))
+        if not colour.startswith("#"):
+            return colour
+        channels = np.array([int(colour[start : start + 2], 16) for start in (1, 3, 5)])
+        red, green, blue = np.clip(np.rint(channels * factors), 0, _BYTE).astype(int).tolist()
+        return f"#{red:02x}{green:02x}{blue:02x}"
+
+    def between(self, axis: str, low: float, high: float, step: float) -> float:
+        """A multiple of `step` between two that are, each as often."""
+        if axis in self._given:
+            return float(self._given[axis])  # type: ignore[arg-type]
+        steps = round((high - low) / step)
+        return round(low + step * int(self._generator(axis).integers(steps + 1)), 6)
+
+    def _generator(self, axis: str) -> np.random.Generator:
+        return named_generator(self._seed, Step.LOOK, f"{self._name}.{axis}")
+
+    @staticmethod
+    def _pick(generator: np.random.Generator, weights: Mapping[Value, float]) -> Value:
+        limits = np.cumsum(list(weights.values()))
+        place = generator.random() * limits[-1]
+        return list(weights)[int(np.searchsorted(limits, place, side="right"))]

@@ -1,0 +1,27 @@
+"""Which columns are drawn."""
+
+from garage2usd.config.look import NATURAL, ColumnSection, ColumnsLook, Guard
+from garage2usd.look.axes import Group
+
+__all__ = ["drawn_columns"]
+
+
+def drawn_columns(axes: Group) -> ColumnsLook:
+    """Columns: mostly painted white, square more often than round, with all kinds of guards."""
+    return ColumnsLook(
+        section=axes.one_of(
+            "section", {ColumnSection.SQUARE: 0.55, ColumnSection.ROUND: 0.25, ColumnSection.RECTANGULAR: 0.2}
+        ),
+        colour=axes.colour("colour", {"#d6d6d2": 0.6, NATURAL: 0.25, "#b9b6ae": 0.15}, tone=0.06, hue=0.02),
+        guard=axes.one_of(
+            "guard",
+            {
+                Guard.YELLOW_BLACK: 0.32,
+                Guard.RED_WHITE: 0.14,
+                Guard.BLUE_YELLOW: 0.12,
+                Guard.RUBBER: 0.2,
+                Guard.NONE: 0.22,
+            },
+        ),
+        guard_height_m=axes.between("guard_height_m", 0.6, 1.6, 0.2),
+    )

@@ -1,0 +1,20 @@
+"""Which lights are drawn."""
+
+from garage2usd.config.look import Daylight, LampKind, LightsLook
+from garage2usd.look.axes import Group
+
+__all__ = ["drawn_lights"]
+
+
+def drawn_lights(axes: Group) -> LightsLook:
+    """Lights: mostly cold tubes, a few of them dead."""
+    return LightsLook(
+        lamps=axes.one_of("lamps", {LampKind.TUBES: 0.75, LampKind.PANELS: 0.13, LampKind.ROUND: 0.12}),
+        temperature_k=axes.between("temperature_k", 2700, 7000, 100),
+        spread_k=axes.one_of("spread_k", {0.0: 0.5, 100.0: 0.2, 300.0: 0.2, 800.0: 0.1}),
+        dead_share=axes.one_of("dead_share", {0.0: 0.45, 0.05: 0.25, 0.15: 0.2, 0.4: 0.1}),
+        emergency_only=axes.one_of("emergency_only", {False: 0.96, True: 0.04}),
+        daylight=axes.one_of(
+            "daylight", {Daylight.OVERCAST: 0.4, Daylight.SUN: 0.25, Daylight.DUSK: 0.1, Daylight.NIGHT: 0.25}
+        ),
+    )

@@ -1,0 +1,88 @@
+"""Which lines are drawn on a floor, and the paints that they have."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from garage2usd.assets import MATERIALS, Finish, Rgb
+from garage2usd.assets.colours import linear_rgb, material_colour
+from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, StallPattern, Wear
+from garage2usd.look.axes import Group
+
+__all__ = ["drawn_markings", "paint_finishes"]
+
+_WHITE, _YELLOW, _ORANGE, _BLUE, _GREY = "#dedede", "#d8a62e", "#d87822", "#3f6fb0", "#a6a6a2"
+
+
+def drawn_markings(axes: Group) -> MarkingsLook:
+    """Lines: mostly white, mostly closed along the aisle, more or less worn."""
+    colour = axes.colour(
+        "colour", {_WHITE: 0.62, _YELLOW: 0.22, _GREY: 0.08, _ORANGE: 0.05, _BLUE: 0.03}, tone=0.06, hue=0.02
+    )
+    return MarkingsLook(
+        pattern=axes.one_of(
+            "pattern",
+            {
+                StallPattern.CLOSED: 0.5,
+                StallPattern.SIDES: 0.14,
+                StallPattern.T_MARKS: 0.08,
+                StallPattern.L_MARKS: 0.05,
+                StallPattern.DOUBLE: 0.1,
+                StallPattern.CORNERS: 0.05,
+                StallPattern.DASHED: 0.05,
+                StallPattern.NONE: 0.03,
+            },
+        ),
+        colour=colour,
+        line_width_m=axes.between("line_width_m", 0.08, 0.18, 0.01),
+        wear=axes.one_of("wear", {Wear.FRESH: 0.3, Wear.LIGHT: 0.3, Wear.WORN: 0.27, Wear.FADED: 0.13}),
+        band=axes.one_of("band", {BandForm.NONE: 0.5, BandForm.LINE: 0.27, BandForm.BAND: 0.23}),
+        band_gap_m=axes.between("band_gap_m", 0.1, 0.5, 0.05),
+        band_width_m=axes.between("band_width_m", 0.3, 1.0, 0.1),
+        band_colour=axes.colour(
+            "band_colour",
+            {"#1f7a52": 0.45, _BLUE: 0.2, _YELLOW: 0.15, "#a83226": 0.1, "#6c7072": 0.1},
+            tone=0.1,
+            hue=0.05,
+        ),
+        lane_colour=axes.colour("lane_colour", {_YELLOW: 0.4, _WHITE: 0.5, colour: 0.1}, tone=0.06, hue=0.02),
+        arrow_colour=axes.colour("arrow_colour", {_WHITE: 0.8, _YELLOW: 0.2}, tone=0.06, hue=0.02),
+        ghosts=axes.one_of("ghosts", {0.0: 0.6, 0.15: 0.2, 0.4: 0.15, 0.9: 0.05}),
+        zebra=axes.one_of("zebra", {0.0: 0.6, 0.05: 0.2, 0.15: 0.2}),
+    )
+
+
+_WEAR = {Wear.FRESH: 0.0, Wear.LIGHT: 0.12, Wear.WORN: 0.35, Wear.FADED: 0.7}
+_ROUGH_PAINT = 0.55
+
+
+def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[str, Finish]) -> dict[str, Finish]:
+    """The paints on a floor with some finishes of its own."""
+    aisle, bay = (_colour_of(key, floor) for key in ("floor_concrete", "stall_epoxy"))
+    usual, usual_numbers = MarkingsLook(), NumbersLook()
+    paints = {
+        "paint_stall": (markings.colour, bay, usual.colour),
+        "paint_number": (numbers.colour, bay, usual_numbers.colour),
+        "paint_yellow": (markings.lane_colour, aisle, usual.lane_colour),
+        "paint_white": (markings.arrow_colour, aisle, usual.arrow_colour),
+        "paint_band": (markings.band_colour, aisle, ""),
+        "paint_ghost": (markings.colour, aisle, ""),
+    }
+    is_usual = markings.wear is usual.wear and not floor
+    return {
+        key: _painted(key, colour, ground, markings.wear)
+        for key, (colour, ground, usual_colour) in paints.items()
+        if colour != usual_colour or not is_usual
+    }
+
+
+def _painted(key: str, colour: str, ground: Rgb, wear: Wear) -> Finish:
+    """Paint of a colour on ground of another."""
+    share = 0.75 if key == "paint_ghost" else _WEAR[wear]
+    paint = linear_rgb(colour)
+    red, green, blue = (round(over * (1 - share) + under * share, 4) for over, under in zip(paint, ground, strict=True))
+    plain = replace(MATERIALS[key], colour_texture=None, colour_rgb=(red, green, blue), roughness=_ROUGH_PAINT)
+    return Finish(key, plain)
+
+
+def _colour_of(key: str, finishes: Mapping[str, Finish]) -> Rgb:
+    return material_colour(finishes[key].material if key in finishes else MATERIALS[key])
