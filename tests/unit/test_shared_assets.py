@@ -17,7 +17,7 @@ from garage2usd.config.stage import StageForm
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
-from garage2usd.stage.asset_files import asset_file
+from garage2usd.stage.asset_files import _asset_file
 from garage2usd.stage.prototypes import _asset_of_shape
 from garage2usd.stage.texture_files import texture_file
 from garage2usd.view.viewer import read_scene
@@ -35,7 +35,7 @@ def contents(folder):
 
 
 def forget():
-    for kept in (asset_file, _asset_of_shape, texture_file):
+    for kept in (_asset_file, _asset_of_shape, texture_file):
         kept.cache_clear()
 
 
@@ -72,15 +72,15 @@ def test_what_a_process_built_before_changes_no_byte(tmp_path, name):
     forget()
     build(small(3), tmp_path / "before" / name)
     build(small(2), tmp_path / "warm" / name)
-    assert asset_file.cache_info().hits
+    assert _asset_file.cache_info().hits
     forget()
     build(small(2), tmp_path / "cold" / name)
     assert contents(tmp_path / "warm") == contents(tmp_path / "cold")
 
 
 def test_what_a_process_keeps_is_bounded():
-    assert asset_file.cache_info().maxsize == 4096
-    assert texture_file.cache_info().maxsize == 128
+    assert _asset_file.cache_info().maxsize == 4096
+    assert texture_file.cache_info().maxsize == 256
 
 
 def composed(path):
