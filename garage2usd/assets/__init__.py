@@ -1,11 +1,22 @@
 """What objects are made of, as plain values: meshes, materials and textures, free of any file format."""
 
-from garage2usd.assets.materials import MATERIALS, VARYING, Finish, Material, PaintedTexture, Rgb, Texture, Touch
+from garage2usd.assets.materials import (
+    GLOSSES,
+    MATERIALS,
+    VARYING,
+    Finish,
+    Material,
+    PaintedTexture,
+    Rgb,
+    Texture,
+    Touch,
+)
 from garage2usd.assets.mesh import Asset, Collider, Part, RectLight, pascal_case
 from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
 
 __all__ = [
     "BASE_OF_TOUCH",
+    "GLOSSES",
     "MATERIALS",
     "NON_VISUAL",
     "VARYING",

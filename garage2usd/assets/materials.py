@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from garage2usd.config.vehicles import PAINTS
 
-__all__ = ["MATERIALS", "VARYING", "Finish", "Material", "PaintedTexture", "Rgb", "Texture", "Touch"]
+__all__ = ["GLOSSES", "MATERIALS", "VARYING", "Finish", "Material", "PaintedTexture", "Rgb", "Texture", "Touch"]
 
 Rgb = tuple[float, float, float]
 
@@ -121,6 +121,79 @@ _METALLIC_PAINTS = {"silver": 0.3, "grey": 0.2, "blue": 0.2, "green": 0.2, "cham
 
 VARYING = frozenset({"car_paint"})
 """Materials whose colour, roughness and metallic are one of their asset's choices."""
+
+GLOSSES: dict[str, str] = {
+    "mirror": "gloss_mirror.png",
+    "polished": "gloss_polished.png",
+    "satin": "gloss_satin.png",
+    "matt": "gloss_matt.png",
+}
+"""Packed textures that floors of concrete and epoxy may have instead of their own, from smooth to rough."""
+
+_FINISHES: dict[str, Material] = {
+    "floor_trowelled": Material(
+        colour_texture="trowelled_colour.jpg", packed_texture=GLOSSES["satin"], roughness=0.35, repeat_m=5.4
+    ),
+    "floor_sawn": Material(
+        colour_texture="sawn_colour.jpg", packed_texture=GLOSSES["satin"], roughness=0.35, repeat_m=5.4
+    ),
+    "floor_cracked": Material(
+        colour_texture="cracked_colour.jpg", packed_texture=GLOSSES["matt"], roughness=0.7, repeat_m=5.4
+    ),
+    "floor_epoxy": Material(
+        colour_texture="epoxy_colour.jpg",
+        packed_texture=GLOSSES["polished"],
+        roughness=0.2,
+        repeat_m=5.4,
+        touch=Touch.COATING,
+    ),
+    "floor_asphalt": Material(
+        colour_texture="asphalt_colour.jpg", normal_texture="floor_normal.png", roughness=0.88, repeat_m=2.1
+    ),
+    "floor_asphalt_patched": Material(colour_texture="asphalt_patched_colour.jpg", roughness=0.88, repeat_m=8.1),
+    "floor_pavers": Material(
+        colour_texture="pavers_colour.jpg", normal_texture="pavers_normal.png", roughness=0.85, repeat_m=2.4
+    ),
+    "paint_fresh": Material(colour_texture="wear_fresh.png", roughness=0.5, repeat_m=2.7, touch=Touch.COATING),
+    "paint_worn": Material(colour_texture="wear_worn.png", roughness=0.6, repeat_m=2.7, touch=Touch.COATING),
+    "paint_gone": Material(colour_texture="wear_gone.png", roughness=0.65, repeat_m=2.7),
+    "paint_ghost": Material(colour_texture="wear_ghost.png", roughness=0.6, repeat_m=2.7),
+    "wall_painted": Material(colour_texture="painted_colour.jpg", roughness=0.62, repeat_m=4.05, touch=Touch.COATING),
+    "wall_blockwork": Material(
+        colour_texture="blockwork_colour.jpg", normal_texture="blockwork_normal.png", roughness=0.9, repeat_m=4.0
+    ),
+    "wall_panels": Material(colour_texture="panels_colour.jpg", roughness=0.7, repeat_m=2.7),
+    "wall_sheet_steel": Material(
+        colour_texture="sheet_steel_colour.jpg",
+        normal_texture="sheet_steel_normal.png",
+        roughness=0.45,
+        repeat_m=1.0,
+        touch=Touch.STEEL,
+    ),
+    "wall_dado": Material(
+        colour_texture="dado_colour.jpg",
+        packed_texture="band_packed.png",
+        repeat_m=8.1,
+        repeat_up_m=1.1,
+        touch=Touch.COATING,
+    ),
+    "column_painted": Material(
+        colour_texture="column_painted_colour.jpg",
+        roughness=0.6,
+        repeat_m=1.35,
+        repeat_up_m=4.05,
+        touch=Touch.COATING,
+    ),
+    "ceiling_painted": Material(
+        colour_texture="ceiling_painted_colour.jpg",
+        normal_texture="ceiling_normal.png",
+        roughness=0.8,
+        repeat_m=8.1,
+        touch=Touch.COATING,
+    ),
+    "ceiling_insulation": Material(colour_texture="insulation_colour.jpg", roughness=1.0, repeat_m=3.6),
+}
+"""What a look may put in the place of a garage's own floor, walls, ceilings and paint, tinted in any colour."""
 
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
@@ -245,5 +318,6 @@ MATERIALS: dict[str, Material] = {
         )
         for paint in PAINTS
     },
+    **_FINISHES,
 }
 """Every material by its key."""

@@ -39,7 +39,10 @@ _PAINTED = frozenset({Touch.COATING, Touch.STEEL})
 _BASES = {
     "brass": "brass",
     "cabinet_glass": "clear_glass",
+    "ceiling_insulation": "fiberglass",
     "daylight": "none",
+    "floor_asphalt": "asphalt",
+    "floor_asphalt_patched": "asphalt",
     "glass": "clear_glass",
     "hose": "fabric",
     "lamp_front": "plexiglass",

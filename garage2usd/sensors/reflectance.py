@@ -16,6 +16,7 @@ class MaterialClass(StrEnum):
     """What a surface is to light of 905 nm."""
 
     CONCRETE = "concrete"
+    ASPHALT = "asphalt"
     COATING = "coating"
     ROAD_PAINT = "road_paint"
     LACQUER = "lacquer"
@@ -49,6 +50,7 @@ class Reflectance(NamedTuple):
 
 REFLECTANCES = {
     MaterialClass.CONCRETE: Reflectance(0.35, 0.35),
+    MaterialClass.ASPHALT: Reflectance(0.17, 0.17),
     MaterialClass.COATING: Reflectance(0.15, 0.60, 0.10, 20.0),
     MaterialClass.ROAD_PAINT: Reflectance(0.75, 0.75, 0.05, 10.0),
     MaterialClass.LACQUER: Reflectance(0.05, 0.80, 0.30, 200.0),
@@ -72,9 +74,12 @@ _OF_TOUCH = {
 }
 _OF_KEY = {
     **dict.fromkeys(
-        ("paint_white", "paint_stall", "paint_number", "paint_band", "paint_ghost", "paint_yellow"),
+        ("paint_white", "paint_stall", "paint_number", "paint_band", "paint_ghost", "paint_yellow", "paint_fresh", "paint_worn"),
         MaterialClass.ROAD_PAINT,
     ),
+    "floor_asphalt": MaterialClass.ASPHALT,
+    "floor_asphalt_patched": MaterialClass.ASPHALT,
+    "ceiling_insulation": MaterialClass.OTHER,
     "glass": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
     "mirror": MaterialClass.MIRROR,

@@ -7,11 +7,14 @@ from PIL import Image
 
 from garage2usd.assets.plate_texture import bake_plates
 from garage2usd.assets.stain_texture import bake_stains
-from garage2usd.assets.textures.ceilings import CEILINGS
+from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS
+from garage2usd.assets.textures.floor_finishes import FLOOR_FINISHES
 from garage2usd.assets.textures.floors import FLOORS
+from garage2usd.assets.textures.gloss import GLOSSES
 from garage2usd.assets.textures.paints import PAINTS
 from garage2usd.assets.textures.pixels import Bakers, Pixels
 from garage2usd.assets.textures.steel import STEELS
+from garage2usd.assets.textures.wall_finishes import WALL_FINISHES
 from garage2usd.assets.textures.walls import WALLS
 from garage2usd.assets.textures.wear import WEAR
 from garage2usd.assets.worn_paint import WEAR_STEPS, wear_palette
@@ -19,26 +22,28 @@ from garage2usd.config.stage import TextureQuality
 
 __all__ = ["bake_textures", "texture_folder"]
 
+_FINISHES: Bakers = {**WEAR, **GLOSSES, **FLOOR_FINISHES, **WALL_FINISHES, **CEILING_FINISHES}
 _BAKERS: Bakers = {
     **FLOORS,
     **PAINTS,
     **WALLS,
     **CEILINGS,
     **STEELS,
-    **WEAR,
+    **_FINISHES,
     "stains.png": bake_stains,
     "plate_characters.png": bake_plates,
 }
+_COLOUR_STEPS = {"plate_characters.png": 12, **dict.fromkeys(GLOSSES, 3), "gloss_matt.png": 6}
+"""Saved with a palette, in half the bytes: those that have few colours, and how far these are apart."""
 _SEED = 20_260_101
 _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}
-_JPEG_QUALITY = 90
+_JPEG_QUALITY, _FINISH_QUALITY = 90, 76
+"""Of the textures of every garage, and of those that a look may choose."""
 _RGBA, _LEVELS_ALONE = 4, 2
 _WEAR_PAINT_RGB, _WEAR_GROUND_RGB = (0.75, 0.75, 0.72), (0.16, 0.16, 0.15)
 """Linear colours that wear is shipped in: white on concrete."""
 _ALPHA_STEPS = 28
-_DRAWN_IN_FEW_COLOURS = frozenset({"plate_characters"})
-"""Saved with a palette, in half the bytes."""
-_COLOUR_STEP, _PALETTE_BYTES = 12, 768
+_PALETTE_BYTES = 768
 
 
 def texture_folder(quality: TextureQuality) -> Path:
@@ -75,15 +80,17 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         entries, picture = _palette(np.dstack([pixels[::divisor, ::divisor, :3], opaque]))
         picture.putpalette(entries[:, :3].tobytes())
         picture.save(path, format="PNG", optimize=True, transparency=entries[:, 3].tobytes())
-    elif path.stem in _DRAWN_IN_FEW_COLOURS:
-        colours = np.rint(np.asarray(picture) / _COLOUR_STEP).astype(np.uint8) * np.uint8(_COLOUR_STEP)
-        entries, picture = _palette(colours)
-        picture.putpalette(entries.tobytes() + bytes(_PALETTE_BYTES - entries.size))
+    elif path.name in _COLOUR_STEPS:
+        step = np.uint8(_COLOUR_STEPS[path.name])
+        entries, picture = _palette(np.rint(np.asarray(picture) / step).astype(np.uint8) * step)
+        rest = 0 if path.name in _FINISHES else _PALETTE_BYTES - entries.size
+        picture.putpalette(entries.tobytes() + bytes(rest))
         picture.save(path, format="PNG", optimize=True)
     elif path.suffix == ".jpg":
         # colours that meet at sharp edges need all their pixels
         subsampling = "4:4:4" if path.stem == "hazard" else "4:2:0"
-        picture.save(path, format="JPEG", quality=_JPEG_QUALITY, subsampling=subsampling, optimize=True)
+        quality = _FINISH_QUALITY if path.name in _FINISHES else _JPEG_QUALITY
+        picture.save(path, format="JPEG", quality=quality, subsampling=subsampling, optimize=True)
     else:
         picture.save(path, format="PNG", optimize=True)
 

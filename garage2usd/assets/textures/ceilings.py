@@ -3,13 +3,16 @@
 import numpy as np
 
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.assets.patterns import joint
 from garage2usd.assets.textures.pixels import Bakers, Pixels, distance_to, normal_map, shaded
 from garage2usd.assets.textures.walls import sheet_tones
 
-__all__ = ["CEILINGS"]
+__all__ = ["CEILINGS", "CEILING_FINISHES"]
 
 _SHEETS_ACROSS, _SHEETS_ALONG = 3, 6
 """Of formwork, 2.7 m by 1.35 m, in a repeat of 8.1 m."""
+_BOARD_MM = 1200.0, 600.0
+_NEUTRAL = 1.0, 0.996, 0.985
 
 
 def _ceiling_joints(shape: tuple[int, int]) -> Field:
@@ -36,7 +39,50 @@ def _ceiling_normal(rng: np.random.Generator) -> Pixels:
     return normal_map(clouds(rng, shape, (20, 20), 2) - 1.2 * _ceiling_joints(shape), 0.3)
 
 
+def _ceiling_painted(rng: np.random.Generator) -> Pixels:
+    """The same sheets under white paint, which soot and water have marked; light, so that a tint gives any colour."""
+    shape = 768, 768
+    value = 224.0 + 10.0 * (clouds(rng, shape, (6, 6), 5) - 0.5) + 4.0 * (grain(rng, shape) - 0.5)
+    sheets = sheet_tones(rng, shape, (_SHEETS_ALONG, _SHEETS_ACROSS))
+    value += 5.0 * (np.roll(sheets, shape[0] // (2 * _SHEETS_ALONG), axis=0) - 0.5)
+    water = clouds(rng, shape, (5, 5), 5)
+    soot, rims = 0.10 * ramp(clouds(rng, shape, (4, 4), 4), 0.5, 0.75), 0.08 * ramp(np.abs(water - 0.68), 0.012, 0.0)
+    joints = 0.12 * _ceiling_joints(shape) * (0.5 + 0.5 * noise(rng, shape, (24, 24)))
+    return shaded(value * (1.0 - soot) * (1.0 - rims) * (1.0 - joints), _NEUTRAL)
+
+
+def _insulation(rng: np.random.Generator) -> Pixels:
+    """Boards of mineral wool, 1.2 m by 0.6 m in half bond, each on six plates 70 mm wide; 3.6 m a repeat."""
+    shape = 960, 960
+    pixel_mm = 3600 / shape[0]
+    down = (np.arange(shape[0])[:, None] + 0.5) * pixel_mm + np.zeros(shape)
+    across = (np.arange(shape[1])[None, :] + 0.5) * pixel_mm + np.zeros(shape)
+    row = (down / _BOARD_MM[1]).astype(np.int64)
+    across = (across + _BOARD_MM[0] / 2 * (row % 2)) % 3600.0
+    board = row * 3 + (across / _BOARD_MM[0]).astype(np.int64)
+    in_down, in_across = down % _BOARD_MM[1], across % _BOARD_MM[0]
+
+    tones = rng.integers(0, 256, size=18) / 255.0
+    value = 208.0 + 9.0 * (tones[board] - 0.5) + 9.0 * (clouds(rng, shape, (5, 5), 4) - 0.5)
+    # fibres lie along and across, in tufts
+    value += 9.0 * (noise(rng, shape, (420, 90)) + noise(rng, shape, (90, 420)) - 1.0)
+    value -= 9.0 * ramp(clouds(rng, shape, (60, 60), 3), 0.58, 0.75)
+    away = np.minimum(np.minimum(in_down, _BOARD_MM[1] - in_down), np.minimum(in_across, _BOARD_MM[0] - in_across))
+    gap = 0.6 * joint(away / pixel_mm, 3.0 / pixel_mm) + 0.12 * ramp(away, 14.0, 2.0)
+    plate_down = np.abs(np.abs(in_down - _BOARD_MM[1] / 2) - 180.0)
+    plate_across = np.abs((in_across - 150.0 + 225.0) % 450.0 - 225.0)
+    plate = np.sqrt(plate_down * plate_down + plate_across * plate_across)
+    disc = ramp(plate, 36.0, 33.0)
+    value = value * (1.0 - disc) + (222.0 - 70.0 * ramp(plate, 7.0, 4.0)) * disc
+    dent = 0.22 * ramp(np.abs(plate - 38.0), 7.0, 1.0)
+    return shaded(value * (1.0 - gap) * (1.0 - dent), _NEUTRAL)
+
+
 CEILINGS: Bakers = {
     "ceiling_colour.jpg": _ceiling_colour,
     "ceiling_normal.png": _ceiling_normal,
+}
+CEILING_FINISHES: Bakers = {
+    "ceiling_painted_colour.jpg": _ceiling_painted,
+    "insulation_colour.jpg": _insulation,
 }
