@@ -3,6 +3,7 @@
 Like `fields`, without sines, exponentials and matrix products.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -55,25 +56,29 @@ def cells(rng: np.random.Generator, shape: Shape, count: Shape, warp: tuple[Fiel
     down, across = (down + shift_down) / high + np.zeros(shape), (across + shift_across) / wide + np.zeros(shape)
     row, column = np.floor(down).astype(np.int64), np.floor(across).astype(np.int64)
 
-    nearest, second = np.full(shape, np.inf), np.full(shape, np.inf)
+    def points() -> Iterator[tuple[NDArray[np.int64], Field, Field]]:
+        """The number of each point around a pixel's own, and how far down and across it is from the pixel."""
+        for step_down, step_across in _AROUND:
+            i, j = (row + step_down) % rows, (column + step_across) % columns
+            y = (row + step_down + jitter_down[i, j] - down) * high
+            yield i * columns + j, y, (column + step_across + jitter_across[i, j] - across) * wide
+
+    nearest = np.full(shape, np.inf)
     which = np.zeros(shape, dtype=np.int64)
-    places = [[np.zeros(shape), np.zeros(shape)] for _ in range(2)]
-    for step_down, step_across in _AROUND:
-        i, j = (row + step_down) % rows, (column + step_across) % columns
-        y = (row + step_down + jitter_down[i, j] - down) * high
-        x = (column + step_across + jitter_across[i, j] - across) * wide
+    near_y, near_x = np.zeros(shape), np.zeros(shape)
+    for number, y, x in points():
         away = y * y + x * x
-        is_nearest, is_second = away < nearest, (away >= nearest) & (away < second)
-        for axis, value in enumerate((y, x)):
-            places[1][axis] = np.where(is_nearest, places[0][axis], np.where(is_second, value, places[1][axis]))
-            places[0][axis] = np.where(is_nearest, value, places[0][axis])
-        second = np.where(is_nearest, nearest, np.where(is_second, away, second))
+        is_nearest = away < nearest
         nearest = np.where(is_nearest, away, nearest)
-        which = np.where(is_nearest, i * columns + j, which)
-    # the edge is the line between the two points that is as far from both
-    (near_y, near_x), (far_y, far_x) = places
-    apart = np.sqrt((far_y - near_y) ** 2 + (far_x - near_x) ** 2)
-    return Cells(which, np.sqrt(nearest), (second - nearest) / (2.0 * np.maximum(apart, 1e-6)))
+        which = np.where(is_nearest, number, which)
+        near_y, near_x = np.where(is_nearest, y, near_y), np.where(is_nearest, x, near_x)
+    # an edge is the line between two points that is as far from both
+    from_edge = np.full(shape, np.inf)
+    for number, y, x in points():
+        apart = np.sqrt((y - near_y) ** 2 + (x - near_x) ** 2)
+        from_line = (y * y + x * x - nearest) / (2.0 * np.maximum(apart, 1e-6))
+        from_edge = np.where(number == which, from_edge, np.minimum(from_edge, from_line))
+    return Cells(which, np.sqrt(nearest), from_edge)
 
 
 def joint(from_middle: Field, width: Field | float) -> Field:

@@ -4,15 +4,24 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from garage2usd.assets import MATERIALS
+from garage2usd.assets import GLOSSES, MATERIALS
 from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import TextureQuality
 
-NAMES = sorted({texture for material in MATERIALS.values() for texture in material.textures()})
-SPAN_ONE_HEIGHT = {"band_colour.jpg", "band_packed.png"}  # the band of a wall is as high as one repeat
+NAMES = sorted({texture for material in MATERIALS.values() for texture in material.textures()} | {*GLOSSES.values()})
+# bands of walls and columns are as high as one repeat
+SPAN_ONE_HEIGHT = {"band_colour.jpg", "band_packed.png", "dado_colour.jpg", "column_painted_colour.jpg"}
 HUNG_FROM_THE_TOP = {"wall_colour.jpg", "wall_packed.png"}  # a wall is lower than one repeat
-BUDGET_BYTES = {TextureQuality.LOW: 200_000, TextureQuality.MEDIUM: 600_000, TextureQuality.HIGH: 2_500_000}
+BUDGET_BYTES = {TextureQuality.LOW: 260_000, TextureQuality.MEDIUM: 850_000, TextureQuality.HIGH: 3_200_000}
+TO_BE_TINTED = sorted(
+    {
+        material.colour_texture
+        for key, material in MATERIALS.items()
+        if key.startswith(("floor_", "wall_", "ceiling_", "column_"))
+    }
+    - {"floor_colour.jpg", "wall_colour.jpg", "band_colour.jpg", "ceiling_colour.jpg"}
+)
 
 
 def pixels(name, quality=TextureQuality.HIGH):
@@ -45,6 +54,26 @@ def test_packed_textures_hold_three_channels_of_a_surface():
         assert occlusion.max() == 1.0
         assert 0.15 < roughness.min() < roughness.max() <= 1.0
         assert (metallic.max() > 0.5) == (name == "steel_packed.png")
+
+
+@pytest.mark.parametrize("name", TO_BE_TINTED)
+def test_finishes_are_neutral_and_light_enough_for_a_tint(name):
+    values = pixels(name)[:, :, :3] / 255
+    red, green, blue = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4).mean(axis=(0, 1))
+    assert 0.94 * red < blue <= green + 0.002 <= red + 0.004
+    # asphalt is black where it is new
+    assert green > (0.15 if name.startswith("asphalt") else 0.4)
+
+
+def test_glosses_go_from_mirror_to_matt_without_a_gap_in_their_order():
+    ends = []
+    for name in GLOSSES.values():
+        occlusion, roughness, metallic, _ = pixels(name).transpose(2, 0, 1) / 255
+        assert occlusion.min() == 1.0
+        assert metallic.max() == 0.0
+        ends += [roughness.min(), roughness.max()]
+    assert ends == sorted(ends)
+    assert ends == pytest.approx([0.06, 0.12, 0.15, 0.25, 0.30, 0.40, 0.60, 0.80], abs=0.015)
 
 
 @pytest.mark.parametrize("quality", TextureQuality)

@@ -33,7 +33,7 @@ _BAKERS: Bakers = {
     "stains.png": bake_stains,
     "plate_characters.png": bake_plates,
 }
-_COLOUR_STEPS = {"plate_characters.png": 12, **dict.fromkeys(GLOSSES, 3), "gloss_matt.png": 6}
+_COLOUR_STEPS = {"plate_characters.png": 12, **dict.fromkeys(GLOSSES, 3), "gloss_matt.png": 5}
 """Saved with a palette, in half the bytes: those that have few colours, and how far these are apart."""
 _SEED = 20_260_101
 _DIVISORS = {TextureQuality.LOW: 4, TextureQuality.MEDIUM: 2, TextureQuality.HIGH: 1}

@@ -145,8 +145,8 @@ def _dado(rng: np.random.Generator) -> Pixels:
     above_m = ((shape[0] - 0.5 - np.arange(shape[0])) * (1.1 / shape[0]))[:, None]
     value = 214.0 + 12.0 * (clouds(rng, shape, (3, 22), 5) - 0.5) + 4.0 * (grain(rng, shape) - 0.5)
     bumper = 0.5 * ramp(np.abs(above_m - 0.5), 0.2, 0.04) * ramp(noise(rng, shape, (52, 14)), 0.66, 0.92)
-    chips = 0.45 * ramp(clouds(rng, shape, (12, 90), 4) - 0.12 * ramp(above_m, 0.3, 0.8), 0.66, 0.70)
-    splash = 0.6 * ramp(above_m + 0.34 * (clouds(rng, shape, (4, 30), 5) - 0.5), 0.24, -0.06)
+    chips = 0.35 * ramp(clouds(rng, shape, (16, 90), 4) - 0.12 * ramp(above_m, 0.3, 0.8), 0.69, 0.73)
+    splash = 0.5 * ramp(above_m + 0.34 * (clouds(rng, shape, (4, 30), 5) - 0.5), 0.24, -0.06)
     return shaded(value * (1.0 - bumper) * (1.0 - chips) * (1.0 - splash), _GREY)
 
 
