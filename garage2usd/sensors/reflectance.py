@@ -74,7 +74,16 @@ _OF_TOUCH = {
 }
 _OF_KEY = {
     **dict.fromkeys(
-        ("paint_white", "paint_stall", "paint_number", "paint_band", "paint_ghost", "paint_yellow", "paint_fresh", "paint_worn"),
+        (
+            "paint_white",
+            "paint_stall",
+            "paint_number",
+            "paint_band",
+            "paint_ghost",
+            "paint_yellow",
+            "paint_fresh",
+            "paint_worn",
+        ),
         MaterialClass.ROAD_PAINT,
     ),
     "floor_asphalt": MaterialClass.ASPHALT,
