@@ -51,12 +51,12 @@ def _column_painted(rng: np.random.Generator) -> Pixels:
     reach = ramp(np.abs(above_m - 0.5), 0.5, 0.1)
     # rubbed along the ground, so drawn in a picture that is stretched across
     rubs = np.maximum(
-        0.8 * ramp(noise(rng, shape, (230, 5)), 0.74, 0.95), strokes(rng, shape, 50, (6.0, 40.0), (0.6, 2.4))
+        0.6 * ramp(noise(rng, shape, (115, 5)), 0.8, 1.0), strokes(rng, shape, 50, (6.0, 40.0), (0.6, 2.4))
     )
-    chips = ramp(clouds(rng, shape, (60, 20), 3) + 0.08 * reach, 0.73, 0.77)
+    chips = ramp(clouds(rng, shape, (60, 20), 3) + 0.08 * reach, 0.76, 0.8)
     splash = ramp(above_m + 0.25 * (clouds(rng, shape, (40, 13), 4) - 0.5), 0.24, -0.02)
     dirt = 0.05 + 0.08 * ramp(clouds(rng, shape, (9, 3), 4), 0.45, 0.75)
-    dark = np.maximum(0.45 * rubs * reach, 0.4 * chips * reach)
+    dark = np.maximum(0.45 * rubs * reach, 0.25 * chips * reach)
     return shaded(value * (1.0 - dark) * (1.0 - 0.5 * splash) * (1.0 - dirt), _NEUTRAL)
 
 
