@@ -79,10 +79,16 @@ class FloorFinish(StrEnum):
     CONCRETE = "concrete"
     """Concrete with dust in its pores."""
     TROWELLED = "trowelled"
-    """Concrete that a power trowel closed, with its swirls and hairline cracks."""
+    """Concrete that a power trowel closed, with its swirls."""
+    SAWN = "sawn"
+    """The same, with sawn joints."""
+    CRACKED = "cracked"
+    """Concrete with hairline cracks and patches."""
     EPOXY = "epoxy"
     """A smooth coating, of any colour."""
     ASPHALT = "asphalt"
+    PATCHED = "patched"
+    """Asphalt with patches."""
     PAVERS = "pavers"
     """Interlocking blocks of 0.1 x 0.2 m."""
 
@@ -101,7 +107,7 @@ class FloorLook(Settings):
     """The floor."""
 
     finish: FloorFinish = FloorFinish.CONCRETE
-    """'concrete', 'trowelled', 'epoxy', 'asphalt' or 'pavers'."""
+    """'concrete', 'trowelled', 'sawn', 'cracked', 'epoxy', 'asphalt', 'patched' or 'pavers'."""
     colour: NaturalColour = NATURAL
     """Mean colour of the aisles' floor: #rrggbb in sRGB, a name such as 'green', or 'natural'."""
     gloss: Gloss = Gloss.SATIN

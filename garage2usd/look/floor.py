@@ -1,6 +1,8 @@
 """What floors are drawn, and what they are made of."""
 
-from garage2usd.assets import MATERIALS, Finish
+from dataclasses import replace
+
+from garage2usd.assets import GLOSSES, MATERIALS, Finish
 from garage2usd.config.look import NATURAL, FloorFinish, FloorLook, Gloss
 from garage2usd.look.axes import Group
 from garage2usd.look.tint import tinted
@@ -8,36 +10,70 @@ from garage2usd.look.tint import tinted
 __all__ = ["drawn_floor", "floor_finishes"]
 
 _FINISHES = {
-    FloorFinish.TROWELLED: 0.25,
-    FloorFinish.CONCRETE: 0.15,
-    FloorFinish.EPOXY: 0.47,
-    FloorFinish.ASPHALT: 0.09,
+    FloorFinish.CONCRETE: 0.08,
+    FloorFinish.TROWELLED: 0.17,
+    FloorFinish.SAWN: 0.09,
+    FloorFinish.CRACKED: 0.08,
+    FloorFinish.EPOXY: 0.44,
+    FloorFinish.ASPHALT: 0.06,
+    FloorFinish.PATCHED: 0.04,
     FloorFinish.PAVERS: 0.04,
 }
+_CONCRETES = {"#9a9893": 0.4, "#7c7b78": 0.35, "#b5b2aa": 0.15, "#5e5d5a": 0.1}
 _EPOXIES = {
-    "#8e9290": 0.34,
+    "#8e9290": 0.32,
     "#b9bcb8": 0.14,
+    "#d3d5d1": 0.05,
     "#5f6364": 0.12,
-    "#4d8a68": 0.17,
+    "#4d8a68": 0.16,
     "#56789c": 0.08,
-    "#b7aa8c": 0.08,
-    "#8f4a3f": 0.07,
+    "#b7aa8c": 0.07,
+    "#8f4a3f": 0.06,
 }
-"""sRGB: grey, light grey, dark grey, green, blue, beige, red."""
+"""sRGB: grey, light grey, nearly white, dark grey, green, blue, beige, red."""
 _COLOURS = {
-    FloorFinish.TROWELLED: {"#9a9893": 0.5, "#7c7b78": 0.3, "#b5b2aa": 0.2},
-    FloorFinish.CONCRETE: {NATURAL: 0.4, "#8a8883": 0.3, "#6e6d6a": 0.3},
+    FloorFinish.CONCRETE: {NATURAL: 0.5, "#6e6d6a": 0.5},
+    FloorFinish.TROWELLED: _CONCRETES,
+    FloorFinish.SAWN: _CONCRETES,
+    FloorFinish.CRACKED: _CONCRETES,
     FloorFinish.EPOXY: _EPOXIES,
     FloorFinish.ASPHALT: {NATURAL: 1.0},
-    FloorFinish.PAVERS: {NATURAL: 0.5, "#8c8a86": 0.3, "#9a7465": 0.2},
+    FloorFinish.PATCHED: {NATURAL: 1.0},
+    FloorFinish.PAVERS: {"#9c9a95": 0.5, "#84827e": 0.3, "#9a7465": 0.2},
 }
+_TROWELLED = {Gloss.MATT: 0.15, Gloss.SATIN: 0.35, Gloss.POLISHED: 0.35, Gloss.MIRROR: 0.15}
+_ROUGH = {Gloss.MATT: 0.9, Gloss.SATIN: 0.1}
 _GLOSSES = {
-    FloorFinish.TROWELLED: {Gloss.MATT: 0.15, Gloss.SATIN: 0.35, Gloss.POLISHED: 0.35, Gloss.MIRROR: 0.15},
     FloorFinish.CONCRETE: {Gloss.MATT: 0.5, Gloss.SATIN: 0.5},
+    FloorFinish.TROWELLED: _TROWELLED,
+    FloorFinish.SAWN: _TROWELLED,
+    FloorFinish.CRACKED: {Gloss.MATT: 0.5, Gloss.SATIN: 0.35, Gloss.POLISHED: 0.15},
     FloorFinish.EPOXY: {Gloss.SATIN: 0.2, Gloss.POLISHED: 0.4, Gloss.MIRROR: 0.4},
-    FloorFinish.ASPHALT: {Gloss.MATT: 0.9, Gloss.SATIN: 0.1},
-    FloorFinish.PAVERS: {Gloss.MATT: 0.9, Gloss.SATIN: 0.1},
+    FloorFinish.ASPHALT: _ROUGH,
+    FloorFinish.PATCHED: _ROUGH,
+    FloorFinish.PAVERS: _ROUGH,
 }
+_KEYS = {
+    FloorFinish.CONCRETE: "floor_concrete",
+    FloorFinish.TROWELLED: "floor_trowelled",
+    FloorFinish.SAWN: "floor_sawn",
+    FloorFinish.CRACKED: "floor_cracked",
+    FloorFinish.EPOXY: "floor_epoxy",
+    FloorFinish.ASPHALT: "floor_asphalt",
+    FloorFinish.PATCHED: "floor_asphalt_patched",
+    FloorFinish.PAVERS: "floor_pavers",
+}
+_NATURAL = {
+    FloorFinish.TROWELLED: "#9a9893",
+    FloorFinish.SAWN: "#9a9893",
+    FloorFinish.CRACKED: "#8a8883",
+    FloorFinish.EPOXY: "#8e9290",
+    FloorFinish.PAVERS: "#9c9a95",
+}
+"""The natural colours of finishes whose textures are made to be tinted."""
+_ROUGHNESS = {Gloss.MATT: 0.88, Gloss.SATIN: 0.6, Gloss.POLISHED: 0.35, Gloss.MIRROR: 0.15}
+"""Of finishes that have one roughness: rain and sealing make them smoother."""
+_COATED_STALLS = ("stall_green", "stall_blue")
 
 
 def drawn_floor(axes: Group) -> FloorLook:
@@ -60,9 +96,20 @@ def floor_finishes(floor: FloorLook) -> dict[str, Finish]:
     """What aisles and bays have in the place of their usual materials."""
     if floor == FloorLook():
         return {}
-    aisle = tinted("floor_concrete", floor.colour)
-    bays = {
-        "coated": Finish("stall_epoxy", MATERIALS["stall_epoxy"]),
-        "aisle": aisle,
-    }.get(floor.bays) or tinted("stall_epoxy", floor.bays)
-    return {"floor_concrete": aisle, "stall_epoxy": bays}
+    natural = _NATURAL.get(floor.finish, NATURAL) if floor.colour == NATURAL else floor.colour
+    aisle = _glossy(tinted(_KEYS[floor.finish], natural), floor.gloss)
+    coated = {key: _glossy(Finish(key, MATERIALS[key]), floor.gloss) for key in ("stall_epoxy", *_COATED_STALLS)}
+    if floor.bays == "aisle":
+        coated["stall_epoxy"] = aisle
+    elif floor.bays != "coated":
+        coated["stall_epoxy"] = _glossy(tinted("floor_epoxy", floor.bays), floor.gloss)
+    return {"floor_concrete": aisle, **coated}
+
+
+def _glossy(finish: Finish, gloss: Gloss) -> Finish:
+    """The same as glossy as it is to be; satin is what the usual floor is."""
+    if finish.key == _KEYS[FloorFinish.CONCRETE] and gloss is Gloss.SATIN:
+        return finish
+    if finish.material.packed_texture is None:
+        return Finish(finish.key, replace(finish.material, roughness=_ROUGHNESS[gloss]))
+    return Finish(finish.key, replace(finish.material, packed_texture=GLOSSES[gloss]))
