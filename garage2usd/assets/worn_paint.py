@@ -2,6 +2,7 @@
 
 import struct
 import zlib
+from bisect import bisect_right
 from collections.abc import Iterator
 
 from garage2usd.errors import ConfigError
@@ -84,7 +85,21 @@ def _unfit(what: str) -> ConfigError:
 
 
 def _srgb_byte(linear: float) -> int:
-    """A linear value as sRGB in 8 bits, by IEC 61966-2-1."""
+    """A linear value as sRGB in 8 bits, by IEC 61966-2-1.
+
+    Its power of 1 / 2.4 differs in its last bit from one CPU to another, so fifth powers are compared with twelfth ones.
+    """
     value = min(max(linear, 0.0), 1.0)
-    encoded = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055  # noqa: PLR2004
-    return round(255 * encoded)
+    if value <= _LINEAR_BELOW:
+        return round(255 * 12.92 * value)
+    return bisect_right(_BORDERS, value * value * value * value * value)
+
+
+def _twelfth_power(value: float) -> float:
+    fourth = value * value * value * value
+    return fourth * fourth * fourth
+
+
+_LINEAR_BELOW = 0.0031308
+_BORDERS = [_twelfth_power(((byte - 0.5) / 255 + 0.055) / 1.055) for byte in range(1, 256)]
+"""From which fifth power of a linear value on each byte of sRGB stands for it."""

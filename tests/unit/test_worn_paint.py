@@ -71,6 +71,12 @@ def test_palettes_begin_with_the_paint_and_end_with_the_ground():
     assert wear_palette((7.0, 0.5, -1.0), (0.0, 0.0, 0.0))[:3] == bytes([255, 188, 0])
 
 
+def test_colours_of_palettes_are_those_of_the_standard():
+    values = np.linspace(0.0, 1.0, 4001)
+    expected = np.rint(255 * np.where(values <= 0.0031308, 12.92 * values, 1.055 * values ** (1 / 2.4) - 0.055))
+    assert [wear_palette((value,) * 3, (0.0,) * 3)[0] for value in values.tolist()] == expected.tolist()
+
+
 def png_of(mode, colours=0):
     picture = Image.new(mode, (4, 4))
     if colours:

@@ -215,6 +215,8 @@ def test_a_turned_sensor_measures_in_its_own_axes():
     ("look", "kind", "squarely", "at_60_deg"),
     [
         (SurfaceLook(name="WallConcrete"), "concrete", 0.35, 0.35 / 2),
+        (SurfaceLook(name="FloorAsphaltPatched", colour_texture="a.jpg"), "asphalt", 0.17, 0.17 / 2),
+        (SurfaceLook(name="CeilingInsulation", colour_texture="a.jpg"), "other", 0.425, 0.425 / 2),
         (SurfaceLook(name="NumberPlate"), "retroreflector", 1.0, 1.0),
         (SurfaceLook(name="Tyre", colour_rgb=(0.0, 0.0, 0.0)), "rubber", 0.04, 0.02),
         (SurfaceLook(name="SteelGalvanised", colour_texture="a.png"), "metal", 0.5, 0.5 * 0.4 / 2),
