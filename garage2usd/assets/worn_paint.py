@@ -87,7 +87,7 @@ def _unfit(what: str) -> ConfigError:
 def _srgb_byte(linear: float) -> int:
     """A linear value as sRGB in 8 bits, by IEC 61966-2-1.
 
-    Its power of 1 / 2.4 differs in its last bit from one CPU to another, so fifth powers are compared with twelfth ones.
+    A power of 1 / 2.4 differs in its last bit from one CPU to another, so fifth powers are compared with twelfth ones.
     """
     value = min(max(linear, 0.0), 1.0)
     if value <= _LINEAR_BELOW:
