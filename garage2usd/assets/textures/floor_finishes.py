@@ -64,12 +64,12 @@ def _sawn(rng: np.random.Generator) -> Pixels:
 def _cracked(rng: np.random.Generator) -> Pixels:
     """Old concrete: cracks of 0.2 to 1 mm across it, finer ones between them, dirt, splashes and rubber."""
     value = _concrete(rng)
-    dirt = 0.30 * ramp(clouds(rng, _SHAPE, (3, 3), 6), 0.46, 0.72)
-    dirt = np.maximum(dirt, 0.34 * ramp(clouds(rng, _SHAPE, (8, 8), 5), 0.62, 0.74))
-    dirt = np.maximum(dirt, 0.4 * ramp(spots(rng, _SHAPE, 130, (2.0, 12.0)), 0.3, 0.8))
+    dirt = 0.16 * ramp(clouds(rng, _SHAPE, (3, 3), 6), 0.46, 0.72)
+    dirt = np.maximum(dirt, 0.22 * ramp(clouds(rng, _SHAPE, (8, 8), 5), 0.62, 0.74))
+    dirt = np.maximum(dirt, 0.28 * ramp(spots(rng, _SHAPE, 110, (2.0, 9.0)), 0.3, 0.8))
     rubber = strokes(rng, _SHAPE, 30, (60.0, 320.0), (2.0, 14.0), 0.15)
-    rubber *= 0.24 * ramp(clouds(rng, _SHAPE, (30, 30), 4), 0.3, 0.6)
-    cracks = np.maximum(_cracks(rng, 4, 1.0, 0.17), _cracks(rng, 14, 0.4, 0.04))
+    rubber *= 0.16 * ramp(clouds(rng, _SHAPE, (30, 30), 4), 0.3, 0.6)
+    cracks = np.maximum(_cracks(rng, 4, 1.0, 0.36), _cracks(rng, 14, 0.4, 0.08))
     return shaded(value * (1.0 - dirt) * (1.0 - rubber) * (1.0 - cracks), _NEUTRAL)
 
 
