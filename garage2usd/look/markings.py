@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from garage2usd.assets import MATERIALS, Finish, Rgb
+from garage2usd.assets import MATERIALS, Finish, Material, PaintedTexture, Rgb
 from garage2usd.assets.colours import linear_rgb, material_colour
 from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, StallPattern, Wear
 from garage2usd.look.axes import Group
@@ -51,8 +51,8 @@ def drawn_markings(axes: Group) -> MarkingsLook:
     )
 
 
-_WEAR = {Wear.FRESH: 0.0, Wear.LIGHT: 0.12, Wear.WORN: 0.35, Wear.FADED: 0.7}
-_ROUGH_PAINT = 0.55
+_WORN = {Wear.FRESH: None, Wear.LIGHT: "paint_fresh", Wear.WORN: "paint_worn", Wear.FADED: "paint_gone"}
+"""The material of each degree of wear; without one paint is even."""
 
 
 def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[str, Finish]) -> dict[str, Finish]:
@@ -76,12 +76,21 @@ def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[
 
 
 def _painted(key: str, colour: str, ground: Rgb, wear: Wear) -> Finish:
-    """Paint of a colour on ground of another."""
-    share = 0.75 if key == "paint_ghost" else _WEAR[wear]
+    """Paint of a colour on ground of another, which shows where it is worn."""
     paint = linear_rgb(colour)
-    red, green, blue = (round(over * (1 - share) + under * share, 4) for over, under in zip(paint, ground, strict=True))
-    plain = replace(MATERIALS[key], colour_texture=None, colour_rgb=(red, green, blue), roughness=_ROUGH_PAINT)
-    return Finish(key, plain)
+    worn = "paint_ghost" if key == "paint_ghost" else _WORN[wear]
+    if worn is None:
+        return Finish("paint_fresh", replace(MATERIALS["paint_fresh"], colour_texture=None, colour_rgb=paint))
+    material = MATERIALS[worn]
+    return Finish(worn, replace(material, colour_texture=PaintedTexture(_mask(material), paint, ground)))
+
+
+def _mask(material: Material) -> str:
+    """The picture of how worn a paint is."""
+    mask = material.colour_texture
+    if not isinstance(mask, str):
+        raise TypeError(mask)
+    return mask
 
 
 def _colour_of(key: str, finishes: Mapping[str, Finish]) -> Rgb:

@@ -103,7 +103,7 @@ class PanelSpec(Spec):
         base = shapely.difference(base, openings, grid_size=GRID_M)
         painted = []
         for (paint, surface), shapes in groups.items():
-            area = shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M)
+            area = _level(shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M))
             if area.area > 0:
                 colour = surface.removeprefix("paint_")
                 name = pascal_case(f"{paint}_{colour}")
@@ -112,3 +112,15 @@ class PanelSpec(Spec):
         material = _MATERIALS[self.surface]
         coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []
         return Asset((*coating, *painted))
+
+
+def _level(shape: shapely.Geometry) -> shapely.Geometry:
+    """What has an area of a shape: where paints only touch, it holds lines and points as well."""
+    if shape.geom_type in {"Polygon", "MultiPolygon"}:
+        return shape
+    parts = shapely.get_parts(shape)
+    return shapely.multipolygons(parts[shapely.get_dimensions(parts) == _AREA])
+
+
+_AREA = 2
+"""Dimension of what has an area."""
