@@ -26,7 +26,6 @@ _PR_SET_PDEATHSIG = 1
 _INDEX_LIMIT = 32768
 """Blender's object indices are below this; the ids of larger scenes are drawn digit by digit."""
 _POINT_FILTER_PX = 0.01
-_BOUNCES = 6
 _TRANSPARENT_BOUNCES = 64
 _OPAQUE = 0.5
 _LENS = "lens"
@@ -308,7 +307,7 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
         scene.cycles.device = "GPU"
     scene.cycles.use_denoising = True
     scene.cycles.use_light_tree = True
-    scene.cycles.max_bounces = _BOUNCES
+    scene.cycles.max_bounces = job["bounces"]
     scene.view_settings.view_transform = "AgX"
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"

@@ -68,6 +68,8 @@ class Drawing:
         None for a view that looks through them. Empty where nothing moves.
     device
         What colour is drawn on; all else is drawn by the processor.
+    bounces
+        How often light is thrown back at most on its way, in the colour picture.
     """
 
     stage: Usd.Stage
@@ -81,6 +83,7 @@ class Drawing:
     moving: frozenset[int] = frozenset()
     moved: Sequence[NDArray[np.float64] | None] = ()
     device: ComputeDevice = CPU
+    bounces: int = 6
 
     def draw(self, work: Path, progress: Progress, announce: Announce = unheard) -> list[list[VisibleInstance] | None]:
         """Draw the frames that are not finished.
@@ -215,6 +218,7 @@ class Drawing:
             "to_blender": to_blender.tolist(),
             "samples": self.samples,
             "seed": self.seed,
+            "bounces": self.bounces,
             "device": self.device.kind,
             "moving": sorted(self.moving),
             "frames": jobs,
