@@ -1,0 +1,35 @@
+"""A folder of drawn garages: a folder of strips for each, and which of them were drawn together."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from strips import Strip, read_strips
+
+from garage2usd.errors import ConfigError
+
+__all__ = ["read_drawn", "write_drawn"]
+
+_DRAWN_FILE = "drawn.json"
+
+
+def write_drawn(folder: Path, garages: Sequence[Path]) -> None:
+    """Write which garages a recipe made last, in its order."""
+    (folder / _DRAWN_FILE).write_text(
+        json.dumps([garage.name for garage in garages], indent=1) + "\n", encoding="utf-8"
+    )
+
+
+def read_drawn(folder: Path) -> list[list[Strip]]:
+    """The strips of each garage that a recipe made last, in its order.
+
+    Raises
+    ------
+    ConfigError
+        If nothing was drawn there, or not all of it is there.
+    """
+    try:
+        names = json.loads((folder / _DRAWN_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        raise ConfigError("drawn", str(folder), f"a folder with {_DRAWN_FILE}, which `real.py draw` writes") from None
+    return [read_strips(folder / name) for name in names]

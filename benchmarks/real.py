@@ -1,0 +1,168 @@
+"""What drawn garages are worth to a detector that learns from them and is tested on photographs.
+
+Usage: python benchmarks/real.py FOLDER [-o OUT]                draws, trains on each teacher, tests, writes the table
+       python benchmarks/real.py draw RECIPE -o DRAWN           draws the strips of a recipe's garages
+       python benchmarks/real.py train FOLDER [--drawn DRAWN]   trains on those, or on photographs of the other garages
+
+FOLDER has photographs as `strips` tells; how to get some says ``docs/guides/real_pictures.md``. Drawing needs the
+extras blender and dataset, training what ``real_requirements.txt`` names.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drawn_folder import read_drawn, write_drawn
+from strips import Strip, read_strips
+
+from garage2usd.errors import ConfigError, Garage2UsdError
+
+if TYPE_CHECKING:
+    from teachers import Outcome, Teacher
+
+HERE = Path(__file__).parent
+RECIPES = {"one look": HERE / "one_look.toml", "drawn looks": HERE / "drawn_looks.toml"}
+ASIDE, LEAST_WITH_ASIDE = 4, 20
+"""Of more garages than that so many are not learnt from: what is found in them is drawn."""
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Do what is asked for; without a command, all."""
+    commands = {"draw": _draw, "train": _train, "all": _all}
+    if arguments and arguments[0] not in {*commands, "-h", "--help"}:
+        arguments = ["all", *arguments]
+    asked = _parser().parse_args(arguments)
+    try:
+        commands[asked.command](asked)
+    except Garage2UsdError as error:
+        sys.exit(f"error: {error}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    draw = commands.add_parser("draw", help="strips of a recipe's garages")
+    draw.add_argument("recipe", type=Path)
+    draw.add_argument("-o", "--output", type=Path, required=True)
+    train = commands.add_parser("train", help="one teacher")
+    train.add_argument("--drawn", type=Path, action="append", help="what draw wrote; several are learnt from together")
+    everything = commands.add_parser("all", help="draw, and train on each teacher")
+    for command in (train, everything):
+        command.add_argument("folder", metavar="FOLDER", type=Path, help="photographs")
+        command.add_argument("-o", "--output", type=Path, default=Path("out/real"), help="gets table and pictures")
+        command.add_argument("--runs", type=int, default=3, help="trainings of each teacher")
+        command.add_argument("--steps", type=int, default=1000, help="of each training")
+    for command in (draw, everything):
+        command.add_argument("--garages", type=int, default=154)
+        command.add_argument("--pictures", type=int, default=12, help="of each garage at most")
+        command.add_argument("--workers", type=int, default=2)
+        command.add_argument("--version", default="", help="garages drawn with another are drawn anew")
+    return parser
+
+
+def _draw(asked: argparse.Namespace) -> None:
+    _drawn(asked.recipe, asked.output, asked)
+
+
+def _drawn(recipe: Path, folder: Path, asked: argparse.Namespace) -> None:
+    """Draw the strips of a recipe's garages, and say how far it is."""
+    # only drawing needs Blender and what data sets do
+    from drawn_strips import StripSettings, draw_strips  # noqa: PLC0415
+
+    from garage2usd.datasets import load_recipe  # noqa: PLC0415
+
+    settings = StripSettings(pictures=asked.pictures)
+    places: list[Path] = []
+    pictures, cpu_s, start = 0, 0.0, time.monotonic()
+    for drawn in draw_strips(
+        load_recipe(recipe), asked.garages, folder, version=asked.version, settings=settings, workers=asked.workers
+    ):
+        places.append(drawn.folder)
+        write_drawn(folder, places)
+        pictures, cpu_s = pictures + drawn.pictures, cpu_s + drawn.cpu_s
+        each = f"{cpu_s / pictures:.2f} processor seconds each, {time.monotonic() - start:.0f} s"
+        print(f"{len(places)} of {asked.garages} garages, {pictures} pictures, {each}", flush=True)
+
+
+def _train(asked: argparse.Namespace) -> None:
+    photographs = read_strips(asked.folder)
+    if not asked.drawn:
+        _report([_taught_by_photographs(photographs, asked)], asked)
+    else:
+        names = " and ".join(folder.name for folder in asked.drawn)
+        _report([_taught_by_drawn(names, asked.drawn, photographs, asked)], asked)
+
+
+def _all(asked: argparse.Namespace) -> None:
+    photographs = read_strips(asked.folder)
+    outcomes = []
+    for name, recipe in RECIPES.items():
+        folder = asked.output / name.replace(" ", "_")
+        try:
+            _drawn(recipe, folder, asked)
+        except ConfigError as error:
+            print(f"{name} left out: {error}", flush=True)  # of a version without them
+            continue
+        outcomes.append(_taught_by_drawn(name, [folder], photographs, asked))
+        _report(outcomes, asked)
+    _report([*outcomes, _taught_by_photographs(photographs, asked)], asked)
+
+
+def _taught_by_photographs(photographs: list[Strip], asked: argparse.Namespace) -> "Outcome":
+    from teachers import photographs_of_others  # noqa: PLC0415 - only training needs what networks do
+
+    return _outcome(photographs_of_others(photographs), photographs, [], asked)
+
+
+def _taught_by_drawn(
+    name: str, folders: Sequence[Path], photographs: list[Strip], asked: argparse.Namespace
+) -> "Outcome":
+    from teachers import Teacher  # noqa: PLC0415 - only training needs what networks do
+
+    learnt, aside = [], []
+    for folder in folders:
+        garages = read_drawn(folder)
+        kept = len(garages) - ASIDE if len(garages) > LEAST_WITH_ASIDE else len(garages)
+        learnt += [strip for garage in garages[:kept] for strip in garage]
+        aside += [strip for garage in garages[kept:] for strip in garage]
+    everything = frozenset(strip.garage for strip in photographs)
+    return _outcome(Teacher(name, [(learnt, everything)]), photographs, aside, asked)
+
+
+def _outcome(teacher: "Teacher", photographs: list[Strip], aside: list[Strip], asked: argparse.Namespace) -> "Outcome":
+    """Train and test, and draw what is found in photographs and in drawn strips that nothing was learnt from."""
+    from detections_sheet import write_sheet  # noqa: PLC0415
+    from teachers import TOGETHER, Training, measured  # noqa: PLC0415 - only training needs what networks do
+
+    def tell(outcome: "Outcome") -> None:
+        said = ", ".join(f"{garage} {scores[-1].average_precision:.3f}" for garage, scores in outcome.scores.items())
+        best, run = outcome.scores[TOGETHER][-1].best_f1, len(outcome.scores[TOGETHER])
+        print(f"{teacher.name}, run {run}: AP {said}; best F1 {best:.3f}; {time.monotonic() - start:.0f} s", flush=True)
+
+    start = time.monotonic()
+    asked.output.mkdir(parents=True, exist_ok=True)
+    training = Training(steps=asked.steps)
+    outcome = measured(teacher, photographs, runs=asked.runs, training=training, tell=tell)
+    threshold = outcome.scores[TOGETHER][-1].threshold
+    stem = teacher.name.replace(" ", "_")
+    found = [outcome.found[strip.name] for strip in photographs]
+    write_sheet(photographs, found, threshold, asked.output / f"{stem}_in_photographs.png")
+    if aside:
+        write_sheet(aside, outcome.networks[0].detect(aside), threshold, asked.output / f"{stem}_in_drawn.png")
+    return outcome
+
+
+def _report(outcomes: Sequence["Outcome"], asked: argparse.Namespace) -> None:
+    """Write the table of what is measured so far."""
+    from teachers import table  # noqa: PLC0415 - only training needs what networks do
+
+    text = table(outcomes)
+    (asked.output / "table.md").write_text(f"{text}\n", encoding="utf-8")
+    print(text, flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
