@@ -15,10 +15,10 @@ _LEAST_CONFIDENCE = 0.03
 
 
 def corner_map(corners_px: NDArray[np.float64]) -> NDArray[np.float32]:
-    """1 at corners, shape (n, 2), and less the farther from them; float32, shape `MAP_SIZE`."""
-    rows, columns = np.mgrid[: MAP_SIZE[0], : MAP_SIZE[1]] + 0.5
+    """1 in the cells that hold corners, shape (n, 2), and less the farther from them; float32, shape `MAP_SIZE`."""
+    rows, columns = np.mgrid[: MAP_SIZE[0], : MAP_SIZE[1]]
     heat = np.zeros(MAP_SIZE)
-    for column, row in corners_px / STRIDE_PX:
+    for column, row in np.minimum(corners_px // STRIDE_PX, np.array(MAP_SIZE[::-1]) - 1):
         apart = (columns - column) ** 2 + (rows - row) ** 2
         heat = np.maximum(heat, np.exp(-apart / (2 * _PEAK_SD_CELLS**2)))
     return heat.astype(np.float32)

@@ -23,8 +23,6 @@ __all__ = ["CornerNetwork", "Training", "train"]
 
 _FIRST_LOGIT = -3.0
 """Of all cells before anything is learnt: corners are few."""
-_AT_CORNER = 0.8
-"""A cell whose peak is higher than this is at a corner."""
 _AT_ONCE = 32
 _TOLD_STEPS = 100
 
@@ -139,7 +137,7 @@ def _loss(parameters: optax.Params, x: jax.Array, y: jax.Array) -> jax.Array:
     """CenterNet's focal loss for each corner."""
     logits = _Layers().apply(parameters, x)
     confidence = nn.sigmoid(logits)
-    at_corner = y > _AT_CORNER
+    at_corner = y == 1
     gained = (1 - confidence) ** 2 * nn.log_sigmoid(logits)
     spared = (1 - y) ** 4 * confidence**2 * nn.log_sigmoid(-logits)
     return -jnp.where(at_corner, gained, spared).sum() / (at_corner.sum() + 1.0)

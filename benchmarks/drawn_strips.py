@@ -97,7 +97,7 @@ def draw_strips(
     settings
         How they are drawn.
     workers
-        How many garages are drawn at a time.
+        How many garages are drawn at a time, each in a process of its own if there are several.
 
     Yields
     ------
@@ -106,6 +106,9 @@ def draw_strips(
     """
     folder.mkdir(parents=True, exist_ok=True)
     draw = partial(_drawn, recipe, folder=folder, version=version, settings=settings)
+    if workers == 1:
+        yield from map(draw, range(garages))
+        return
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
         yield from pool.map(draw, range(garages))
 
@@ -163,7 +166,19 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
             (finished / Picture.COLOUR / place.name).rename(strips / place)
             named[str(place)] = corners[view.name]
         write_strips(strips, named)
-        about = {"seed": config.seed, "pictures": len(views), "cpu_s": round(_cpu_s() - begun_s, 1)}
+        about = {
+            "seed": config.seed,
+            "pictures": len(views),
+            "cpu_s": round(_cpu_s() - begun_s, 1),
+            "views": {
+                str(name): {
+                    "metres_per_px": pose.camera.metres_per_px,
+                    "position_m": pose.camera.position_m,
+                    "vehicle_to_world": pose.vehicle_to_world.tolist(),
+                }
+                for name, pose in zip(named, poses, strict=True)
+            },
+        }
         (strips / _ABOUT_FILE).write_text(json.dumps(about) + "\n", encoding="utf-8")
         shutil.rmtree(folder / key, ignore_errors=True)  # of a drawing that was broken off
         strips.rename(folder / key)

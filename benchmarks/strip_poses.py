@@ -13,8 +13,7 @@ from strips import SIDES
 from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.config.maps import DriveConfig
 from garage2usd.recordings.way import Way
-from garage2usd.sensors.camera import Camera
-from garage2usd.sensors.rig import Rig
+from garage2usd.sensors.rig import AroundViewCamera, Rig
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.cameras import DRIVE_NAME
 
@@ -48,7 +47,7 @@ class Pose:
         From ISO 8855's axes to the stage's, in metres, for column vectors; float64, shape (4, 4).
     """
 
-    camera: Camera
+    camera: AroundViewCamera
     vehicle_to_world: Matrix
 
     @property
@@ -63,7 +62,7 @@ class StripPoses:
 
     def __init__(self, stage: Usd.Stage, path: Path, rig: Rig, random: np.random.Generator) -> None:
         self._random, self._body = random, rig.body
-        self._cameras = {camera.name: camera for camera in rig.cameras}
+        self._cameras = {camera.name: camera for camera in rig.sensors if isinstance(camera, AroundViewCamera)}
         self._slots_m = np.stack([slot.corners_m for slot in read_slots(stage).slots])
         self._solids = subject_of_stage(stage, source=str(path)).solids
         way = Way(stage, path, DRIVE_NAME, _DRIVE_STEP_M, DriveConfig())
