@@ -55,9 +55,8 @@ class _Layers(nn.Module):
         fine = _block(x, 48)
         x = _block(fine, 64, strides=2)
         x = _block(x, 64, dilation=2)
-        x = _block(x, 64, dilation=4)
-        x = jax.image.resize(x, (*fine.shape[:3], x.shape[-1]), "nearest")
-        x = _block(jnp.concatenate([x, fine], axis=-1), 48)
+        x = _block(x, 48, dilation=4)
+        x = _block(fine + jax.image.resize(x, fine.shape, "nearest"), 48)
         return nn.Conv(1, (1, 1), bias_init=nn.initializers.constant(_FIRST_LOGIT))(x)[..., 0]
 
 

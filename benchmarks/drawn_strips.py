@@ -53,7 +53,7 @@ class StripSettings:
         Of the colour picture, which is denoised.
     """
 
-    pictures: int = 12
+    pictures: int = 11
     samples: int = 4
     bounces: int = 3
 

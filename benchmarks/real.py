@@ -57,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--steps", type=int, default=1000, help="of each training")
     for command in (draw, everything):
         command.add_argument("--garages", type=int, default=154)
-        command.add_argument("--pictures", type=int, default=12, help="of each garage at most")
+        command.add_argument("--pictures", type=int, default=11, help="of each garage at most")
         command.add_argument("--workers", type=int, default=2)
         command.add_argument("--version", default="", help="garages drawn with another are drawn anew")
     return parser
@@ -90,7 +90,7 @@ def _drawn(recipe: Path, folder: Path, asked: argparse.Namespace) -> None:
 def _train(asked: argparse.Namespace) -> None:
     photographs = read_strips(asked.folder)
     if not asked.drawn:
-        _report([_taught_by_photographs(photographs, asked)], asked)
+        _report([_taught_by_photographs(photographs, [], asked)], asked)
     else:
         names = " and ".join(folder.name for folder in asked.drawn)
         _report([_taught_by_drawn(names, asked.drawn, photographs, asked)], asked)
@@ -98,7 +98,8 @@ def _train(asked: argparse.Namespace) -> None:
 
 def _all(asked: argparse.Namespace) -> None:
     photographs = read_strips(asked.folder)
-    outcomes = []
+    outcomes: list[Outcome] = []
+    aside: list[Strip] = []
     for name, recipe in RECIPES.items():
         folder = asked.output / name.replace(" ", "_")
         try:
@@ -108,13 +109,14 @@ def _all(asked: argparse.Namespace) -> None:
             continue
         outcomes.append(_taught_by_drawn(name, [folder], photographs, asked))
         _report(outcomes, asked)
-    _report([*outcomes, _taught_by_photographs(photographs, asked)], asked)
+        aside += _learnt_and_aside([folder])[1]
+    _report([*outcomes, _taught_by_photographs(photographs, aside, asked)], asked)
 
 
-def _taught_by_photographs(photographs: list[Strip], asked: argparse.Namespace) -> "Outcome":
+def _taught_by_photographs(photographs: list[Strip], aside: list[Strip], asked: argparse.Namespace) -> "Outcome":
     from teachers import photographs_of_others  # noqa: PLC0415 - only training needs what networks do
 
-    return _outcome(photographs_of_others(photographs), photographs, [], asked)
+    return _outcome(photographs_of_others(photographs), photographs, aside, asked)
 
 
 def _taught_by_drawn(
@@ -122,14 +124,21 @@ def _taught_by_drawn(
 ) -> "Outcome":
     from teachers import Teacher  # noqa: PLC0415 - only training needs what networks do
 
-    learnt, aside = [], []
+    learnt, aside = _learnt_and_aside(folders)
+    everything = frozenset(strip.garage for strip in photographs)
+    return _outcome(Teacher(name, [(learnt, everything)]), photographs, aside, asked)
+
+
+def _learnt_and_aside(folders: Sequence[Path]) -> tuple[list[Strip], list[Strip]]:
+    """The strips of drawn garages that are learnt from, and those of the last garages of each folder, which are not."""
+    learnt: list[Strip] = []
+    aside: list[Strip] = []
     for folder in folders:
         garages = read_drawn(folder)
         kept = len(garages) - ASIDE if len(garages) > LEAST_WITH_ASIDE else len(garages)
         learnt += [strip for garage in garages[:kept] for strip in garage]
         aside += [strip for garage in garages[kept:] for strip in garage]
-    everything = frozenset(strip.garage for strip in photographs)
-    return _outcome(Teacher(name, [(learnt, everything)]), photographs, aside, asked)
+    return learnt, aside
 
 
 def _outcome(teacher: "Teacher", photographs: list[Strip], aside: list[Strip], asked: argparse.Namespace) -> "Outcome":
