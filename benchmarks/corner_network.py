@@ -24,7 +24,7 @@ __all__ = ["CornerNetwork", "Training", "train"]
 _FIRST_LOGIT = -3.0
 """Of all cells before anything is learnt: corners are few."""
 _AT_ONCE = 32
-_TOLD_STEPS = 100
+_TOLD_STEPS = 250
 
 
 @dataclass(frozen=True)

@@ -151,10 +151,13 @@ def _outcome(teacher: "Teacher", photographs: list[Strip], aside: list[Strip], a
         best, run = outcome.scores[TOGETHER][-1].best_f1, len(outcome.scores[TOGETHER])
         print(f"{teacher.name}, run {run}: AP {said}; best F1 {best:.3f}; {time.monotonic() - start:.0f} s", flush=True)
 
+    def progress(step: str, done: int, total: int) -> None:
+        print(f"{step} on {teacher.name}: {done} of {total} steps, {time.monotonic() - start:.0f} s", file=sys.stderr)
+
     start = time.monotonic()
     asked.output.mkdir(parents=True, exist_ok=True)
     training = Training(steps=asked.steps)
-    outcome = measured(teacher, photographs, runs=asked.runs, training=training, tell=tell)
+    outcome = measured(teacher, photographs, runs=asked.runs, training=training, progress=progress, tell=tell)
     threshold = outcome.scores[TOGETHER][-1].threshold
     stem = teacher.name.replace(" ", "_")
     found = [outcome.found[strip.name] for strip in photographs]
