@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from garage2usd.assets.mesh import Face
 
 __all__ = [
+    "bent",
     "box_faces",
     "disc_faces",
     "frame_faces",
@@ -26,6 +27,48 @@ _STRAIGHT = 1e-9
 def moved(faces: Sequence[Face], by: ArrayLike) -> list[Face]:
     """The same faces elsewhere, by a vector (x, y, z)."""
     return [face + np.asarray(by) for face in faces]
+
+
+def bent(faces: Sequence[Face], radius_m: float, *, segments: int) -> list[Face]:
+    """Faces before the plane z = 0, bent around a prism that is as good as round, whose edge touches it at x = 0.
+
+    Parameters
+    ----------
+    faces
+        Convex; X becomes the way around, Y stays, Z is how far out a point lies. Cut where an edge of the prism is.
+    radius_m
+        Of the prism's edges around its axis, which runs along Y behind the plane.
+    segments
+        Sides of the prism.
+    """
+    angle = 2 * np.pi / segments
+    side_m = 2 * radius_m * np.sin(angle / 2)
+    found = []
+    for face in faces:
+        first, last = int(np.floor(face[:, 0].min() / side_m)), int(np.ceil(face[:, 0].max() / side_m))
+        for index in range(first, last):
+            piece = _beyond(_beyond(face, index * side_m, 1.0), (index + 1) * side_m, -1.0)
+            if len(piece) <= len(("x", "z")):
+                continue
+            share = piece[:, :1] / side_m - index
+            ends = np.array([(np.sin(at * angle), np.cos(at * angle)) for at in (index, index + 1)])
+            place = (ends[0] * (1 - share) + ends[1] * share) * (radius_m + piece[:, 2:])
+            found.append(np.stack([place[:, 0], piece[:, 1], place[:, 1] - radius_m], axis=1))
+    return found
+
+
+def _beyond(face: Face, at: float, sign: float) -> Face:
+    """What of a convex face has an X of at least `at`, or of at most `at` where the sign is -1."""
+    kept = []
+    for start, end in zip(face, np.roll(face, -1, axis=0), strict=True):
+        near, far = sign * (start[0] - at), sign * (end[0] - at)
+        if near >= 0:
+            kept.append(start)
+        if near * far < 0:
+            crossing = start + (end - start) * (near / (near - far))
+            crossing[0] = at
+            kept.append(crossing)
+    return np.array(kept).reshape(-1, 3)
 
 
 def box_faces(low: ArrayLike, high: ArrayLike, *, without: str = "") -> list[Face]:

@@ -251,11 +251,30 @@ MATERIALS: dict[str, Material] = {
     "ceiling_concrete": Material(
         colour_texture="ceiling_colour.jpg", roughness=0.9, normal_texture="ceiling_normal.png", repeat_m=8.1
     ),
+    "column_concrete": Material(
+        colour_texture="wall_colour.jpg",
+        packed_texture="wall_packed.png",
+        normal_texture="wall_normal.png",
+        repeat_m=8.1,
+        repeat_up_m=4.05,
+    ),
     "hazard": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING),
+    "guard_yellow_black": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING),
+    "guard_red_white": Material(
+        colour_texture="guard_red_white.jpg", roughness=0.45, repeat_m=0.5, touch=Touch.COATING
+    ),
+    "guard_blue_yellow": Material(
+        colour_texture="guard_blue_yellow.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING
+    ),
     "steel_galvanised": Material(
         colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL
     ),
     "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL),
+    "service_steel": Material(
+        colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL
+    ),
+    "service_hanger": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL),
+    "service_pipe": Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL),
     "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3, touch=Touch.STEEL),
     "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4, touch=Touch.STEEL),
     "tube_glow": Material(

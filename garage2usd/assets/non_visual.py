@@ -58,7 +58,7 @@ _BASES = {
 """What their touch does not tell; the sky behind doors is made of nothing."""
 _TRANSPARENT = frozenset({"cabinet_glass", "glass"})
 _RETROREFLECTIVE = frozenset({"number_plate", "sign_blue", "sign_ring"})
-_BARE = frozenset({"steel_galvanised"})
+_BARE = frozenset({"service_steel", "steel_galvanised"})
 
 
 def _non_visual(key: str, material: Material) -> NonVisual:

@@ -13,6 +13,7 @@ from garage2usd.settings import Settings
 
 __all__ = [
     "NATURAL",
+    "NO_DADO",
     "BandForm",
     "CeilingFinish",
     "CeilingLook",
@@ -40,6 +41,8 @@ __all__ = [
 
 NATURAL = "natural"
 """The colour that a material has by itself."""
+NO_DADO = "none"
+"""Instead of its colour: there is none."""
 _HEX = re.compile(r"#[0-9a-f]{6}")
 _COLOURS = {
     "white": "#dedede",
@@ -276,12 +279,22 @@ class WallsLook(Settings):
     """'raw' concrete, 'painted', 'blockwork' or 'panels'."""
     colour: NaturalColour = NATURAL
     """Of the wall: a colour, or 'natural'."""
-    dado: Annotated[str, AfterValidator(lambda value: value if value in {NATURAL, "none"} else _colour(value))] = (
+    dado: Annotated[str, AfterValidator(lambda value: value if value in {NATURAL, NO_DADO} else _colour(value))] = (
         NATURAL
     )
     """The painted band at its foot: 'natural' for blue-green under a yellow stripe, a colour, or 'none'."""
     dado_height_m: float = Field(1.1, ge=0.3, le=1.8)
     """How high it reaches."""
+
+    @property
+    def dado_m(self) -> float:
+        """How high it reaches, 0 without any."""
+        return 0.0 if self.dado == NO_DADO else self.dado_height_m
+
+    @property
+    def has_stripe(self) -> bool:
+        """Whether there is a stripe over it: over the usual one alone."""
+        return self.dado == NATURAL
 
 
 class CeilingFinish(StrEnum):

@@ -13,6 +13,7 @@ from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
+from garage2usd.layout.boards import with_boards
 from garage2usd.layout.building import columns, ground_inside, outer_walls
 from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.clearance import check_carriageways
@@ -200,7 +201,8 @@ def lay_out(
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
-    shell = outer_walls(grid, fittings)
+    shell = outer_walls(grid, fittings, look.walls)
+    pillars = columns(grid, bay, fittings, look.columns, levels.beam_depth_m)
     shared = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=shared)
 
@@ -238,24 +240,23 @@ def lay_out(
         yield bumps
         yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
 
-        pillars = columns(structure, bay, fittings)
         yield (ceiling_panel(tile, fittings) for tile in grid)
         yield tubes
         yield beams(structure, bay, ceiling, levels.beam_depth_m)
-        yield ducts(grid, ceiling, levels)
+        yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
         yield sprinklers(grid, ceiling, levels)
         yield exit_signs(grid, graph, fittings, levels)
-        yield mirrors(grid, pillars, bay.column_size_m, fittings, levels)
+        yield mirrors(grid, pillars, fittings, levels)
 
-        walls = with_ramps(shell, ground_inside(structure), fittings)
-        yield walls
+        yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
         yield barriers(walls, fittings)
         yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)
-        yield (blocks := core_placements(structure, cores, ceiling))
-        yield pillars
+        yield (blocks := core_placements(structure, cores, ceiling, look.walls))
+        hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
+        yield with_boards(pillars, hung)
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
-        yield mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
+        yield hung
 
     return Layout(
         structure,

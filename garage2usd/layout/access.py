@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 
 from garage2usd.config import FittingsConfig
+from garage2usd.config.look import WallsLook
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, of_spec, placed
@@ -30,7 +31,9 @@ _LIGHTS_AT = (0.25, 0.6)
 _ARM_HALF_M, _ARM_GAP_M = 0.04, 0.01
 
 
-def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig) -> list[Placement]:
+def with_ramps(
+    walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig, look: WallsLook
+) -> list[Placement]:
     """The outer walls with every door opened behind which a ramp finds room, and the ramps with their sky.
 
     Parameters
@@ -41,6 +44,8 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
         The garage's squares, (x, z) in metres.
     fittings
         Heights, and whether there are ramps.
+    look
+        Of walls.
 
     Notes
     -----
@@ -55,7 +60,7 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
         if not isinstance(wall.spec, PortalSpec):
             opened.append(wall)
             continue
-        spec = _ramp(wall.spec, fittings)
+        spec = _ramp(wall.spec, fittings, look)
         ground = _ground(spec, wall)
         if ground.intersection(taken).area > 1e-6:  # noqa: PLR2004 - they may touch
             opened.append(wall)
@@ -68,7 +73,7 @@ def with_ramps(walls: list[Placement], inside: shapely.Geometry, fittings: Fitti
     return [*opened, *ramps]
 
 
-def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
+def _ramp(portal: PortalSpec, fittings: FittingsConfig, look: WallsLook) -> RampSpec:
     """The ramp behind a door."""
     runs, heights = zip(*fittings.ramp_profile, strict=True)
     rise, transition = heights[-1], heights[2]
@@ -83,6 +88,8 @@ def _ramp(portal: PortalSpec, fittings: FittingsConfig) -> RampSpec:
         cover_end_m=round(cover_end, 6),
         cover_height_m=portal.height_m,
         wall_top_m=round(rise + _PARAPET_M, 6),
+        dado_m=look.dado_m,
+        has_stripe=look.has_stripe,
     )
 
 

@@ -1,5 +1,6 @@
 """The building's shell: walls along the contour, vehicle doors, obstacles and columns."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -7,6 +8,7 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.config.look import ColumnSection, ColumnsLook, WallsLook
 from garage2usd.config.site import DOOR_FRAME_M, DOOR_JAMB_M
 from garage2usd.layout.clearance import check_clear_width
 from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
@@ -24,24 +26,44 @@ _MAX_DOOR_WIDTH_M = 6.0
 _DOOR_HEAD_M = 0.3
 
 
-def columns(structure: Structure, bay: BayConfig, fittings: FittingsConfig) -> list[Placement]:
+def columns(
+    grid: TileGrid, bay: BayConfig, fittings: FittingsConfig, look: ColumnsLook, beam_depth_m: float
+) -> list[Placement]:
     """A column on every inner corner of the squares, but none in the middle of lanes and none in a wall.
 
-    Half a column reaches into each square around its corner; stalls and carriageways keep that much clear.
+    Half a column reaches into each square around its corner; stalls and carriageways keep that much clear, whatever
+    the section within. A rectangular one is long along the stalls around it.
     """
+    structure = grid.structure
     cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
     around = np.stack([cells[:-1, :-1], cells[:-1, 1:], cells[1:, :-1], cells[1:, 1:]])
     inner = (around != Cell.OBSTACLE).all(axis=0)
     off_lane = (around == Cell.FREE).any(axis=0)
-    spec = ColumnSpec(bay.column_size_m, fittings.ceiling_height_m)
+    spec = ColumnSpec(
+        bay.column_size_m,
+        fittings.ceiling_height_m,
+        section=look.section,
+        guard=look.guard,
+        guard_height_m=look.guard_height_m,
+    )
+    if not spec.fills_square:
+        spec = replace(spec, head_m=beam_depth_m)
+    is_turned = look.section is ColumnSection.RECTANGULAR
     return [
         Placement(
             f"Column_r{row:02d}_c{col:02d}",
-            spec,
+            replace(spec, is_long_along_x=True) if is_turned and _stalls_along_x(grid, row, col) else spec,
             (float(structure.column_edges_m[col]), 0.0, float(structure.row_edges_m[row])),
         )
         for row, col in np.argwhere(inner & off_lane).tolist()
     ]
+
+
+def _stalls_along_x(grid: TileGrid, row: int, col: int) -> bool:
+    """Whether more of the stalls on the squares around a corner are long along X than along Z."""
+    around = [(row + down, col + right) for down, right in product((-1, 0), (-1, 0))]
+    edges = [place.row.edge for square in around for place in grid.stall_places.get(square, ())]
+    return sum(1 if edge.along_x else -1 for edge in edges) < 0
 
 
 def ground_inside(structure: Structure) -> shapely.Geometry:
@@ -51,7 +73,7 @@ def ground_inside(structure: Structure) -> shapely.Geometry:
     return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
 
 
-def outer_walls(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
+def outer_walls(grid: TileGrid, fittings: FittingsConfig, look: WallsLook) -> list[Placement]:
     """A wall outside every edge of the contour, a vehicle door behind each portal, posts in convex corners.
 
     In a reflex corner the wall along X gives way to the one along Z by its thickness.
@@ -67,7 +89,7 @@ def outer_walls(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
     walls: list[Placement] = []
     for tile in grid:
         walls += [
-            _wall(tile, edge, outside, fittings, has_door=doors.get(tile.square) is edge)
+            _wall(tile, edge, outside, fittings, look, has_door=doors.get(tile.square) is edge)
             for edge in Edge
             if outside[edge.beyond((tile.square[0] + 1, tile.square[1] + 1))]
         ]
@@ -83,7 +105,15 @@ def outer_walls(grid: TileGrid, fittings: FittingsConfig) -> list[Placement]:
     return walls
 
 
-def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: FittingsConfig, *, has_door: bool) -> Placement:
+def _wall(
+    tile: Tile,
+    edge: Edge,
+    outside: NDArray[np.bool_],
+    fittings: FittingsConfig,
+    look: WallsLook,
+    *,
+    has_door: bool,
+) -> Placement:
     row, col = tile.square
     dr, dc = NEIGHBOUR_STEPS[edge]
     x, z = tile.x_m + dc * tile.half_x_m, tile.z_m + dr * tile.half_z_m
@@ -92,7 +122,9 @@ def _wall(tile: Tile, edge: Edge, outside: NDArray[np.bool_], fittings: Fittings
         reflex = [not outside[row + 1 + dr, col + 1 + side] for side in (-1, 1)]
         length -= fittings.wall_thickness_m * sum(reflex)
         x += fittings.wall_thickness_m / 2 * (reflex[0] - reflex[1])
-    spec: WallSpec | PortalSpec = WallSpec(round(length, 6), fittings.ceiling_height_m, fittings.wall_thickness_m)
+    spec: WallSpec | PortalSpec = WallSpec(
+        round(length, 6), fittings.ceiling_height_m, fittings.wall_thickness_m, look.dado_m, look.has_stripe
+    )
     if has_door:
         door_width_m = min(_MAX_DOOR_WIDTH_M, spec.length_m - 2 * DOOR_JAMB_M)
         check_clear_width(tile, door_width_m - 2 * DOOR_FRAME_M, along_x=dr != 0)

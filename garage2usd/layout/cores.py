@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from garage2usd.config import GarageConfig
+from garage2usd.config.look import NATURAL, WallsLook
 from garage2usd.layout.placement import Placement, box_inside, edge_yaw_rad, placed, rounded, stall_name, to_world
 from garage2usd.layout.tiles import Tile
 from garage2usd.objects.obstacle import ObstacleSpec
@@ -107,23 +108,23 @@ def obstacle_cores(structure: Structure) -> list[Core]:
     return cores
 
 
-def core_placements(structure: Structure, cores: list[Core], height_m: float) -> list[Placement]:
+def core_placements(structure: Structure, cores: list[Core], height_m: float, look: WallsLook) -> list[Placement]:
     """A concrete block on every obstacle inside the contour, with a door where it is a core, and all other cores."""
+    dado_m = None if look.dado == NATURAL else look.dado_m
     x, z = structure.column_edges_m, structure.row_edges_m
     by_square = {core.square: core for core in cores}
     placements = []
     for row, col in np.argwhere((structure.cells == Cell.OBSTACLE) & ~outside_squares(structure.cells)).tolist():
         if (row, col) not in by_square:
-            spec = ObstacleSpec(
-                round(float(x[col + 1] - x[col]), 6), round(float(z[row + 1] - z[row]), 6), height_m, has_door=False
-            )
+            width, depth = round(float(x[col + 1] - x[col]), 6), round(float(z[row + 1] - z[row]), 6)
+            spec = ObstacleSpec(width, depth, height_m, has_door=False, dado_m=dado_m)
             position = (float(x[col] + x[col + 1]) / 2, 0.0, float(z[row] + z[row + 1]) / 2)
             placements.append(Placement(f"Obstacle_r{row:02d}_c{col:02d}", spec, position))
     for core in cores:
         row, col = core.square
         kind = "Core" if core.recess_m else "Obstacle"
         name = f"{kind}_r{row:02d}_c{col:02d}" + (f"_{core.edge.name.capitalize()}" if core.recess_m else "")
-        spec = ObstacleSpec(core.width_m, core.depth_m, height_m)
+        spec = ObstacleSpec(core.width_m, core.depth_m, height_m, dado_m=dado_m)
         placements.append(placed(name, spec, core.centre_m, yaw_rad=edge_yaw_rad(core.edge)))
     return placements
 

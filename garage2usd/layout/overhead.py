@@ -1,15 +1,16 @@
 """Exit signs over the aisles, and mirrors at junctions."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import networkx as nx
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
-from garage2usd.layout.placement import Placement, edge_yaw_rad, placed
+from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed
 from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
@@ -69,7 +70,6 @@ def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float
 def mirrors(
     grid: TileGrid,
     columns: Iterable[Placement],
-    column_size_m: float,
     fittings: FittingsConfig,
     levels: CeilingLevels,
 ) -> list[Placement]:
@@ -84,14 +84,17 @@ def mirrors(
     highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
     if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
         return []
-    feet = {(round(place.position_m[0], 4), round(place.position_m[2], 4)) for place in columns}
+    feet = {
+        (round(place.position_m[0], 4), round(place.position_m[2], 4)): spec
+        for place, spec in of_spec(columns, ColumnSpec)
+    }
     height = round(min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest), 6)
     found: list[Placement] = []
     for tile in grid:
         if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
             continue
         unserved = {edge for edge in lane_edges(tile) if _is_blind(edge, tile, grid)}
-        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet, column_size_m))}
+        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet))}
         while mounts:
             corner = max(mounts, key=lambda corner: len(unserved.intersection(_served(corner))))
             inset, arm = mounts.pop(corner)
@@ -120,16 +123,18 @@ def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
 
 
 def _mount_m(
-    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: set[Point], column_size_m: float
+    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: Mapping[Point, ColumnSpec]
 ) -> tuple[float, float] | None:
     """How far a mirror's middle is from both sides of a corner, and how long its arm; None if nothing holds it."""
     side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
     point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
-    if point in feet:
+    column = feet.get(point)
+    if column is not None:
         # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
-        nearest = column_size_m / 2 + _MIRROR_FROM_COLUMN_M
+        nearest = column.size_m / 2 + _MIRROR_FROM_COLUMN_M
         inset = max(nearest, _MIRROR_RADIUS_M)
-        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2), 6)
+        beyond = ColumnSpec(column.size_m, column.height_m).diagonal_m - column.diagonal_m
+        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2) + beyond, 6)
     if any(grid.neighbour(tile, edge) is None for edge in corner):
         return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
     if grid.neighbour(tile, *corner) is None:

@@ -1,11 +1,12 @@
 """Lines that hang along the aisles: ventilation ducts, sprinkler pipes, cable trays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.config.look import CeilingLook
 from garage2usd.layout.ceiling import (
     DUCT_HEIGHT_M,
     DUCT_WIDTH_M,
@@ -91,7 +92,7 @@ class _Piece:
     joins: bool = False
 
 
-def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: CeilingLook) -> list[Placement]:
     """Ventilation ducts along the aisles, on the side where no pipe hangs."""
     if levels.duct_top_m is None:
         return []
@@ -99,6 +100,8 @@ def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Place
     for piece in _pieces(_DUCT, grid):
         hangers = _hangers_at_m(piece, grid.setback_m)
         spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
+        if look.round_ducts:
+            spec = replace(spec, is_round=True, joint=piece.step if piece.joins else 0)
         lines.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
     return lines
 

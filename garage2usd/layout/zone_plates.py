@@ -1,6 +1,7 @@
 """Plates with the names of zones, on the sides of columns and on walls."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import starmap
 from typing import NamedTuple
 
@@ -116,6 +117,9 @@ def _on_column(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
     turned = [(*sides[turn:], *sides[:turn]) for turn in range(len(sides))]
     turn = min(range(len(sides)), key=turned.__getitem__)
     spec = ColumnPlatesSpec(turned[turn], column.spec.size_m)
+    if not column.spec.fills_square:
+        far_m = tuple(column.spec.side_m(side + turn) for side in range(len(sides)))
+        spec = replace(spec, sides_m=far_m, is_round=column.spec.is_round)
     x, _, z = column.position_m
     name = column.name.replace("Column", "ZonePlates")
     return [placed(name, spec, (x, z), height_m=_FOOT_M, yaw_rad=edge_yaw_rad(_AROUND[turn]))]

@@ -3,14 +3,14 @@
 from garage2usd.assets import Finish
 from garage2usd.config.look import LookConfig
 from garage2usd.look.axes import Axes
-from garage2usd.look.ceiling import drawn_ceiling
-from garage2usd.look.columns import drawn_columns
+from garage2usd.look.ceiling import ceiling_finishes, drawn_ceiling
+from garage2usd.look.columns import column_finishes, drawn_columns
 from garage2usd.look.floor import drawn_floor, floor_finishes
 from garage2usd.look.lights import drawn_lights
 from garage2usd.look.markings import drawn_markings, paint_finishes
 from garage2usd.look.numbers import drawn_numbers
 from garage2usd.look.signs import drawn_signs
-from garage2usd.look.walls import drawn_walls
+from garage2usd.look.walls import drawn_walls, wall_finishes
 
 __all__ = ["drawn_look", "finishes_of"]
 
@@ -36,4 +36,10 @@ def drawn_look(look: LookConfig, seed: int) -> LookConfig:
 def finishes_of(look: LookConfig) -> dict[str, Finish]:
     """The finishes of a look by the keys of the materials that they stand for; without those that stay as usual."""
     floor = floor_finishes(look.floor)
-    return {**floor, **paint_finishes(look.markings, look.numbers, floor)}
+    return {
+        **floor,
+        **paint_finishes(look.markings, look.numbers, floor),
+        **column_finishes(look.columns),
+        **wall_finishes(look.walls),
+        **ceiling_finishes(look.ceiling),
+    }

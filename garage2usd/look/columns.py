@@ -1,9 +1,11 @@
-"""Which columns are drawn."""
+"""Which columns are drawn, and what they are painted with."""
 
+from garage2usd.assets import Finish
 from garage2usd.config.look import NATURAL, ColumnSection, ColumnsLook, Guard
 from garage2usd.look.axes import Group
+from garage2usd.look.tint import tinted
 
-__all__ = ["drawn_columns"]
+__all__ = ["column_finishes", "drawn_columns"]
 
 
 def drawn_columns(axes: Group) -> ColumnsLook:
@@ -25,3 +27,8 @@ def drawn_columns(axes: Group) -> ColumnsLook:
         ),
         guard_height_m=axes.between("guard_height_m", 0.6, 1.6, 0.2),
     )
+
+
+def column_finishes(columns: ColumnsLook) -> dict[str, Finish]:
+    """What shafts have in the place of bare concrete."""
+    return {} if columns.colour == NATURAL else {"column_concrete": tinted("column_painted", columns.colour)}

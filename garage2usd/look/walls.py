@@ -1,9 +1,18 @@
-"""Which walls are drawn."""
+"""Which walls are drawn, and what they are made of."""
 
-from garage2usd.config.look import NATURAL, WallFinish, WallsLook
+from garage2usd.assets import Finish
+from garage2usd.config.look import NATURAL, NO_DADO, WallFinish, WallsLook
 from garage2usd.look.axes import Group
+from garage2usd.look.tint import tinted
 
-__all__ = ["drawn_walls"]
+__all__ = ["drawn_walls", "wall_finishes"]
+
+_MATERIALS = {
+    WallFinish.RAW: "wall_concrete",
+    WallFinish.PAINTED: "wall_painted",
+    WallFinish.BLOCKWORK: "wall_blockwork",
+    WallFinish.PANELS: "wall_panels",
+}
 
 
 def drawn_walls(axes: Group) -> WallsLook:
@@ -31,3 +40,13 @@ def drawn_walls(axes: Group) -> WallsLook:
         ),
         dado_height_m=axes.between("dado_height_m", 0.5, 1.5, 0.1),
     )
+
+
+def wall_finishes(walls: WallsLook) -> dict[str, Finish]:
+    """What walls, cores and obstacles have in the place of raw concrete, and of the usual dado."""
+    finishes = {}
+    if walls.finish is not WallFinish.RAW or walls.colour != NATURAL:
+        finishes["wall_concrete"] = tinted(_MATERIALS[walls.finish], walls.colour)
+    if walls.dado not in {NATURAL, NO_DADO}:
+        finishes["wall_band"] = tinted("wall_dado", walls.dado)
+    return finishes

@@ -51,8 +51,8 @@ class CableTraySpec(Spec, kind=KIND):
         for left, width in _CABLES_M:
             cables += box_faces((left, low + 0.015, -z), (left + width, low + 0.015 + width, z))
         parts = [
-            make_part("Rails", rails, "steel_galvanised", collider=Collider.BOX),
-            make_part("Rungs", rungs, "steel_galvanised"),
+            make_part("Rails", rails, "service_steel", collider=Collider.BOX),
+            make_part("Rungs", rungs, "service_steel"),
             make_part("Cables", cables, "rubber_black"),
         ]
         hangers: list[Face] = []
@@ -61,5 +61,5 @@ class CableTraySpec(Spec, kind=KIND):
             for side in (-x - 0.03, x + 0.02):
                 hangers += box_faces((side, low, at - 0.005), (side + 0.01, 0.0, at + 0.005))
         if hangers:
-            parts.append(make_part("Hangers", hangers, "steel_dark"))
+            parts.append(make_part("Hangers", hangers, "service_hanger"))
         return Asset(tuple(parts))

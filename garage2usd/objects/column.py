@@ -1,51 +1,267 @@
 """Columns."""
 
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.config.look import ColumnSection, Guard
 from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.outline import Polygon, square
+from garage2usd.objects.outline import Point, Polygon, square
 
-__all__ = ["KIND", "ColumnSpec"]
+__all__ = ["KIND", "ROUND_SEGMENTS", "Board", "ColumnSpec"]
 
 KIND = Kind("column", number=7, label="column", cityscapes="pole", group="Columns")
 
-_HAZARD_TOP_M = 1.2
+ROUND_SEGMENTS = 32
+"""Sides of what stands for a round column."""
 _BEVEL_M = 0.03
+_SHORT = 0.7
+"""Short side of a rectangular section, as a share of the long one."""
+_RUBBER_M = 0.012
+_LEG_M = 0.1
+"""How far a rubber corner reaches along a side."""
+_BLOCK_M = 0.15
+"""Height of its black and yellow blocks, about."""
+_LEAST_BOARD = 0.8
+"""Half a board's width at most, as a share of a round column's radius."""
+_PAINTED = {
+    Guard.YELLOW_BLACK: "guard_yellow_black",
+    Guard.RED_WHITE: "guard_red_white",
+    Guard.BLUE_YELLOW: "guard_blue_yellow",
+}
+
+
+class Board(NamedTuple):
+    """What fills the gap behind an object that hangs where a side of the square would be.
+
+    Attributes
+    ----------
+    side
+        The side that it looks to: 0 for +Z, 1 for +X, 2 for -Z, 3 for -X.
+    left_m, right_m
+        From where to where across that side, from its middle, +X to the right on side 0.
+    low_m, high_m
+        From where to where above the floor.
+    """
+
+    side: int
+    left_m: float
+    right_m: float
+    low_m: float
+    high_m: float
 
 
 @dataclass(frozen=True)
 class ColumnSpec(Spec, kind=KIND):
-    """A square column; origin in the middle of its foot."""
+    """A column; origin in the middle of its foot.
+
+    Attributes
+    ----------
+    size_m
+        Side of the square that holds all of it, which a square column fills.
+    height_m
+        Height.
+    section
+        Shape of the section: round as wide as the square, rectangular as long.
+    is_long_along_x
+        Whether a rectangular one is long along X, else along Z.
+    guard
+        What protects its foot.
+    guard_height_m
+        How high that reaches.
+    head_m
+        Height of the square head, on which beams bear, of a column that does not fill its square.
+    boards
+        What objects hang on where it does not reach the side of the square.
+    """
 
     size_m: float
     height_m: float
+    section: ColumnSection = ColumnSection.SQUARE
+    is_long_along_x: bool = False
+    guard: Guard = Guard.YELLOW_BLACK
+    guard_height_m: float = 1.2
+    head_m: float = 0.0
+    boards: tuple[Board, ...] = ()
+
+    @property
+    def is_round(self) -> bool:
+        """Whether its section is a circle."""
+        return self.section is ColumnSection.ROUND
+
+    @property
+    def fills_square(self) -> bool:
+        """Whether its sides are those of the square."""
+        return self.section is ColumnSection.SQUARE and self.guard is not Guard.RUBBER
+
+    @property
+    def halves_m(self) -> Point:
+        """Half the extent of its shaft along X and Z."""
+        half = self.size_m / 2
+        short = half * _SHORT if self.section is ColumnSection.RECTANGULAR else half
+        x, z = (half, short) if self.is_long_along_x else (short, half)
+        inset = _RUBBER_M if self.guard is Guard.RUBBER else 0.0
+        return round(x - inset, 6), round(z - inset, 6)
+
+    def side_m(self, side: int) -> float:
+        """From the axis to the surface where a side looks, numbered as in `Board`."""
+        return self.halves_m[1 - side % 2]
+
+    @property
+    def diagonal_m(self) -> float:
+        """From the axis to the surface along the square's diagonals."""
+        x, z = self.halves_m
+        if self.is_round:
+            return x
+        return min(min(x, z) * math.sqrt(2), (x + z - _BEVEL_M) / math.sqrt(2))
 
     def asset(self) -> Asset:
-        """A shaft with bevelled edges over a hazard band."""
-        foot = _bevelled_prism(self.size_m / 2, 0.0, _HAZARD_TOP_M, _BEVEL_M)
-        shaft = _bevelled_prism(self.size_m / 2, _HAZARD_TOP_M, self.height_m, _BEVEL_M)
-        return Asset(
-            (
-                make_part("Hazard", foot, "hazard", collider=Collider.CONVEX_HULL),
-                make_part("Shaft", shaft, "wall_concrete", collider=Collider.CONVEX_HULL),
-            ),
-        )
+        """A shaft with bevelled edges, or a round one, over its guard; a head and boards where it has some."""
+        top = round(self.height_m - self.head_m, 6)
+        guard_top = min(self.guard_height_m, top)
+        is_painted = self.guard in _PAINTED
+        parts = []
+        if is_painted:
+            parts.append(self._shaft("Guard", 0.0, guard_top, _PAINTED[self.guard]))
+        if not is_painted or guard_top < top:
+            parts.append(self._shaft("Shaft", guard_top if is_painted else 0.0, top, "column_concrete"))
+        if self.guard is Guard.RUBBER:
+            parts += self._rubber(guard_top)
+        if self.head_m:
+            half = self.size_m / 2
+            head = box_faces((-half, top, -half), (half, self.height_m, half))
+            parts.append(make_part("Head", head, "ceiling_concrete", collider=Collider.BOX))
+        parts += [self._board(number, board) for number, board in enumerate(self.boards, start=1)]
+        return Asset(tuple(parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its section."""
+        """The square that holds all of it, whatever its section.
+
+        So plans, stalls and proofs do not depend on how columns look; what is proven is a little more than needed
+        where they do not fill it. Colliders have the true shape.
+        """
         return (square(self.size_m),)
 
+    def _shaft(self, name: str, low: float, high: float, material: str) -> Part:
+        faces = _prism(self._ring(*self.halves_m), low, high)
+        around = _around(self.halves_m[0]) if self.is_round else None
+        return make_part(name, faces, material, collider=Collider.CONVEX_HULL, project=around)
 
-def _bevelled_prism(half: float, low: float, high: float, bevel: float) -> list[Face]:
-    inner = half - bevel
-    ring = [(inner, half), (half, inner), (half, -inner), (inner, -half)]
-    ring += [(-inner, -half), (-half, -inner), (-half, inner), (-inner, half)]
-    faces = []
-    for (x0, z0), (x1, z1) in zip(ring, ring[1:] + ring[:1], strict=True):
-        faces.append(np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)]))
+    def _ring(self, x: float, z: float) -> list[Point]:
+        """The section with half extents, from +Z towards +X."""
+        if self.is_round:
+            angles = np.arange(ROUND_SEGMENTS) * (2 * np.pi / ROUND_SEGMENTS)
+            return [(x * math.sin(angle), x * math.cos(angle)) for angle in angles.tolist()]
+        b = _BEVEL_M
+        ring = [(x - b, z), (x, z - b), (x, b - z), (x - b, -z)]
+        return [*ring, *((-a, -c) for a, c in ring)]
+
+    def _rubber(self, top: float) -> list[Part]:
+        """Black and yellow blocks by turns, from the floor up: a collar, or an angle on each edge."""
+        x, z = self.halves_m
+        outer, inner = self._ring(x + _RUBBER_M, z + _RUBBER_M), self._ring(x, z)
+        strips = [([*outer, outer[0]], [*inner, inner[0]])] if self.is_round else list(self._corners(outer))
+        count = max(2 * round((top / _BLOCK_M - 1) / 2) + 1, 1)
+        levels = np.linspace(0.0, top, count + 1).round(6).tolist()
+        faces: list[list[Face]] = [[], []]
+        for number, (low, high) in enumerate(pairwise(levels)):
+            for outside, inside in strips:
+                faces[number % 2] += _shell(outside, inside, low, high, is_closed=self.is_round)
+        around = _around(x) if self.is_round else None
+        return [
+            make_part(name, each, material, collider=Collider.MESH, project=around)
+            for name, each, material in zip(
+                ("Rubber", "YellowRubber"), faces, ("rubber_black", "rubber_yellow"), strict=True
+            )
+            if each
+        ]
+
+    def _corners(self, outer: Sequence[Point]) -> list[tuple[list[Point], list[Point]]]:
+        """The outer and the inner line of each rubber corner."""
+        x, z = self.halves_m
+        inner = self._ring(x, z)
+        # each bevel, from +Z towards +X, with the legs before and after it
+        found = []
+        for first in (0, 2, 4, 6):
+            lines = []
+            for ring in (outer, inner):
+                ends = np.array([ring[first], ring[first + 1]])
+                before, after = np.array(ring[first - 1]), np.array(ring[(first + 2) % len(ring)])
+                legs = [ends[0] + _along(ends[0], before), *ends, ends[1] + _along(ends[1], after)]
+                lines.append([(float(a), float(b)) for a, b in legs])
+            # a leg ends squarely, over the same place of the side
+            for end, at in ((0, 1), (-1, 2)):
+                axis = int(np.argmin(np.abs(np.subtract(lines[0][at], lines[0][end]))))
+                point = list(lines[1][end])
+                point[1 - axis] = lines[0][end][1 - axis]
+                lines[1][end] = (point[0], point[1])
+            found.append((lines[0], lines[1]))
+        return found
+
+    def _board(self, number: int, board: Board) -> Part:
+        """From the square's side back to the shaft, or as far into a round one as its edges are away."""
+        left, right = board.left_m, board.right_m
+        front, back = self.size_m / 2, self.side_m(board.side)
+        if self.is_round:
+            most = _LEAST_BOARD * back
+            left, right = max(left, -most), min(right, most)
+            back = math.sqrt(back**2 - max(abs(left), abs(right)) ** 2)
+        faces = box_faces((left, board.low_m, back), (right, board.high_m, front))
+        for _ in range(board.side):
+            # a quarter turn from +Z towards +X
+            faces = [face[:, [2, 1, 0]] * (1.0, 1.0, -1.0) for face in faces]
+        return make_part(f"Board{number}", faces, "column_concrete", collider=Collider.BOX)
+
+
+def _along(start: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A leg's length from a point towards another, but less than half of the way."""
+    way = to - start
+    far = float(np.linalg.norm(way))
+    leg: NDArray[np.float64] = way / far * min(_LEG_M, 0.4 * far)
+    return leg
+
+
+def _prism(ring: Sequence[Point], low: float, high: float) -> list[Face]:
+    """A closed prism over a convex section."""
+    faces = [
+        np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)])
+        for (x0, z0), (x1, z1) in pairwise([*ring, ring[0]])
+    ]
     faces.append(np.array([(x, high, z) for x, z in ring]))
     faces.append(np.array([(x, low, z) for x, z in reversed(ring)]))
     return faces
+
+
+def _shell(
+    outside: Sequence[Point], inside: Sequence[Point], low: float, high: float, *, is_closed: bool
+) -> list[Face]:
+    """What lies between two lines from one height to another, without the side that looks at the inner line."""
+    faces = []
+    for ((x0, z0), (x1, z1)), ((u0, w0), (u1, w1)) in zip(pairwise(outside), pairwise(inside), strict=True):
+        faces.append(np.array([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)]))
+        faces.append(np.array([(x0, high, z0), (x1, high, z1), (u1, high, w1), (u0, high, w0)]))
+    if not is_closed:
+        for (x, z), (u, w), turn in ((outside[0], inside[0], 1), (outside[-1], inside[-1], -1)):
+            faces.append(np.array([(u, low, w), (x, low, z), (x, high, z), (u, high, w)])[::turn])
+    return faces
+
+
+def _around(radius_m: float) -> Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]:
+    """Texture coordinates that run around a round column from its -Z, and up."""
+
+    def project(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+        x, y, z = corners.T
+        facing = np.arctan2(normals[:, 0], normals[:, 2])
+        # near the angle of its face, so that none spans the seam
+        angle = facing + (np.arctan2(x, z) - facing + np.pi) % (2 * np.pi) - np.pi
+        is_level = np.abs(normals[:, 1]) > 1 / 2
+        return np.stack([np.where(is_level, x, angle * radius_m), np.where(is_level, -z, y)], axis=1)
+
+    return project

@@ -9,6 +9,7 @@ from garage2usd.assets.faces import box_faces, frame_faces
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.wall import dado_part
 
 __all__ = ["KIND", "ObstacleSpec"]
 
@@ -23,24 +24,37 @@ _CORE_DOOR_M = (1.2, 0.09)
 
 @dataclass(frozen=True)
 class ObstacleSpec(Spec, kind=KIND):
-    """A concrete core; origin in the middle of its foot, its door in the middle of the side that looks to +Z."""
+    """A concrete core; origin in the middle of its foot, its door in the middle of the side that looks to +Z.
+
+    Attributes
+    ----------
+    width_m, depth_m, height_m
+        Extent.
+    has_door
+        Whether it has one.
+    dado_m
+        Height of a painted band at its foot as walls have it, 0 without any; None for hazard stripes.
+    """
 
     width_m: float
     depth_m: float
     height_m: float
     has_door: bool = True
+    dado_m: float | None = None
 
     def asset(self) -> Asset:
-        """A block with a hazard band around its foot; a core has a door, with an exit sign where there is room."""
+        """A block with a band around its foot; a core has a door, with an exit sign where there is room."""
         x, z = self.width_m / 2, self.depth_m / 2
-        band = box_faces((-x, 0, -z), (x, _STRIPE_M * 3, z), without="tb")
-        body = box_faces((-x, _STRIPE_M * 3, -z), (x, self.height_m, z), without="b")
-        block = (
-            make_part("Band", band, "hazard", collider=Collider.BOX),
-            make_part("Core", body, "wall_concrete", collider=Collider.BOX),
-        )
+        top = _STRIPE_M * 3 if self.dado_m is None else self.dado_m
+        band = box_faces((-x, 0, -z), (x, top, z), without="tb")
+        body = box_faces((-x, top, -z), (x, self.height_m, z), without="b")
+        block = [make_part("Core", body, "wall_concrete", collider=Collider.BOX)]
+        if self.dado_m is None:
+            block.insert(0, make_part("Band", band, "hazard", collider=Collider.BOX))
+        elif self.dado_m:
+            block.insert(0, dado_part("Band", band, self.dado_m, collider=Collider.BOX))
         if not self.has_door:
-            return Asset(block)
+            return Asset(tuple(block))
         door = box_faces((-0.5, 0.0, z), (0.5, 2.1, z + 0.03), without="n")
         frame = frame_faces(0.5, 2.1, 0.08, z + 0.001, z + 0.045)
         handle = box_faces((0.34, 1.0, z + 0.03), (0.44, 1.03, z + 0.08))

@@ -11,6 +11,7 @@ from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.objects.wall import DADO_M, DADO_STRIPE_M
 
 __all__ = ["KIND", "RampSpec"]
 
@@ -22,8 +23,6 @@ _GROOVE_WIDTH_M = 0.05
 _GROOVE_DEPTH_M = 0.008
 _KERB_WIDTH_M = 0.18
 _KERB_HEIGHT_M = 0.15
-_BAND_TOP_M = 1.1
-_STRIPE_M = 0.12
 _PROUD_M = 0.004
 _HEADER_M = 0.3
 _DRAIN_M = 0.2
@@ -49,6 +48,8 @@ class RampSpec(Spec, kind=KIND):
         Run where the slab over its foot ends, and height of that slab's underside.
     wall_top_m
         Height of the side walls.
+    dado_m, has_stripe
+        Of the side walls, as `WallSpec` has them.
     """
 
     width_m: float
@@ -58,6 +59,8 @@ class RampSpec(Spec, kind=KIND):
     cover_end_m: float
     cover_height_m: float
     wall_top_m: float
+    dado_m: float = DADO_M
+    has_stripe: bool = True
 
     def asset(self) -> Asset:
         """A grooved floor with kerbs, side walls, a slab over its foot and a drain."""
@@ -79,13 +82,20 @@ class RampSpec(Spec, kind=KIND):
             face = side * (half - _PROUD_M)
             parts += [
                 make_part(f"{name}Wall", wall, "wall_concrete", collider=Collider.BOX),
-                make_part(f"{name}Band", _ribbon(face, self.profile, 0.0, _BAND_TOP_M), "wall_band"),
-                make_part(
-                    f"{name}Stripe", _ribbon(face, self.profile, _BAND_TOP_M, _BAND_TOP_M + _STRIPE_M), "band_stripe"
-                ),
+                *self._dado(name, face),
                 _kerb(f"{name}Kerb", half, side, self.profile),
             ]
         return Asset(tuple(parts))
+
+    def _dado(self, name: str, face_m: float) -> list[Part]:
+        """The painted band at the foot of a side wall, and the stripe over it."""
+        top, parts = self.dado_m, []
+        if top:
+            parts.append(make_part(f"{name}Band", _ribbon(face_m, self.profile, 0.0, top), "wall_band"))
+        if self.has_stripe:
+            stripe = _ribbon(face_m, self.profile, top, top + DADO_STRIPE_M)
+            parts.append(make_part(f"{name}Stripe", stripe, "band_stripe"))
+        return parts
 
     def outlines(self) -> tuple[Polygon, ...]:
         """Its side walls."""

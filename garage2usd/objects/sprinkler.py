@@ -42,9 +42,9 @@ class SprinklerSpec(Spec, kind=KIND):
             rods += box_faces(
                 (-_CLAMP_M, -self.drop_m + self.radius_m * 0.9, z - _CLAMP_M), (_CLAMP_M, 0.0, z + _CLAMP_M)
             )
-        parts = [make_part("Pipe", pipe, "pipe_red", collider=Collider.BOX)]
+        parts = [make_part("Pipe", pipe, "service_pipe", collider=Collider.BOX)]
         if rods:
-            parts.append(make_part("Rods", rods, "steel_dark"))
+            parts.append(make_part("Rods", rods, "service_hanger"))
         if self.heads_at_m:
             foot, brass = -self.drop_m - self.radius_m, []
             for z in self.heads_at_m:

@@ -1,45 +1,58 @@
 """Outer walls, and the posts between them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.faces import box_faces
-from garage2usd.assets.mesh import Asset, Collider, Face, make_part
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle, square
 
-__all__ = ["KIND", "WallPostSpec", "WallSpec"]
+__all__ = ["DADO_M", "DADO_STRIPE_M", "KIND", "WallPostSpec", "WallSpec", "dado_part"]
 
 KIND = Kind("wall", number=4, label="wall", cityscapes="wall", group="Walls")
 
-_BAND_TOP_M = 1.1
-_STRIPE_M = 0.12
+DADO_M = 1.1
+"""Usual height of the painted band at the foot of walls, and of one repeat of its texture."""
+DADO_STRIPE_M = 0.12
+"""Height of the stripe over it."""
 
 
 @dataclass(frozen=True)
 class WallSpec(Spec, kind=KIND):
-    """A straight wall; origin at the middle of its inner face's foot, which looks to +Z."""
+    """A straight wall; origin at the middle of its inner face's foot, which looks to +Z.
+
+    Attributes
+    ----------
+    length_m, height_m, thickness_m
+        Extent.
+    dado_m
+        Height of the painted band at its foot; 0 without any.
+    has_stripe
+        Whether there is a stripe over that.
+    """
 
     length_m: float
     height_m: float
     thickness_m: float
+    dado_m: float = DADO_M
+    has_stripe: bool = True
 
     def asset(self) -> Asset:
         """A wall with a painted band and a stripe over it."""
-        half = self.length_m / 2
-        levels = (
-            ("Band", "wall_band", 0.0, _BAND_TOP_M),
-            ("Stripe", "band_stripe", _BAND_TOP_M, _BAND_TOP_M + _STRIPE_M),
-        )
-        faces: list[Face] = []
-        parts = []
-        for name, material, low, high in levels:
-            face = box_faces((-half, low, -self.thickness_m), (half, high, 0), without="lrbtn")
-            parts.append(make_part(name, face, material))
-        top = _BAND_TOP_M + _STRIPE_M
-        faces += box_faces((-half, top, -self.thickness_m), (half, self.height_m, 0), without="lrbtn")
+        half, top = self.length_m / 2, self.dado_m
+
+        def front(low: float, high: float) -> list[Face]:
+            return box_faces((-half, low, -self.thickness_m), (half, high, 0), without="lrbtn")
+
+        parts = [dado_part("Band", front(0.0, top), top)] if top else []
+        if self.has_stripe:
+            parts.append(make_part("Stripe", front(top, top + DADO_STRIPE_M), "band_stripe"))
+            top += DADO_STRIPE_M
+        faces = box_faces((-half, top, -self.thickness_m), (half, self.height_m, 0), without="lrbtn")
         faces += box_faces((-half, 0, -self.thickness_m), (half, self.height_m, 0), without="f")
 
         def from_top(face: NDArray[np.float64], _normal: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -51,6 +64,17 @@ class WallSpec(Spec, kind=KIND):
     def outlines(self) -> tuple[Polygon, ...]:
         """Its section."""
         return (rectangle(-self.length_m / 2, -self.thickness_m, self.length_m / 2, 0.0),)
+
+
+def dado_part(name: str, faces: Sequence[Face], top_m: float, *, collider: Collider | None = None) -> Part:
+    """A painted band from the floor up, as high as one repeat of its texture."""
+
+    def stretched(face: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+        x, y, z = face.T
+        across = np.where(np.abs(normal[:, 2]) > np.abs(normal[:, 0]), x * np.sign(normal[:, 2]), -z * normal[:, 0])
+        return np.stack([across, y * (DADO_M / top_m)], axis=1)
+
+    return make_part(name, faces, "wall_band", collider=collider, project=None if top_m == DADO_M else stretched)
 
 
 @dataclass(frozen=True)

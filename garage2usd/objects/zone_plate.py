@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import affinity
 
+from garage2usd.assets.faces import bent
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH, text_shape
 from garage2usd.assets.mesh import Asset, Face, make_part, pascal_case
+from garage2usd.objects.column import ROUND_SEGMENTS
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Point
 
@@ -34,19 +36,23 @@ _LIFT_M, _INK_M = 0.004, 0.007
 _TEXT_SHARE = (0.86, 0.74)
 """Of the width and the height of a field."""
 _HUES = ("zone_blue", "zone_orange", "zone_green", "zone_red", "zone_violet", "zone_teal")
-_SHARE = 0.88
-"""Width of a plate, of that of a column's side."""
+_SHARE, _BENT_SHARE = 0.88, 0.75
+"""Width of a plate, of that of a column's side; of one around a round column, of its diameter."""
 _YAWS_RAD = (0.0, math.pi / 2, math.pi, -math.pi / 2)
 _Faces = NDArray[np.float64]
 
 
 class Plate(NamedTuple):
-    """A plate: the zone on it, the middle (x, z) of its lower edge, where it looks, and its width."""
+    """A plate: the zone on it, the middle (x, z) of its lower edge, where it looks, its width, and around what.
+
+    That is the radius of the round column that it is bent around, if it is.
+    """
 
     text: str
     middle: Point
     yaw_rad: float
     width_m: float
+    radius_m: float | None = None
 
 
 @dataclass(frozen=True)
@@ -67,26 +73,35 @@ class ZonePlateSpec(Spec, kind=KIND):
 
 @dataclass(frozen=True)
 class ColumnPlatesSpec(Spec, kind=KIND):
-    """The plates on a square column; origin in its middle, at their lower edges.
+    """The plates on a column; origin in its middle, at their lower edges.
 
     Attributes
     ----------
     sides
         The zones on the sides that look to +Z, +X, -Z and -X; empty where a side is bare.
     column_size_m
-        Side of the column.
+        Side of the column, or of the square that holds it.
+    sides_m
+        From the column's middle to each of these sides; empty where they are those of the square.
+    is_round
+        Whether the column is round, so that plates bend around it.
     """
 
     sides: tuple[str, ...]
     column_size_m: float
+    sides_m: tuple[float, ...] = ()
+    is_round: bool = False
 
     def plates(self) -> tuple[Plate, ...]:
         """One on each side that is not bare."""
-        half, width = self.column_size_m / 2, round(_SHARE * self.column_size_m, 6)
-        middles = (0.0, half), (half, 0.0), (0.0, -half), (-half, 0.0)
+        front, right, back, left = self.sides_m or (self.column_size_m / 2,) * len(self.sides)
+        middles = (0.0, front), (right, 0.0), (0.0, -back), (-left, 0.0)
+        share, radius = (_BENT_SHARE, front) if self.is_round else (_SHARE, None)
+        # a side is as wide as the two beside it are apart
+        widths = (right + left, front + back) * 2
         return tuple(
-            Plate(zone, middle, yaw, width)
-            for zone, middle, yaw in zip(self.sides, middles, _YAWS_RAD, strict=True)
+            Plate(zone, middle, yaw, round(share * width, 6), radius)
+            for zone, middle, yaw, width in zip(self.sides, middles, _YAWS_RAD, widths, strict=True)
             if zone
         )
 
@@ -101,10 +116,13 @@ def _asset(plates: Iterable[Plate]) -> Asset:
     for plate in plates:
         cos, sin = round(math.cos(plate.yaw_rad)), round(math.sin(plate.yaw_rad))
         for material, triangles in _fields(plate.text, plate.width_m):
-            x, y, z = np.moveaxis(triangles, 2, 0)
-            turned = np.stack([x * cos + z * sin, y, z * cos - x * sin], axis=2)
+            flat = [*triangles]
+            if plate.radius_m is not None:
+                flat = bent(flat, plate.radius_m, segments=ROUND_SEGMENTS)
             place = np.array((plate.middle[0], 0.0, plate.middle[1]))
-            faces.setdefault(material, []).extend(turned + place)
+            for x, y, z in (face.T for face in flat):
+                turned = np.stack([x * cos + z * sin, y, z * cos - x * sin], axis=1)
+                faces.setdefault(material, []).append(turned + place)
     return Asset(tuple(make_part(pascal_case(key), each, key) for key, each in sorted(faces.items())))
 
 

@@ -11,7 +11,7 @@ from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS
 from garage2usd.assets.textures.floor_finishes import FLOOR_FINISHES
 from garage2usd.assets.textures.floors import FLOORS
 from garage2usd.assets.textures.gloss import GLOSSES
-from garage2usd.assets.textures.paints import PAINTS
+from garage2usd.assets.textures.paints import GUARDS, PAINTS
 from garage2usd.assets.textures.pixels import Bakers, Pixels
 from garage2usd.assets.textures.steel import STEELS
 from garage2usd.assets.textures.wall_finishes import WALL_FINISHES
@@ -22,7 +22,7 @@ from garage2usd.config.stage import TextureQuality
 
 __all__ = ["bake_textures", "texture_folder"]
 
-_FINISHES: Bakers = {**WEAR, **GLOSSES, **FLOOR_FINISHES, **WALL_FINISHES, **CEILING_FINISHES}
+_FINISHES: Bakers = {**WEAR, **GUARDS, **GLOSSES, **FLOOR_FINISHES, **WALL_FINISHES, **CEILING_FINISHES}
 _BAKERS: Bakers = {
     **FLOORS,
     **PAINTS,
@@ -88,7 +88,7 @@ def _save(pixels: Pixels, divisor: int, path: Path) -> None:
         picture.save(path, format="PNG", optimize=True)
     elif path.suffix == ".jpg":
         # colours that meet at sharp edges need all their pixels
-        subsampling = "4:4:4" if path.stem == "hazard" else "4:2:0"
+        subsampling = "4:4:4" if path.stem == "hazard" or path.name in GUARDS else "4:2:0"
         quality = _FINISH_QUALITY if path.name in _FINISHES else _JPEG_QUALITY
         picture.save(path, format="JPEG", quality=quality, subsampling=subsampling, optimize=True)
     else:

@@ -7,7 +7,10 @@ import numpy as np
 from garage2usd.assets.fields import clouds, grain, ramp, spots
 from garage2usd.assets.textures.pixels import Bakers, Pixels, mixed_over, shaded
 
-__all__ = ["PAINTS"]
+__all__ = ["GUARDS", "PAINTS"]
+
+_Colour = tuple[int, int, int]
+"""Display values."""
 
 
 def _worn_paint(tint: tuple[float, float, float]) -> Callable[[np.random.Generator], Pixels]:
@@ -24,17 +27,28 @@ def _worn_paint(tint: tuple[float, float, float]) -> Callable[[np.random.Generat
     return bake
 
 
-def _hazard(rng: np.random.Generator) -> Pixels:
-    side = 256
-    axis = np.arange(side)
-    yellow = ((axis[None, :] + axis[:, None]) % side) < side // 2
-    pixels = np.where(yellow[:, :, None], np.array([222, 168, 24]), np.array([28, 28, 30])).astype(np.uint8)
-    worn = 0.6 * ramp(clouds(rng, (side, side), (10, 10), 4), 0.62, 0.74)
-    return mixed_over(pixels, (128, 126, 122), worn)
+def _stripes(light: _Colour, dark: _Colour, *, level: bool = False) -> Callable[[np.random.Generator], Pixels]:
+    """Stripes of two colours, one of each a repeat, diagonal or level, scuffed to the concrete."""
+
+    def bake(rng: np.random.Generator) -> Pixels:
+        side = 256
+        axis = np.arange(side)
+        across = np.zeros(side, dtype=np.int64) if level else axis
+        is_light = ((across[None, :] + axis[:, None]) % side) < side // 2
+        pixels = np.where(is_light[:, :, None], np.array(light), np.array(dark)).astype(np.uint8)
+        worn = 0.6 * ramp(clouds(rng, (side, side), (10, 10), 4), 0.62, 0.74)
+        return mixed_over(pixels, (128, 126, 122), worn)
+
+    return bake
 
 
+_YELLOW = 222, 168, 24
 PAINTS: Bakers = {
     "paint_white.jpg": _worn_paint((1.0, 1.0, 0.985)),
     "paint_yellow.jpg": _worn_paint((0.98, 0.74, 0.16)),
-    "hazard.jpg": _hazard,
+    "hazard.jpg": _stripes(_YELLOW, (28, 28, 30)),
+}
+GUARDS: Bakers = {
+    "guard_red_white.jpg": _stripes((214, 212, 206), (172, 34, 30), level=True),
+    "guard_blue_yellow.jpg": _stripes(_YELLOW, (34, 74, 150)),
 }
