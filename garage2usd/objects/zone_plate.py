@@ -36,7 +36,7 @@ _LIFT_M, _INK_M = 0.004, 0.007
 _TEXT_SHARE = (0.86, 0.74)
 """Of the width and the height of a field."""
 _HUES = ("zone_blue", "zone_orange", "zone_green", "zone_red", "zone_violet", "zone_teal")
-_SHARE, _BENT_SHARE = 0.88, 0.75
+_SHARE, _BENT_SHARE = 0.88, 0.6
 """Width of a plate, of that of a column's side; of one around a round column, of its diameter."""
 _YAWS_RAD = (0.0, math.pi / 2, math.pi, -math.pi / 2)
 _Faces = NDArray[np.float64]

@@ -2,6 +2,7 @@
 
 import string
 
+from garage2usd.config.look import ColumnSection, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
@@ -9,7 +10,7 @@ from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
-from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.column import Board, ColumnSpec
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
@@ -42,10 +43,15 @@ MARKINGS = (
 OPENING = ((-3.0, -3.25), (-3.0, -2.0), (-1.0, -2.0), (-1.0, -3.25))
 RISE = ((0.3, 0.0), (0.8, 0.0), (4.4, 0.27), (24.1, 3.23), (27.7, 3.5), (30.2, 3.5))
 
+ROUND, RECTANGULAR = ColumnSection.ROUND, ColumnSection.RECTANGULAR
+CABINET = Board(0, -0.28, 0.3, 0.85, 1.71)
+
 SPECS = {
     "floor": FloorSpec(8.1, 6.5, Surface.LANE, MARKINGS, (OPENING,)),
     "stall": StallSpec(2.5, 5.3, Surface.STALL),
     "wall": WallSpec(8.1, 3.2, 0.3),
+    "wall_dado": WallSpec(8.1, 3.2, 0.3, dado_m=0.7, has_stripe=False),
+    "wall_plain": WallSpec(8.1, 3.2, 0.3, dado_m=0.0, has_stripe=False),
     "post": WallPostSpec(0.3, 3.2),
     "entrance": PortalSpec(8.1, 3.2, 0.3, door_width_m=6.0, door_height_m=2.6, is_entrance=True),
     "exit": PortalSpec(5.4, 3.0, 0.3, door_width_m=4.2, door_height_m=2.4, is_entrance=False),
@@ -59,18 +65,30 @@ SPECS = {
         cover_height_m=3.2,
         wall_top_m=4.8,
     ),
+    "ramp_plain": RampSpec(6.2, 0.3, 5.84, RISE, 9.3, 3.2, 4.8, dado_m=0.0, has_stripe=False),
     "sky": SkySpec(width_m=6.8, start_m=9.3, end_m=30.21, ground_m=3.45, low_m=4.8, high_m=7.8),
     "raised_barrier": BarrierSpec(arm_m=6.1, is_raised=True, elbow_m=2.75),
     "closed_barrier": BarrierSpec(arm_m=6.1, is_raised=False, elbow_m=2.75),
     "obstacle": ObstacleSpec(8.1, 5.4, 3.2),
     "block": ObstacleSpec(8.1, 5.4, 3.2, has_door=False),
+    "obstacle_dado": ObstacleSpec(8.1, 5.4, 3.2, dado_m=1.6),
+    "block_plain": ObstacleSpec(8.1, 5.4, 3.2, has_door=False, dado_m=0.0),
     "column": ColumnSpec(0.6, 3.2),
+    **{f"column_{guard}": ColumnSpec(0.6, 3.2, guard=guard, guard_height_m=0.8) for guard in Guard},
+    "column_all_guard": ColumnSpec(0.6, 2.2, guard=Guard.RED_WHITE, guard_height_m=2.0, head_m=0.4),
+    "column_round": ColumnSpec(0.6, 3.2, ROUND, guard=Guard.BLUE_YELLOW, head_m=0.4, boards=(CABINET,)),
+    "column_round_bare": ColumnSpec(0.45, 3.2, ROUND, guard=Guard.NONE),
+    "column_round_rubber": ColumnSpec(0.6, 3.2, ROUND, guard=Guard.RUBBER, guard_height_m=1.0),
+    "column_rectangular": ColumnSpec(0.6, 3.2, RECTANGULAR, head_m=0.4, boards=(CABINET._replace(side=3),)),
+    "column_rectangular_rubber": ColumnSpec(0.6, 3.2, RECTANGULAR, is_long_along_x=True, guard=Guard.RUBBER),
     "ceiling": CeilingSpec(8.1, 8.1, 0.25),
     "tube": TubeLightSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": BeamSpec(7.5, 0.4, 0.4),
     "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),
     "duct": DuctSpec(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),
     "branch": DuctSpec(0.65, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(0.1,)),
+    "round_duct": DuctSpec(8.1, 0.8, 0.3, hanger_m=0.15, hangers_at_m=(-3.0, 3.0), is_round=True),
+    "round_branch": DuctSpec(0.65, 0.8, 0.3, hanger_m=0.15, hangers_at_m=(0.1,), is_round=True, joint=-1),
     "tray": CableTraySpec(8.1, 0.3, 0.06, 0.5, rods_at_m=(-2.0, 2.0)),
     "cone": ConeSpec(),
     "bump": SpeedBumpSpec(7.2),
@@ -92,6 +110,8 @@ SPECS = {
         for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]
     },
     "column_plates": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6),
+    "column_plates_bent": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3,) * 4, is_round=True),
+    "column_plates_near": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3, 0.21, 0.3, 0.21)),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
 }

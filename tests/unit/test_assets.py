@@ -88,7 +88,7 @@ def signed_volume(part):
     [
         ("post", "Concrete", 0.3 * 0.3 * 3.2),
         ("ceiling", "Slab", 8.1 * 8.1 * 0.25),
-        ("column", "Hazard", (0.36 - 2 * 0.03**2) * 1.2),
+        ("column", "Guard", (0.36 - 2 * 0.03**2) * 1.2),
         ("column", "Shaft", (0.36 - 2 * 0.03**2) * 2.0),
         ("duct", "Body", 8.1 * 0.8 * 0.35),
         ("tube", "Housing", 1.5 * 0.12 * 0.06),
