@@ -27,6 +27,8 @@ _MIRROR_GAP_M = 0.05
 _MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
 _ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
 """Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
+_INTO_COLUMN_M = 0.025
+"""How far an arm goes into a column whose surface it does not meet squarely."""
 _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
@@ -133,7 +135,8 @@ def _mount_m(
         # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
         nearest = column.size_m / 2 + _MIRROR_FROM_COLUMN_M
         inset = max(nearest, _MIRROR_RADIUS_M)
-        beyond = ColumnSpec(column.size_m, column.height_m).diagonal_m - column.diagonal_m
+        usual_m = ColumnSpec(column.size_m, column.height_m).diagonal_m
+        beyond = 0.0 if column.fills_square else usual_m - column.diagonal_m + _INTO_COLUMN_M
         return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2) + beyond, 6)
     if any(grid.neighbour(tile, edge) is None for edge in corner):
         return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
