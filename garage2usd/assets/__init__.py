@@ -11,7 +11,7 @@ from garage2usd.assets.materials import (
     Texture,
     Touch,
 )
-from garage2usd.assets.mesh import Asset, Collider, Part, RectLight, pascal_case
+from garage2usd.assets.mesh import AreaLight, Asset, Collider, Part, pascal_case
 from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "MATERIALS",
     "NON_VISUAL",
     "VARYING",
+    "AreaLight",
     "Asset",
     "Collider",
     "Finish",
@@ -27,7 +28,6 @@ __all__ = [
     "NonVisual",
     "PaintedTexture",
     "Part",
-    "RectLight",
     "Rgb",
     "Texture",
     "Touch",

@@ -280,6 +280,7 @@ MATERIALS: dict[str, Material] = {
     "tube_glow": Material(
         colour_rgb=(0.9, 0.9, 0.9), roughness=0.3, emissive_rgb=(14.0, 13.6, 12.9), touch=Touch.PLASTIC
     ),
+    "lamp_dead": Material(colour_rgb=(0.42, 0.42, 0.40), roughness=0.3, touch=Touch.PLASTIC),
     "sign_green": Material(
         colour_rgb=(0.01, 0.28, 0.10), roughness=0.4, emissive_rgb=(0.02, 0.9, 0.3), touch=Touch.STEEL
     ),

@@ -7,14 +7,15 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.assets.materials import MATERIALS
+from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
+from garage2usd.assets.materials import MATERIALS, Rgb
 
 __all__ = [
+    "AreaLight",
     "Asset",
     "Collider",
     "Face",
     "Part",
-    "RectLight",
     "make_part",
     "pascal_case",
 ]
@@ -76,23 +77,29 @@ class Part:
 
 
 @dataclass(frozen=True)
-class RectLight:
-    """A light that shines down from a rectangle.
+class AreaLight:
+    """A light that shines down from a rectangle or a disc.
 
     Attributes
     ----------
     width_m, depth_m
-        Extent along X and Z.
+        Extent along X and Z; both are the diameter of a disc.
     height_m
-        Height of the rectangle in the asset.
+        Height of the lit face in the asset.
     luminance_nit
-        Luminance of its lower face, cd/m2.
+        Luminance of that face, cd/m2.
+    colour_rgb
+        Linear, also of the glow of what stands in the asset around it.
+    is_round
+        Whether it is a disc.
     """
 
     width_m: float
     depth_m: float
     height_m: float
     luminance_nit: float
+    colour_rgb: Rgb = USUAL_LAMP_RGB
+    is_round: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +117,7 @@ class Asset:
     """
 
     parts: tuple[Part, ...]
-    light: RectLight | None = None
+    light: AreaLight | None = None
     paints: Mapping[str, str] = field(default_factory=dict)
 
 

@@ -45,6 +45,7 @@ _BASES = {
     "floor_asphalt_patched": "asphalt",
     "glass": "clear_glass",
     "hose": "fabric",
+    "lamp_dead": "plexiglass",
     "lamp_front": "plexiglass",
     "lamp_rear": "plexiglass",
     "mirror": "mirror",

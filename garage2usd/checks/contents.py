@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
+from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.checks.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.errors import StageError
 from garage2usd.objects import PIECE_LABELS
@@ -16,7 +17,7 @@ from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of,
 from garage2usd.reading.objects import PlacedObject, once_for_each_look
 from garage2usd.reading.values import READ_AT, metres_per_unit, metres_y_up, opinions_of
 from garage2usd.reading.walk import placed_objects
-from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY, TUBE_COLOUR_RGB
+from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 
 __all__ = ["Contents", "PlacedLight", "read_contents"]
 
@@ -191,6 +192,6 @@ def _corners(extent: Vt.Vec3fArray) -> tuple[NDArray[np.float64], NDArray[np.flo
 def _light(prim: Usd.Prim, matrix: Array, metres_per_unit: float) -> PlacedLight:
     attribute = prim.GetAttribute(_CALIBRATED)
     is_ours = attribute and attribute.HasAuthoredValue()
-    scale = NITS_PER_INTENSITY / luminance_of(TUBE_COLOUR_RGB) if is_ours else 1.0
+    scale = NITS_PER_INTENSITY / luminance_of(USUAL_LAMP_RGB) if is_ours else 1.0
     source = light_of(prim, matrix, metres_per_unit)
     return PlacedLight(matrix, source, scale * source.brightness)

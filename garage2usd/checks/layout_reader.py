@@ -36,6 +36,8 @@ def layout_subject(
         compartments=layout.compartments,
         lane_lux=lux.lanes.mean if lux.lanes else None,
         stall_lux=lux.stalls.mean if lux.stalls else None,
+        lamps=lux.lamps,
+        dead_lamps=lux.dead_lamps,
         faults=faults,
     )
 

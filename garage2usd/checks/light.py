@@ -12,6 +12,12 @@ BOOK = RuleBook()
 _ROUNDING = 0.99
 
 
+def _dark(what: str, subject: Subject) -> str:
+    """That something is too dark, and how many lamps are dead, which may be why."""
+    because = f": {subject.dead_lamps} of {subject.lamps} lamps give no light" if subject.dead_lamps else ""
+    return f"the {what} are too dark{because}"
+
+
 def _lights_are_told(subject: Subject, _: Profile) -> str:
     """A plan that could not be laid out has no lights, and not every stage of others has."""
     return "" if subject.lane_lux is not None else "no illuminance of the floor is known"
@@ -26,7 +32,7 @@ def _lights_are_told(subject: Subject, _: Profile) -> str:
 def _lanes(subject: Subject, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.lane_illuminance, subject.lane_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, "the lanes are too dark", measured, required.amount)
+        yield Miss("", None, _dark("lanes", subject), measured, required.amount)
 
 
 @BOOK.rule(
@@ -38,4 +44,4 @@ def _lanes(subject: Subject, profile: Profile) -> Iterator[Miss]:
 def _stalls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     required, measured = profile.stall_illuminance, subject.stall_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, "the stalls are too dark", measured, required.amount)
+        yield Miss("", None, _dark("stalls", subject), measured, required.amount)

@@ -14,7 +14,7 @@ from garage2usd.errors import ConfigError, StageError
 from garage2usd.layout import Placement
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
-from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.ground import Point
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
@@ -26,6 +26,7 @@ __all__ = ["profile_name", "stage_subject", "subject_of_stage"]
 
 _DISK = "DiskLight"
 _PANELS = frozenset({"RectLight", _DISK})
+_LAMPS = _PANELS | {"SphereLight", "CylinderLight"}
 _DIGITS = 6
 _LANE_MARGIN_M = 0.7
 """What the sides of a square have over the carriageway between its columns, where no structure tells."""
@@ -64,6 +65,7 @@ def subject_of_stage(
     """
     ground, contents = read_lanes(stage), read_contents(stage, objects)
     structure = _structure(stage)
+    lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]
     lane_lux, stall_lux = _illuminances(ground, contents.lights, structure) if is_judged else (None, None)
     return Subject(
         source=source,
@@ -76,6 +78,8 @@ def subject_of_stage(
         compartments=_compartments(stage, structure),
         lane_lux=lane_lux,
         stall_lux=stall_lux,
+        lamps=len(lamps),
+        dead_lamps=sum(lamp.candela == 0 for lamp in lamps),
         faults=(*ground.faults, *(moved_stalls(stage, ground) if is_judged else ())),
         stage=stage,
     )
@@ -138,8 +142,8 @@ def _mean_lux(points: NDArray[np.float64], panels: Iterable[PlacedLight], lamps:
         return None
     total = np.zeros(len(points))
     tubes = [_tube(panel) for panel in panels]
-    for luminance in dict.fromkeys(spec.luminance_nit for _, spec in of_spec(tubes, TubeLightSpec)):
-        alike = [tube for tube, spec in of_spec(tubes, TubeLightSpec) if spec.luminance_nit == luminance]
+    for luminance in dict.fromkeys(spec.luminance_nit for _, spec in of_spec(tubes, LampSpec)):
+        alike = [tube for tube, spec in of_spec(tubes, LampSpec) if spec.luminance_nit == luminance]
         total += luminance * direct_lux(points, alike)
     return float((total + sum(_lamp_lux(points, lamp) for lamp in lamps)).mean())
 
@@ -159,7 +163,7 @@ def _tube(panel: PlacedLight) -> Placement:
     luminance = round(down, _DIGITS) * source.luminance_nit * panel.nits_per_unit
     return Placement(
         "Light",
-        TubeLightSpec(width_m, height_m, drop_m=0.0, luminance_nit=luminance),
+        LampSpec(width_m, height_m, drop_m=0.0, luminance_nit=luminance),
         (float(matrix[3, 0]), float(matrix[3, 1]), float(matrix[3, 2])),
         float(np.arctan2(-matrix[0, 2], matrix[0, 0])),
     )

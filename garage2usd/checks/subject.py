@@ -44,6 +44,8 @@ class Subject:
         Number of the fire compartment of each square of S, from 1; None where none are declared.
     lane_lux, stall_lux
         Mean illuminance of the floor; None where it is not known.
+    lamps, dead_lamps
+        How many there are, and how many of them give no light.
     faults
         What it says of its lanes and stalls that contradicts itself.
     stage
@@ -60,6 +62,8 @@ class Subject:
     compartments: NDArray[np.int32] | None = None
     lane_lux: float | None = None
     stall_lux: float | None = None
+    lamps: int = 0
+    dead_lamps: int = 0
     faults: tuple[Fault, ...] = ()
     stage: Usd.Stage | None = None
 

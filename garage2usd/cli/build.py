@@ -170,17 +170,18 @@ def _learnt(made: "Build") -> list[tuple[str, str]]:
 
 
 def _lit(made: "Build") -> str:
-    """How bright lanes and stalls are, what was wanted, and which of the two decides how bright the tubes are."""
+    """How bright lanes and stalls are, what was wanted, and what decides it: one of the two, or lamps that are dead."""
     light, fittings = made.garage.layout.illuminance, made.garage.config.fittings
     both = (("lane", light.lanes, fittings.lane_lux), ("stall", light.stalls, fittings.stall_lux))
     lit = [(name, lux.mean, wanted) for name, lux, wanted in both if lux and lux.mean]
     if not lit:
-        return "no tubes over lanes or stalls"
-    decides = min(lit, key=lambda part: part[1] / part[2])[0]
-    return ", ".join(
+        return "no lamp burns" if light.dead_lamps else "no tubes over lanes or stalls"
+    decides = "" if light.dead_lamps else min(lit, key=lambda part: part[1] / part[2])[0]
+    parts = [
         f"{name}s {mean:.0f} lx ({name}_lux asks for {wanted:g}{', which decides' if name == decides else ''})"
         for name, mean, wanted in lit
-    )
+    ]
+    return ", ".join(parts) + (f"; {light.dead_lamps} of {light.lamps} lamps are dead" if light.dead_lamps else "")
 
 
 def _displaced(layout: "Layout") -> int:

@@ -21,7 +21,8 @@ from garage2usd.layout.cores import Core, core_placements
 from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
-from garage2usd.layout.fittings import TUBE, cones, speed_bumps, tube_lights
+from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
+from garage2usd.layout.lamps import installed_lamps, ramp_lamps
 from garage2usd.layout.lighting import LightLevels, light_up
 from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
@@ -203,13 +204,14 @@ def lay_out(
     check_carriageways(grid)
     shell = outer_walls(grid, fittings, look.walls)
     pillars = columns(grid, bay, fittings, look.columns, levels.beam_depth_m)
-    shared = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
-    draws = SquareDraws(grid.tiles, seed=seed, arrangements=shared)
+    arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
+    draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
 
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
     core_on = {core.square: core for core in cores if core.recess_m}
-    tubes, illuminance = light_up(tube_lights(grid, fittings, levels, core_on), grid, stalls, fittings)
+    tubes = tube_lights(grid, fittings, levels, core_on)
+    lamps, illuminance = light_up(installed_lamps(tubes, look.lights, draws, seed=seed), grid, stalls, fittings)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
@@ -241,7 +243,7 @@ def lay_out(
         yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
 
         yield (ceiling_panel(tile, fittings) for tile in grid)
-        yield tubes
+        yield lamps
         yield beams(structure, bay, ceiling, levels.beam_depth_m)
         yield ducts(grid, ceiling, levels, look.ceiling)
         yield cable_trays(grid, ceiling, levels)
@@ -251,7 +253,7 @@ def lay_out(
 
         yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
         yield barriers(walls, fittings)
-        yield ramp_lights(walls, replace(TUBE, luminance_nit=illuminance.luminance_nit), fittings)
+        yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
         yield (blocks := core_placements(structure, cores, ceiling, look.walls))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)

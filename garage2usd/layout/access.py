@@ -10,12 +10,12 @@ from garage2usd.config import FittingsConfig
 from garage2usd.config.look import WallsLook
 from garage2usd.layout.building import DOOR_FRAME_M
 from garage2usd.layout.fittings import TUBE_DEPTH_M
+from garage2usd.layout.lamps import TUBE
 from garage2usd.layout.placement import Placement, of_spec, placed
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.sky import SkySpec
-from garage2usd.objects.tube_light import TubeLightSpec
 
 __all__ = ["barriers", "ramp_lights", "with_ramps"]
 
@@ -112,20 +112,18 @@ def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
     return shapely.Polygon([wall.to_world(corner) for corner in corners])
 
 
-def ramp_lights(walls: Iterable[Placement], tube: TubeLightSpec, fittings: FittingsConfig) -> list[Placement]:
+def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Placement]:
     """Tubes across each ramp's covered part, where they hang over the clear height."""
-    if not tube.luminance_nit:
-        return []
     lights: list[Placement] = []
     for ramp, spec in of_spec(walls, RampSpec):
         runs, heights = zip(*spec.profile, strict=True)
         for number, share in enumerate(_LIGHTS_AT, start=1):
             run = runs[0] + share * (spec.cover_end_m - runs[0])
             floor = float(np.interp(run, runs, heights))
-            if spec.cover_height_m - tube.drop_m - floor < fittings.clear_height_m:
+            if spec.cover_height_m - TUBE.drop_m - floor < fittings.clear_height_m:
                 continue
             name, height = f"{ramp.name.replace('Ramp', 'Tube')}_{number}", spec.cover_height_m
-            lights.append(placed(name, tube, ramp.to_world((0.0, -run)), height_m=height, yaw_rad=ramp.yaw_rad))
+            lights.append(placed(name, TUBE, ramp.to_world((0.0, -run)), height_m=height, yaw_rad=ramp.yaw_rad))
     return lights
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.randomness import Step, generator
+from garage2usd.randomness import Step, generator, named_generator
 from garage2usd.structure.lane_graph import Square
 
 __all__ = ["SquareDraws"]
@@ -36,5 +36,11 @@ class SquareDraws:
 
     def of_step(self, step: Step, *shape: int) -> dict[Square, NDArray[np.float64]]:
         """Uniform numbers from 0 to 1 of a shape for each square; the same for each call with the same step."""
-        numbers = generator(self._seed, step).random((self._count, *shape))
+        return self._shared(generator(self._seed, step).random((self._count, *shape)))
+
+    def of_part(self, step: Step, name: str, *shape: int) -> dict[Square, NDArray[np.float64]]:
+        """The same for a part of a step that has a name."""
+        return self._shared(named_generator(self._seed, step, name).random((self._count, *shape)))
+
+    def _shared(self, numbers: NDArray[np.float64]) -> dict[Square, NDArray[np.float64]]:
         return {square: numbers[row] for square, row in self._rows.items()}

@@ -9,22 +9,20 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.lamps import TUBE
 from garage2usd.layout.placement import Placement, Stall, StallUse, placed
 from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
-from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.profiles import Profile
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
 
-__all__ = ["TUBE", "TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
+__all__ = ["TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
 _QUARTER_TURN = np.pi / 2
-TUBE = TubeLightSpec(length_m=1.5, width_m=0.12)
-"""The tube light, before it is known how bright it must be."""
 TUBE_DEPTH_M = 0.105
 """How far it hangs below the ceiling."""
 _CONES_ACROSS_M = (-0.75, 0.0, 0.75)

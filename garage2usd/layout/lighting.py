@@ -1,4 +1,4 @@
-"""How bright the floor is: tubes get the luminance that reaches the wanted illuminance."""
+"""How bright the floor is: lamps get the luminance that reaches the wanted illuminance, if all of them burn."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from garage2usd.config import FittingsConfig
 from garage2usd.layout.nearness import Points
 from garage2usd.layout.placement import Placement, Stall, of_spec
 from garage2usd.layout.tiles import TileGrid
-from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.objects.lamp import LampSpec
 from garage2usd.structure.grid import Cell
 
 __all__ = ["LightLevels", "Lux", "direct_lux", "lane_points_of", "light_up"]
@@ -19,7 +19,7 @@ UTILISATION, MAINTENANCE = 1.0, 0.8
 """Of lights that shine down only in a room with an index over 5 and grey surfaces, and of tubes cleaned once a year."""
 _REACH_M = 25.0
 _POINTS_AT_ONCE = 4096
-"""Bounds the memory that pairs of points and tubes take."""
+"""Bounds the memory that pairs of points and lamps take."""
 _SEGMENTS = 3
 _POINTS_A_SIDE = 3
 
@@ -40,14 +40,16 @@ class LightLevels:
     Attributes
     ----------
     luminance_nit
-        Of each tube's downward face, cd/m2.
+        Of the lit face of each lamp that burns, cd/m2.
     flux_lm
-        Of each tube: pi x luminance x area.
+        Of each of them: pi x luminance x area.
     lanes, stalls
         Direct light on the floor by the point-by-point method: on nine points of each lane square, and in the middle
         of each stall; None where there is none.
     lumen_method_lux
         Mean over the whole floor by the lumen method, reflections included.
+    lamps, dead_lamps
+        How many there are over lanes and stalls, and how many of them give no light.
     """
 
     luminance_nit: float
@@ -55,49 +57,63 @@ class LightLevels:
     lanes: Lux | None
     stalls: Lux | None
     lumen_method_lux: float
+    lamps: int = 0
+    dead_lamps: int = 0
 
 
 def light_up(
-    tubes: Sequence[Placement], grid: TileGrid, stalls: Sequence[Stall], fittings: FittingsConfig
+    lamps: Sequence[Placement], grid: TileGrid, stalls: Sequence[Stall], fittings: FittingsConfig
 ) -> tuple[list[Placement], LightLevels]:
-    """The same tubes with the luminance that the floor needs, and what the floor then gets.
+    """The same lamps with the luminance that the floor needs, and what the floor then gets.
 
     Notes
     -----
-    ``E(p) = MF L sum dA h^2 / r^4`` for level tubes over a level floor, each tube in three pieces, without what stands
-    in the way; beams cut off less than half a per cent. L is the least with which the mean direct light on lanes
-    reaches ``lane_lux`` and that on stalls ``stall_lux``. The lumen method has ``E = N Phi UF MF / A``.
+    ``E(p) = MF L sum dA h^2 / r^4`` for level lamps over a level floor, each in three pieces, without what stands in
+    the way; beams cut off less than half a per cent. L is the least with which the mean direct light on lanes reaches
+    ``lane_lux`` and that on stalls ``stall_lux`` while all lamps burn; what is told is without those that are dead.
+    The lumen method has ``E = N Phi UF MF / A``.
     """
     lane_points = lane_points_of(
         (tile.x_m, tile.z_m, tile.width_m, tile.depth_m) for tile in grid if tile.cell is Cell.LANE
     )
     stall_points = np.array([stall.centre_m for stall in stalls]).reshape(-1, 2)
-    unit_lanes, unit_stalls = (direct_lux(points, tubes) for points in (lane_points, stall_points))
+    new = [replace(lamp, spec=replace(spec, is_dead=False)) for lamp, spec in of_spec(lamps, LampSpec)]
+    unit_lanes, unit_stalls = (direct_lux(points, new) for points in (lane_points, stall_points))
     needs = [
         target / unit.mean()
         for target, unit in ((fittings.lane_lux, unit_lanes), (fittings.stall_lux, unit_stalls))
         if unit.size and unit.mean() > 0
     ]
     luminance = round(max(needs), 1) if needs else 0.0
-    lamps = [(tube, replace(spec, luminance_nit=luminance)) for tube, spec in of_spec(tubes, TubeLightSpec)]
-    lit = [replace(tube, spec=spec) for tube, spec in lamps]
+    lit = [
+        replace(lamp, spec=replace(spec, luminance_nit=0.0 if spec.is_dead else luminance))
+        for lamp, spec in of_spec(lamps, LampSpec)
+    ]
+    burning = [spec for _, spec in of_spec(lit, LampSpec) if not spec.is_dead]
+    if len(burning) < len(lit):
+        unit_lanes, unit_stalls = (direct_lux(points, lit) for points in (lane_points, stall_points))
     area = sum(tile.width_m * tile.depth_m for tile in grid)
-    flux = sum(np.pi * luminance * spec.length_m * spec.width_m for _, spec in lamps)
-    each = flux / len(lit) if lit else 0.0
+    flux = sum(np.pi * luminance * spec.area_m2 for spec in burning)
+    each = flux / len(burning) if burning else 0.0
     return lit, LightLevels(
         luminance,
         each,
         _lux(luminance * unit_lanes),
         _lux(luminance * unit_stalls),
         flux * UTILISATION * MAINTENANCE / area,
+        len(lit),
+        len(lit) - len(burning),
     )
 
 
-def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArray[np.float64]:
-    """Direct, maintained illuminance of points (x, z) on the floor for a luminance of 1 cd/m2; shape (n,)."""
-    if not len(points) or not tubes:
+def direct_lux(points: NDArray[np.float64], lamps: Sequence[Placement]) -> NDArray[np.float64]:
+    """Direct, maintained illuminance of points (x, z) on the floor for a luminance of 1 cd/m2; shape (n,).
+
+    Dead lamps give none.
+    """
+    pieces, areas, heights = _pieces(lamps)
+    if not len(points) or not len(pieces):
         return np.zeros(len(points))
-    pieces, areas, heights = _pieces(tubes)
     sources = Points(pieces)
     total = np.zeros(len(points))
     for start in range(0, len(points), _POINTS_AT_ONCE):
@@ -109,15 +125,17 @@ def direct_lux(points: NDArray[np.float64], tubes: Sequence[Placement]) -> NDArr
     return total
 
 
-def _pieces(tubes: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Middles (x, z), areas and heights over the floor of equal pieces of all tubes."""
+def _pieces(lamps: Sequence[Placement]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Middles (x, z), areas and heights over the floor of equal pieces of all lamps that burn."""
     middles, areas, heights = [], [], []
-    for tube, spec in of_spec(tubes, TubeLightSpec):
-        x, y, z = tube.position_m
+    for lamp, spec in of_spec(lamps, LampSpec):
+        if spec.is_dead:
+            continue
+        x, y, z = lamp.position_m
         for index in range(_SEGMENTS):
             along = ((index + 0.5) / _SEGMENTS - 0.5) * spec.length_m
-            middles.append((x + along * np.cos(tube.yaw_rad), z - along * np.sin(tube.yaw_rad)))
-            areas.append(spec.length_m * spec.width_m / _SEGMENTS)
+            middles.append((x + along * np.cos(lamp.yaw_rad), z - along * np.sin(lamp.yaw_rad)))
+            areas.append(spec.area_m2 / _SEGMENTS)
             heights.append(y - spec.drop_m)
     return np.array(middles), np.array(areas), np.array(heights)
 

@@ -6,7 +6,7 @@ from garage2usd.look.axes import Axes
 from garage2usd.look.ceiling import ceiling_finishes, drawn_ceiling
 from garage2usd.look.columns import column_finishes, drawn_columns
 from garage2usd.look.floor import drawn_floor, floor_finishes
-from garage2usd.look.lights import drawn_lights
+from garage2usd.look.lights import drawn_lights, light_finishes
 from garage2usd.look.markings import drawn_markings, paint_finishes
 from garage2usd.look.numbers import drawn_numbers
 from garage2usd.look.signs import drawn_signs
@@ -42,4 +42,5 @@ def finishes_of(look: LookConfig) -> dict[str, Finish]:
         **column_finishes(look.columns),
         **wall_finishes(look.walls),
         **ceiling_finishes(look.ceiling),
+        **light_finishes(look.lights),
     }

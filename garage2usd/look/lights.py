@@ -1,9 +1,19 @@
-"""Which lights are drawn."""
+"""Which lights are drawn, and what is seen of the sky at doors."""
 
+from dataclasses import replace
+
+from garage2usd.assets import MATERIALS, Finish, Rgb
 from garage2usd.config.look import Daylight, LampKind, LightsLook
 from garage2usd.look.axes import Group
 
-__all__ = ["drawn_lights"]
+__all__ = ["drawn_lights", "light_finishes"]
+
+_SKIES: dict[Daylight, tuple[Rgb, Rgb]] = {
+    Daylight.SUN: ((10.5, 12.6, 16.8), (0.8, 0.85, 0.9)),
+    Daylight.DUSK: ((0.62, 0.36, 0.40), (0.10, 0.09, 0.12)),
+    Daylight.NIGHT: ((0.010, 0.011, 0.016), (0.004, 0.004, 0.005)),
+}
+"""Radiance and colour of the sky other than the usual, overcast one: clear and four times as bright, red, and dark."""
 
 
 def drawn_lights(axes: Group) -> LightsLook:
@@ -18,3 +28,12 @@ def drawn_lights(axes: Group) -> LightsLook:
             "daylight", {Daylight.OVERCAST: 0.4, Daylight.SUN: 0.25, Daylight.DUSK: 0.1, Daylight.NIGHT: 0.25}
         ),
     )
+
+
+def light_finishes(lights: LightsLook) -> dict[str, Finish]:
+    """What the sky at doors is in the place of an overcast one."""
+    if lights.daylight not in _SKIES:
+        return {}
+    radiance_rgb, colour_rgb = _SKIES[lights.daylight]
+    sky = replace(MATERIALS["daylight"], emissive_rgb=radiance_rgb, colour_rgb=colour_rgb)
+    return {"daylight": Finish("daylight", sky)}

@@ -14,19 +14,21 @@ from garage2usd.assets import (
     MATERIALS,
     NON_VISUAL,
     VARYING,
+    AreaLight,
     Asset,
     Finish,
     Material,
     Part,
-    RectLight,
     Touch,
     pascal_case,
 )
 from garage2usd.assets.colours import material_colour
+from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Kind
 from garage2usd.objects.car import PAINT_SET
 from garage2usd.objects.pieces import piece_name, pieces_of
+from garage2usd.reading.lights import luminance_of
 from garage2usd.stage.authoring import (
     apply_schemas,
     attribute,
@@ -42,13 +44,10 @@ from garage2usd.stage.looks import define_material, label_material, set_glow, se
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["NITS_PER_INTENSITY", "TUBE_COLOUR_RGB", "define_mesh", "write_prototype"]
+__all__ = ["NITS_PER_INTENSITY", "define_mesh", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
-TUBE_COLOUR_RGB = (1.0, 0.97, 0.92)
-"""Linear."""
-
 USUAL: Mapping[str, Finish] = {}
 """The finishes of a garage whose materials are all as usual."""
 
@@ -170,14 +169,21 @@ def _display(prim: Sdf.PrimSpec, colour_rgb: tuple[float, float, float]) -> None
     attribute(prim, "primvars:displayColor", _TYPES.Color3fArray, Vt.Vec3fArray([Gf.Vec3f(*colour_rgb)]))
 
 
-def _define_power(root: Sdf.PrimSpec, light: RectLight, glowing: Mapping[str, Material]) -> None:
-    """Light and glow as the variants on and off, on being selected."""
+def _define_power(root: Sdf.PrimSpec, light: AreaLight, glowing: Mapping[str, Material]) -> None:
+    """Light and glow as the variants on and off, on being selected.
+
+    Lights of all colours are equally bright to the eye for the same luminance.
+    """
     shares = {"on": 1.0, "off": 0.0}
+    brighter = luminance_of(USUAL_LAMP_RGB) / luminance_of(light.colour_rgb)
+    tint = [brighter * channel / usual for channel, usual in zip(light.colour_rgb, USUAL_LAMP_RGB, strict=True)]
     for name, variant in _define_variants(root, POWER_SET, shares):
-        intensity = shares[name] * light.luminance_nit / NITS_PER_INTENSITY
+        intensity = shares[name] * light.luminance_nit / NITS_PER_INTENSITY * brighter
         attribute(_over(variant, "Light"), "inputs:intensity", _TYPES.Float, intensity)
         for key, material in glowing.items():
-            red, green, blue = (shares[name] * channel for channel in material.emissive_rgb)
+            red, green, blue = (
+                shares[name] * channel * factor for channel, factor in zip(material.emissive_rgb, tint, strict=True)
+            )
             set_glow(_over(variant, "Looks", pascal_case(key), "Surface"), (red, green, blue))
 
 
@@ -245,17 +251,20 @@ def _define_primvar(
     numbers(mesh, f"primvars:{name}:indices", indices)
 
 
-def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: RectLight) -> None:
-    rect = define(layer, path, "RectLight")
-    attribute(rect, "inputs:width", _TYPES.Float, light.width_m)
-    attribute(rect, "inputs:height", _TYPES.Float, light.depth_m)
-    attribute(rect, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*TUBE_COLOUR_RGB))
-    attribute(rect, "inputs:normalize", _TYPES.Bool, value=False)
-    attribute(rect, "garage:light:luminance", _TYPES.Float, light.luminance_nit)
+def _define_light(layer: Sdf.Layer, path: Sdf.Path, light: AreaLight) -> None:
+    area = define(layer, path, "DiskLight" if light.is_round else "RectLight")
+    if light.is_round:
+        attribute(area, "inputs:radius", _TYPES.Float, light.width_m / 2)
+    else:
+        attribute(area, "inputs:width", _TYPES.Float, light.width_m)
+        attribute(area, "inputs:height", _TYPES.Float, light.depth_m)
+    attribute(area, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*light.colour_rgb))
+    attribute(area, "inputs:normalize", _TYPES.Bool, value=False)
+    attribute(area, "garage:light:luminance", _TYPES.Float, light.luminance_nit)
     corner_m = np.array([light.width_m, light.depth_m]) / 2
     extent = np.array([[*-corner_m, 0.0], [*corner_m, 0.0]], dtype=np.float32)
-    attribute(rect, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))
-    # a rect light shines along its -Z; turned by -90 degrees about X it shines down
-    operation(rect, "translate", _TYPES.Float3, Gf.Vec3f(0, light.height_m, 0))
-    operation(rect, "rotateX", _TYPES.Float, -90.0)
-    order_operations(rect, ["translate", "rotateX"])
+    attribute(area, "extent", _TYPES.Float3Array, Vt.Vec3fArray.FromNumpy(extent))
+    # it shines along its -Z; turned by -90 degrees about X it shines down
+    operation(area, "translate", _TYPES.Float3, Gf.Vec3f(0, light.height_m, 0))
+    operation(area, "rotateX", _TYPES.Float, -90.0)
+    order_operations(area, ["translate", "rotateX"])

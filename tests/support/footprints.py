@@ -19,6 +19,7 @@ from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -29,7 +30,6 @@ from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall_number import NumberSpec
-from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
@@ -62,7 +62,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(spec.side_m, spec.side_m)
         case ColumnSpec():
             return _centred(spec.size_m, spec.size_m)
-        case TubeLightSpec():
+        case LampSpec():
             return _centred(spec.length_m, spec.width_m)
         case BeamSpec():
             return _centred(spec.width_m, spec.length_m)

@@ -18,6 +18,7 @@ from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor import FloorSpec
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -30,7 +31,6 @@ from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.stall_number import NumberSpec
-from garage2usd.objects.tube_light import TubeLightSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
@@ -82,7 +82,7 @@ SPECS = {
     "column_rectangular": ColumnSpec(0.6, 3.2, RECTANGULAR, head_m=0.4, boards=(CABINET._replace(side=3),)),
     "column_rectangular_rubber": ColumnSpec(0.6, 3.2, RECTANGULAR, is_long_along_x=True, guard=Guard.RUBBER),
     "ceiling": CeilingSpec(8.1, 8.1, 0.25),
-    "tube": TubeLightSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
+    "tube": LampSpec(1.5, 0.12, drop_m=0.115, luminance_nit=4000.0),
     "beam": BeamSpec(7.5, 0.4, 0.4),
     "node": BeamNodeSpec(((-0.3, -0.2, 0.3, 0.2), (-0.2, 0.2, 0.2, 0.3)), 0.4),
     "duct": DuctSpec(8.1, 0.8, 0.35, hanger_m=0.15, hangers_at_m=(-3.0, 3.0)),

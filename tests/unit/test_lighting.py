@@ -4,10 +4,10 @@ import pytest
 from garage2usd.config import GarageConfig
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
-from garage2usd.objects.tube_light import TubeLightSpec
+from garage2usd.objects.lamp import LampSpec
 from garage2usd.pipeline import generate
 
-SPEC = TubeLightSpec(1.5, 0.12, luminance_nit=1000.0)
+SPEC = LampSpec(1.5, 0.12, luminance_nit=1000.0)
 
 
 def tube(x, z, yaw=0.0, height=3.2):
