@@ -1,9 +1,11 @@
-"""Shapes of capital letters and digits, drawn with a broad pen."""
+"""Shapes of words: capital letters and digits, drawn with a broad pen, and Chinese characters."""
 
 import shapely
 from shapely import affinity
 
-__all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "text_shape"]
+from garage2usd.assets.han_glyphs import HAN_PITCH, HAN_WIDTH, han_glyph, is_han
+
+__all__ = ["GLYPH_PITCH", "GLYPH_WIDTH", "text_length", "text_shape"]
 
 GLYPH_WIDTH = 0.56
 """Width of each character as a share of its height."""
@@ -128,15 +130,22 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     Parameters
     ----------
     text
-        Digits, capital letters, dashes and spaces.
+        Digits, capital letters, dashes and spaces; or Chinese characters.
     height_m
         Of each character.
     """
+    pitch, glyph = (HAN_PITCH, han_glyph) if is_han(text) else (GLYPH_PITCH, _glyph)
     shapes = []
     for index, character in enumerate(text):
-        across = (index - (len(text) - 1) / 2) * GLYPH_PITCH
-        shapes.append(affinity.translate(_glyph(character), across))
+        across = (index - (len(text) - 1) / 2) * pitch
+        shapes.append(affinity.translate(glyph(character), across))
     return affinity.scale(shapely.union_all(shapes), height_m, height_m, origin=(0, 0))
+
+
+def text_length(text: str) -> float:
+    """Length of a word as a share of the height of its characters."""
+    width, pitch = (HAN_WIDTH, HAN_PITCH) if is_han(text) else (GLYPH_WIDTH, GLYPH_PITCH)
+    return width + pitch * (len(text) - 1)
 
 
 def _glyph(character: str) -> shapely.Geometry:

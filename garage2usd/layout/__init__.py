@@ -31,6 +31,7 @@ from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
+from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.stall_numbers import stall_numbers
 from garage2usd.layout.stall_table import STALL_USES, StallTable
@@ -262,7 +263,7 @@ def lay_out(
 
     return Layout(
         structure,
-        ObjectTable(parts()),
+        ObjectTable(with_signs_of(country_of(look.signs, config.standard), parts())),
         StallTable(stalls),
         fittings.ceiling_height_m,
         illuminance,

@@ -4,10 +4,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+from shapely import affinity
 
 from garage2usd.assets.faces import box_faces
+from garage2usd.assets.flat import upright_triangles
+from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.pictograms import running_man
 from garage2usd.objects.kind import Kind, Spec, VariantSet
+from garage2usd.objects.signage import SIGNAGE, Country, Signage
 
 __all__ = ["KIND", "ExitSignSpec", "Turn"]
 
@@ -25,6 +30,9 @@ class Turn(StrEnum):
 _ARROW_DEG = {Turn.LEFT: -90.0, Turn.AHEAD: 0.0, Turn.RIGHT: 90.0}
 _SIGN_WIDTH_M = 0.8
 _SIGN_DEPTH_M = 0.05
+_LEGEND_M, _GAP_M = (-0.37, 0.12), 0.04
+_RUNNER, _RUNNER_HALF, _WORD = 0.86, 0.62, 0.62
+"""Height of the pictogram and of the word in that of the sign, and half the pictogram's width in its height."""
 # strokes of E, X, I and T as quadrilaterals in a cell of 1 x 1, counter-clockwise
 _BAR = 0.2
 _LETTERS: dict[str, list[tuple[tuple[float, float], ...]]] = {
@@ -47,9 +55,12 @@ class ExitSignSpec(Spec, kind=KIND):
     turn: Turn
     top_m: float
     height_m: float
+    country: Country = Country.NONE
 
     def asset(self) -> Asset:
-        """A green box on two rods, with an arrow and the word EXIT."""
+        """A box on two rods, with an arrow and what the country's exit signs have: the word EXIT at first."""
+        signs = SIGNAGE[self.country]
+        ground, ink = ("housing_white", "sign_red") if signs.is_red else ("exit_green", "exit_white")
         half, low = _SIGN_WIDTH_M / 2, -self.top_m - self.height_m
         box = box_faces((-half, low, -_SIGN_DEPTH_M / 2), (half, -self.top_m, _SIGN_DEPTH_M / 2))
         rods: list[Face] = []
@@ -58,24 +69,42 @@ class ExitSignSpec(Spec, kind=KIND):
         front, middle = _SIGN_DEPTH_M / 2 + 0.002, low + self.height_m / 2
         return Asset(
             (
-                make_part("Box", box, "exit_green", collider=Collider.BOX),
+                make_part("Box", box, ground, collider=Collider.BOX),
                 make_part("Rods", rods, "steel_dark"),
-                *_arrow(_ARROW_DEG[self.turn], 0.24, middle, front, self.height_m * 0.4),
-                *_letters(middle, front, self.height_m * 0.5),
+                *_arrow(_ARROW_DEG[self.turn], 0.24, middle, front, self.height_m * 0.4, ink),
+                *(
+                    _legend(signs, middle, front, self.height_m, ink)
+                    if self.country
+                    else _letters(middle, front, self.height_m * 0.5)
+                ),
             ),
         )
 
 
-def _arrow(turn_deg: float, x: float, y: float, z: float, reach: float) -> list[Part]:
+def _arrow(turn_deg: float, x: float, y: float, z: float, reach: float, ink: str) -> list[Part]:
     """The sign's arrow: a shaft and a head."""
     angle = -np.radians(turn_deg)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     shaft = [(-0.018, -reach), (0.018, -reach), (0.018, 0.1 * reach), (-0.018, 0.1 * reach)]
     head = [(-0.06, 0.1 * reach), (0.06, 0.1 * reach), (0.0, reach)]
     faces = [np.column_stack([np.array(shape) @ turn + (x, y), np.full(len(shape), z)]) for shape in (shaft, head)]
-    return [
-        make_part(name, [face], "exit_white") for name, face in zip(("ArrowShaft", "ArrowHead"), faces, strict=True)
-    ]
+    return [make_part(name, [face], ink) for name, face in zip(("ArrowShaft", "ArrowHead"), faces, strict=True)]
+
+
+def _legend(signs: Signage, y: float, z: float, height_m: float, ink: str) -> list[Part]:
+    """The pictogram and the word on the left part of a sign."""
+    left, right = _LEGEND_M
+    shapes = []
+    if signs.has_runner:
+        side = _RUNNER * height_m
+        man = affinity.affine_transform(running_man(), [side, 0, 0, -side, 0, side / 2])
+        x = left + side * _RUNNER_HALF if signs.exit_sign else (left + right) / 2
+        shapes.append(("Runner", affinity.translate(man, x)))
+        left += side * 2 * _RUNNER_HALF + _GAP_M
+    if signs.exit_sign:
+        size = min(_WORD * height_m, (right - left) / text_length(signs.exit_sign))
+        shapes.append(("Word", affinity.translate(text_shape(signs.exit_sign, size), (left + right) / 2)))
+    return [make_part(name, upright_triangles(shape, middle_m=y, front_m=z), ink) for name, shape in shapes]
 
 
 def _letters(y: float, z: float, size: float) -> list[Part]:

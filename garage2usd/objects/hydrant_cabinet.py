@@ -7,11 +7,12 @@ from shapely import affinity
 
 from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
-from garage2usd.assets.glyphs import text_shape
+from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.mounted import Mounted
 from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.signage import SIGNAGE, Country
 
 __all__ = ["KIND", "MOUNTED", "HydrantCabinetSpec"]
 
@@ -25,13 +26,22 @@ _OUTLET_M = 1.10
 _SHEET_M, _DOOR_M, _FRAME_M = 0.012, 0.022, 0.055
 _PANEL_M = 0.26
 """Height of the steel panel under the glass."""
+_TEXT_LENGTH_M = 0.46
 _REEL_M = 0.20
 _PIPE_M = 0.038
 
 
 @dataclass(frozen=True)
 class HydrantCabinetSpec(Spec, kind=KIND):
-    """A cabinet fed by a pipe from the floor; origin on the floor in the middle of its back, its front to +Z."""
+    """A cabinet fed by a pipe from the floor; origin on the floor in the middle of its back, its front to +Z.
+
+    Attributes
+    ----------
+    country
+        Whose words and number it has.
+    """
+
+    country: Country = Country.NONE
 
     def asset(self) -> Asset:
         """A red cabinet with a framed glass door, lettered on the panel below, with what is in it, and its pipe."""
@@ -45,7 +55,7 @@ class HydrantCabinetSpec(Spec, kind=KIND):
                 make_part("Sides", ring_faces(*inside, _SHEET_M), "pipe_red", collider=Collider.BOX),
                 make_part("Back", back, "housing_white"),
                 make_part("Pipe", pipe, "pipe_red", collider=Collider.CONVEX_HULL),
-                *_door(x, low, high, front),
+                *_door(x, low, high, front, self.country),
                 *_fittings(at_pipe),
             )
         )
@@ -66,7 +76,7 @@ MOUNTED = Mounted(
 )
 
 
-def _door(x: float, low: float, high: float, back: float) -> list[Part]:
+def _door(x: float, low: float, high: float, back: float, country: Country) -> list[Part]:
     """The door leaf: a frame, the glass, the lettered panel under it, a handle and two hinges."""
     frame = _FRAME_M
     opening = (-x + frame, low + frame, back), (x - frame, high - frame, _DEPTH_M)
@@ -78,10 +88,13 @@ def _door(x: float, low: float, high: float, back: float) -> list[Part]:
     for at in (low + 0.10, high - 0.16):
         hinges += box_faces((-x + 0.004, at, _DEPTH_M), (-x + 0.018, at + 0.06, _DEPTH_M + 0.008))
     middle = low + frame + _PANEL_M / 2
+    signs = SIGNAGE[country]
     letters = shapely.union_all(
         [
-            affinity.translate(text_shape("HYDRANT", 0.088), 0.0, -0.048),
-            affinity.translate(text_shape("119", 0.075), 0.0, 0.062),
+            affinity.translate(
+                text_shape(signs.hydrant, min(0.088, _TEXT_LENGTH_M / text_length(signs.hydrant))), 0.0, -0.048
+            ),
+            affinity.translate(text_shape(signs.fire_number, 0.075), 0.0, 0.062),
         ]
     )
     text = upright_triangles(letters, middle_m=middle, front_m=_DEPTH_M - 0.001)

@@ -1,41 +1,27 @@
 """Lit signs over vehicle doors: who may drive through, and who may not."""
 
-from enum import StrEnum
-
 import numpy as np
 import shapely
 from shapely import affinity
 
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.flat import upright_triangles
-from garage2usd.assets.glyphs import text_shape
+from garage2usd.assets.glyphs import text_length, text_shape
+from garage2usd.assets.han_glyphs import is_han
 from garage2usd.assets.mesh import Part, make_part
+from garage2usd.objects.signage import SIGNAGE, Country, Way
 
-__all__ = ["Way", "lit_sign"]
+__all__ = ["lit_sign"]
 
 _MOST_HEIGHT_M, _LEAST_HEIGHT_M = 0.5, 0.06
 _LENGTH = 5.6
 """In heights of the sign, as all measures of what is on it."""
-_TEXT = 0.5
+_TEXT, _HAN_TEXT, _TEXT_LENGTH = 0.5, 0.66, 3.4
 _SYMBOLS_AT = (-2.3, 2.3)
 _ARROW = ((-0.1, -0.36), (0.1, -0.36), (0.1, 0.0), (0.3, 0.0), (0.0, 0.36), (-0.3, 0.0), (-0.1, 0.0))
 _PLATE, _DISC, _BAR = 0.84, 0.38, (0.27, 0.07)
 """Of the sign of no entry: side of the white plate, radius of the disc, half of its bar's length and width."""
 _DEPTH_M, _LIFT_M = 0.06, 0.004
-
-
-class Way(StrEnum):
-    """What a sign says to those who see it."""
-
-    IN = "ENTER"
-    NOT_IN = "NO ENTRY"
-    OUT = "EXIT"
-    NOT_OUT = "NO EXIT"
-
-    @property
-    def is_open(self) -> bool:
-        """Whether they may drive on."""
-        return self in {Way.IN, Way.OUT}
 
 
 def lit_sign(
@@ -45,6 +31,7 @@ def lit_sign(
     heights_m: tuple[float, float],
     wall_m: float,
     *,
+    country: Country = Country.NONE,
     looks_back: bool = False,
 ) -> list[Part]:
     """A lit sign on a wall, as large as its room allows; none where that is too low.
@@ -59,6 +46,8 @@ def lit_sign(
         The room for it along X and Y.
     wall_m
         Where the wall's face is along Z.
+    country
+        Whose words it has.
     looks_back
         Whether it looks to -Z, not to +Z.
 
@@ -73,7 +62,9 @@ def lit_sign(
     if height < _LEAST_HEIGHT_M:
         return []
     symbol = shapely.Polygon(_ARROW) if way.is_open else _around_disc()
-    drawn = shapely.union_all([text_shape(way, _TEXT), *(affinity.translate(symbol, end) for end in _SYMBOLS_AT)])
+    words = SIGNAGE[country].of(way)
+    text = text_shape(words, min(_HAN_TEXT if is_han(words) else _TEXT, _TEXT_LENGTH / text_length(words)))
+    drawn = shapely.union_all([text, *(affinity.translate(symbol, end) for end in _SYMBOLS_AT)])
     drawn = affinity.scale(drawn, height, height, origin=(0, 0))
     x, y = _LENGTH * height / 2, (low + high) / 2
     box = box_faces((-x, y - height / 2, 0.0), (x, y + height / 2, _DEPTH_M), without="n")

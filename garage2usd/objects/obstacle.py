@@ -7,6 +7,7 @@ import shapely
 
 from garage2usd.assets.faces import box_faces, frame_faces
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.assets.pictograms import running_man
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.wall import dado_part
@@ -85,17 +86,7 @@ def _exit_sign(face_m: float, height_m: float) -> list[Part]:
         return []
     half, front, side = (high - low), face_m + 0.03, high - low
     plate = box_faces((-half, low, face_m), (half, high, front), without="n")
-    strokes = [
-        shapely.Point(-0.18, 0.80).buffer(0.09, quad_segs=3),  # head, body, arms and legs, then the doorway
-        shapely.LineString([(-0.22, 0.66), (-0.30, 0.40)]).buffer(0.07, cap_style="flat"),
-        shapely.LineString([(-0.50, 0.46), (-0.42, 0.62), (-0.22, 0.62), (-0.06, 0.50)]).buffer(
-            0.035, cap_style="flat"
-        ),
-        shapely.LineString([(-0.30, 0.42), (-0.12, 0.34), (-0.14, 0.12)]).buffer(0.045, cap_style="flat"),
-        shapely.LineString([(-0.30, 0.42), (-0.36, 0.22), (-0.58, 0.20)]).buffer(0.045, cap_style="flat"),
-        shapely.box(0.22, 0.10, 0.62, 0.90),
-    ]
-    drawn = shapely.get_parts(shapely.union_all(strokes, grid_size=1e-3))
+    drawn = shapely.get_parts(running_man())
     faces = [
         np.array([(x * side, low + y * side, front + 0.004) for x, y in list(triangle.exterior.coords)[-2::-1]])
         for shape in drawn

@@ -9,8 +9,9 @@ from garage2usd.assets.faces import box_faces, frame_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, make_part
 from garage2usd.config.site import DOOR_FRAME_M
 from garage2usd.objects.kind import Kind, Spec
-from garage2usd.objects.lit_sign import Way, lit_sign
+from garage2usd.objects.lit_sign import lit_sign
 from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.objects.signage import Country, Way
 
 __all__ = ["KIND", "PortalSpec"]
 
@@ -35,6 +36,8 @@ class PortalSpec(Spec, kind=KIND):
     is_entrance: bool
     is_open: bool = False
     """Whether its roller door is up, because a ramp lies behind it."""
+    country: Country = Country.NONE
+    """Whose words are on its signs."""
 
     def asset(self) -> Asset:
         """A roller door set back in the wall, closed or up, a steel frame, and a lit sign on both faces."""
@@ -51,6 +54,7 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Door", _lamellae(opening, head, -self.thickness_m / 2), "door_steel", collider=Collider.BOX)
             ]
         )
+        inside, outside = (Way.NOT_OUT, Way.IN) if self.is_entrance else (Way.OUT, Way.NOT_IN)
         sign_room = (-jamb, jamb), (self.door_height_m + _OVER_FRAME_M, self.height_m - _UNDER_CEILING_M)
         return Asset(
             (
@@ -59,8 +63,8 @@ class PortalSpec(Spec, kind=KIND):
                 make_part("Lintel", lintel, "wall_concrete", collider=Collider.BOX),
                 make_part("Frame", frame, "hazard", collider=Collider.MESH),
                 *door,
-                *lit_sign("Sign", Way.NOT_OUT if self.is_entrance else Way.OUT, *sign_room, 0.0),
-                *lit_sign("OuterSign", Way.IN if self.is_entrance else Way.NOT_IN, *sign_room, back, looks_back=True),
+                *lit_sign("Sign", inside, *sign_room, 0.0, country=self.country),
+                *lit_sign("OuterSign", outside, *sign_room, back, country=self.country, looks_back=True),
             ),
         )
 

@@ -25,6 +25,9 @@ class Profile(Settings):
     """Short name of the profile."""
     title: str = Field("", max_length=500)
     """What it is taken from."""
+    country: str = Field("", pattern=r"^([A-Z]{2})?$")
+    """ISO 3166 code of the country whose signs garages have that ask for those of their profile: CN, DE, GB and US are
+    known, all others have international ones."""
 
     design_car_length: Length | None = None
     """Length of the car that a stall is designed for."""

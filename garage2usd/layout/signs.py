@@ -1,0 +1,31 @@
+"""Signs in the words of a country."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from garage2usd.config.look import SignsLook, SignsOf
+from garage2usd.layout.placement import Placement
+from garage2usd.objects.exit_sign import ExitSignSpec
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.signage import Country
+from garage2usd.profiles import Profile
+
+__all__ = ["country_of", "with_signs_of"]
+
+
+def country_of(signs: SignsLook, profile: Profile) -> Country:
+    """Whose signs a garage has."""
+    is_known = signs.of is SignsOf.PROFILE and profile.country in set(Country)
+    return Country(profile.country) if is_known else Country.NONE
+
+
+def with_signs_of(country: Country, parts: Iterable[Iterable[Placement]]) -> Iterator[Iterable[Placement]]:
+    """The same objects with the words, colours and numbers of a country."""
+    for part in parts:
+        yield (
+            replace(each, spec=replace(each.spec, country=country))
+            if country and isinstance(each.spec, ExitSignSpec | HydrantCabinetSpec | PortalSpec)
+            else each
+            for each in part
+        )

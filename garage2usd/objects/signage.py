@@ -1,0 +1,127 @@
+"""What signs say in a country."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+__all__ = ["SIGNAGE", "Country", "Signage", "Way"]
+
+
+class Country(StrEnum):
+    """Whose signs, by ISO 3166."""
+
+    NONE = ""
+    """Of no country: international."""
+    CN = "CN"
+    DE = "DE"
+    GB = "GB"
+    US = "US"
+
+
+class Way(StrEnum):
+    """What a sign over a vehicle door says to those who see it."""
+
+    IN = "in"
+    NOT_IN = "not_in"
+    OUT = "out"
+    NOT_OUT = "not_out"
+
+    @property
+    def is_open(self) -> bool:
+        """Whether they may drive on."""
+        return self in {Way.IN, Way.OUT}
+
+
+@dataclass(frozen=True)
+class Signage:
+    """The words, colours and numbers of a country.
+
+    Attributes
+    ----------
+    enter, no_entry, exit, no_exit
+        Over vehicle doors.
+    exit_sign
+        On exit signs over aisles; empty where the pictogram alone says it.
+    has_runner
+        Whether these show who runs through a doorway.
+    is_red
+        Whether their legend shines red on white, not white on green.
+    hydrant, fire_number
+        On hydrant cabinets: what they are, and the number of the fire brigade.
+    """
+
+    enter: str
+    no_entry: str
+    exit: str
+    no_exit: str
+    exit_sign: str
+    has_runner: bool
+    is_red: bool
+    hydrant: str
+    fire_number: str
+
+    def of(self, way: Way) -> str:
+        """What is written over a door."""
+        return {Way.IN: self.enter, Way.NOT_IN: self.no_entry, Way.OUT: self.exit, Way.NOT_OUT: self.no_exit}[way]
+
+
+SIGNAGE = {
+    Country.NONE: Signage(
+        "ENTER",
+        "NO ENTRY",
+        "EXIT",
+        "NO EXIT",
+        "EXIT",
+        has_runner=False,
+        is_red=False,
+        hydrant="HYDRANT",
+        fire_number="119",
+    ),
+    Country.CN: Signage(
+        "入口",
+        "禁止驶入",
+        "出口",
+        "禁止驶出",
+        "出口",
+        has_runner=True,
+        is_red=False,
+        hydrant="消火栓",
+        fire_number="119",
+    ),
+    Country.DE: Signage(
+        "EINFAHRT",
+        "KEINE EINFAHRT",
+        "AUSFAHRT",
+        "KEINE AUSFAHRT",
+        "",
+        has_runner=True,
+        is_red=False,
+        hydrant="WANDHYDRANT",
+        fire_number="112",
+    ),
+    Country.GB: Signage(
+        "WAY IN",
+        "NO ENTRY",
+        "WAY OUT",
+        "NO EXIT",
+        "WAY OUT",
+        has_runner=False,
+        is_red=False,
+        hydrant="FIRE HOSE",
+        fire_number="999",
+    ),
+    Country.US: Signage(
+        "ENTER",
+        "DO NOT ENTER",
+        "EXIT",
+        "NO EXIT",
+        "EXIT",
+        has_runner=False,
+        is_red=True,
+        hydrant="FIRE HOSE",
+        fire_number="911",
+    ),
+}
+"""That of each country.
+
+The pictogram is that of ISO 7010 (E001, E002) and GB 13495; red legends on white are usual for exit signs by NFPA 101.
+"""
