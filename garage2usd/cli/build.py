@@ -181,7 +181,7 @@ def _lit(made: "Build") -> str:
         f"{name}s {mean:.0f} lx ({name}_lux asks for {wanted:g}{', which decides' if name == decides else ''})"
         for name, mean, wanted in lit
     ]
-    return ", ".join(parts) + (f"; {light.dead_lamps} of {light.lamps} lamps are dead" if light.dead_lamps else "")
+    return ", ".join(parts) + (f"; {light.dead_lamps} of {light.lamps} lamps give no light" if light.dead_lamps else "")
 
 
 def _displaced(layout: "Layout") -> int:

@@ -1,0 +1,132 @@
+"""Signs in the words of a country: that a garage has them, and everything else where it was."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+
+from garage2usd.assets.glyphs import text_length, text_shape
+from garage2usd.config import GarageConfig
+from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
+from garage2usd.objects.lit_sign import lit_sign
+from garage2usd.objects.signage import SIGNAGE, Country, Way
+from garage2usd.pipeline import generate
+from garage2usd.profiles import Profile
+
+PLAN = {"episodes": 100}
+PROFILES = {"cn-jgj100": "CN", "de-garvo": "DE", "uk-istructe": "GB", "us-ada": "US"}
+SIGNED = ("exit_sign", "portal", "hydrant_cabinet")
+
+
+def laid_out(profile, of):
+    return generate(GarageConfig(seed=3, plan=PLAN, profile=profile, look={"signs": {"of": of}})).layout
+
+
+def places(layout):
+    return [
+        (place.name, place.kind, place.position_m, place.yaw_rad, place.square, place.ordinal)
+        for place in layout.placements
+    ]
+
+
+@pytest.mark.parametrize(("profile", "country"), PROFILES.items())
+def test_signs_are_those_of_the_profile_and_stay_in_their_places(profile, country):
+    usual, other = laid_out(profile, "international"), laid_out(profile, "profile")
+    assert other.structure == usual.structure
+    assert places(other) == places(usual)
+    signed = [place.spec.country for layout in (usual, other) for kind in SIGNED for place in layout.of_kind(kind)]
+    half = len(signed) // 2
+    assert set(signed[:half]) == {Country.NONE}
+    assert set(signed[half:]) == {country}
+    assert {"portal", "hydrant_cabinet"} <= {place.kind for place in other.placements}
+
+
+@pytest.mark.parametrize("country", ["", "SE"])
+def test_a_profile_of_no_country_or_another_has_international_signs(country):
+    layout = laid_out({"name": "own", "country": country}, "profile")
+    assert {place.spec.country for kind in SIGNED for place in layout.of_kind(kind)} == {Country.NONE}
+
+
+def test_a_country_is_a_code():
+    with pytest.raises(ValueError, match="country"):
+        Profile(name="own", country="Germany")
+
+
+def drawn(parts, name):
+    """What a part shows from the front, as (x, y) with y upwards."""
+    part = next(part for part in parts if part.name == name)
+    ends = np.cumsum(part.face_counts)[:-1]
+    faces = [part.points[face][:, :2] for face in np.split(part.face_indices, ends)]
+    return shapely.union_all([shapely.Polygon(face.astype(float)) for face in faces], grid_size=1e-5), part.material
+
+
+def agreement(shape, word):
+    """Share of the area that a shape has in common with a word as large, in the same place."""
+    low_x, low_y, high_x, high_y = shape.bounds
+    text = shapely.transform(text_shape(word, 1.0), lambda points: points * (1, -1))
+    x0, y0, x1, y1 = text.bounds
+    fit = shapely.transform(
+        text,
+        lambda points: (points - (x0, y0)) / (x1 - x0, y1 - y0) * (high_x - low_x, high_y - low_y) + (low_x, low_y),
+    )
+    return shape.intersection(fit).area / shape.union(fit).area
+
+
+WORDS = {"CN": "出口", "GB": "WAY OUT", "US": "EXIT"}
+
+
+@pytest.mark.parametrize(("country", "word"), WORDS.items())
+def test_exit_signs_say_it_in_the_words_of_the_country(country, word):
+    parts = ExitSignSpec(Turn.LEFT, 0.58, 0.2, Country(country)).asset().parts
+    shape, material = drawn(parts, "Word")
+    assert agreement(shape, word) > 0.95
+    assert all(agreement(shape, other) < 0.8 for other in WORDS.values() if other != word)
+    box = next(part for part in parts if part.name == "Box")
+    assert (box.material, material) == (
+        ("housing_white", "sign_red") if country == "US" else ("exit_green", "exit_white")
+    )
+
+
+def test_german_exit_signs_have_the_pictogram_alone():
+    names = {part.name for part in ExitSignSpec(Turn.LEFT, 0.58, 0.2, Country.DE).asset().parts}
+    assert "Runner" in names
+    assert "Word" not in names
+
+
+@pytest.mark.parametrize("country", [each for each in Country if each])
+def test_what_is_on_an_exit_sign_stays_on_it_and_apart(country):
+    parts = ExitSignSpec(Turn.RIGHT, 0.58, 0.2, country).asset().parts
+    on_it = [drawn(parts, part.name)[0] for part in parts if part.name in {"Runner", "Word", "ArrowShaft"}]
+    assert all(shapely.box(-0.4, -0.78, 0.4, -0.58).buffer(-0.005).contains(shape) for shape in on_it)
+    bounds = sorted(shape.bounds for shape in on_it)
+    assert all(left[2] < right[0] for left, right in pairwise(bounds))
+
+
+@pytest.mark.parametrize("way", Way)
+@pytest.mark.parametrize("country", Country)
+def test_words_over_doors_fit_between_the_symbols(country, way):
+    legend = lit_sign("Sign", way, (-2.5, 2.5), (2.6, 3.1), 0.0, country=country)[1]
+    shape, _ = drawn([legend], "SignLegend")
+    symbols = [part for part in shapely.get_parts(shape) if abs(part.centroid.x) > 0.93]
+    words = [part for part in shapely.get_parts(shape) if abs(part.centroid.x) <= 0.93]
+    left, _, right, _ = shapely.union_all(words).bounds
+    assert left > max(part.bounds[2] for part in symbols if part.centroid.x < 0)
+    assert right < min(part.bounds[0] for part in symbols if part.centroid.x > 0)
+
+
+@pytest.mark.parametrize("country", Country)
+def test_hydrant_cabinets_have_the_number_of_the_fire_brigade(country):
+    shape, _ = drawn(HydrantCabinetSpec(country).asset().parts, "Letters")
+    split = (shape.bounds[1] + shape.bounds[3]) / 2
+    lower = shapely.intersection(shape, shapely.box(-1, shape.bounds[1], 1, split - 0.012))
+    assert agreement(lower, SIGNAGE[country].fire_number) > 0.9
+    assert shape.bounds[2] - shape.bounds[0] < 0.54
+
+
+def test_chinese_characters_are_apart_and_full():
+    for word in ("入口", "出口", "禁止驶入", "消火栓"):
+        shape = text_shape(word, 1.0)
+        assert shape.bounds[2] - shape.bounds[0] == pytest.approx(text_length(word), abs=0.35)
+        assert 0.2 < shape.area / len(word) < 0.6
