@@ -195,6 +195,13 @@ _FINISHES: dict[str, Material] = {
 }
 """What a look may put in the place of a garage's own floor, walls, ceilings and paint, tinted in any colour."""
 
+
+def _plate(sheet_rgb: Rgb, ink_rgb: Rgb) -> Material:
+    """The material of number plates in two colours."""
+    texture = PaintedTexture("plate_ink.png", sheet_rgb, ink_rgb)
+    return Material(colour_texture=texture, roughness=0.5, touch=Touch.PLASTIC)
+
+
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
         colour_texture="floor_colour.jpg",
@@ -327,6 +334,10 @@ MATERIALS: dict[str, Material] = {
     "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
     "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0, touch=Touch.STEEL),
     "number_plate": Material(colour_texture="plate_characters.png", roughness=0.5, touch=Touch.PLASTIC),
+    "number_plate_cn": _plate((0.015, 0.075, 0.42), (0.78, 0.78, 0.78)),
+    "number_plate_gb": _plate((0.74, 0.74, 0.70), (0.008, 0.008, 0.009)),
+    "number_plate_gb_rear": _plate((0.74, 0.46, 0.02), (0.008, 0.008, 0.009)),
+    "number_plate_us": _plate((0.72, 0.74, 0.76), (0.015, 0.035, 0.16)),
     "car_paint": Material(roughness=0.32, clearcoat=1.0, touch=Touch.STEEL),
     **{
         f"car_paint_{paint}": Material(

@@ -49,7 +49,6 @@ _BASES = {
     "lamp_front": "plexiglass",
     "lamp_rear": "plexiglass",
     "mirror": "mirror",
-    "number_plate": "aluminum",
     "rim": "aluminum",
     "screen_glow": "clear_glass",
     "sign_blue": "aluminum",
@@ -58,7 +57,8 @@ _BASES = {
 }
 """What their touch does not tell; the sky behind doors is made of nothing."""
 _TRANSPARENT = frozenset({"cabinet_glass", "glass"})
-_RETROREFLECTIVE = frozenset({"number_plate", "sign_blue", "sign_ring"})
+_PLATES = frozenset(key for key in MATERIALS if key.startswith("number_plate"))
+_RETROREFLECTIVE = _PLATES | {"sign_blue", "sign_ring"}
 _BARE = frozenset({"service_steel", "steel_galvanised"})
 
 
@@ -78,7 +78,11 @@ def _non_visual(key: str, material: Material) -> NonVisual:
         "visually_transparent": key in _TRANSPARENT,
     }
     attributes = tuple(name for name, applies in said.items() if applies) or ("none",)
-    return NonVisual(_BASES.get(key, BASE_OF_TOUCH[material.touch]), coating[painted, is_coated], attributes)
+    return NonVisual(
+        _BASES.get(key, "aluminum" if key in _PLATES else BASE_OF_TOUCH[material.touch]),
+        coating[painted, is_coated],
+        attributes,
+    )
 
 
 NON_VISUAL = {key: _non_visual(key, material) for key, material in MATERIALS.items()}

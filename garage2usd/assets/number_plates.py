@@ -1,6 +1,6 @@
 """The number plates of a car: a row of cells of one texture in front and behind, one for each character."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,13 +9,30 @@ import shapely.affinity
 from numpy.typing import NDArray
 
 from garage2usd.assets.cars import PLATE_M, plate_places
+from garage2usd.assets.countries import Country
 from garage2usd.assets.flat import GRID_M, upright_triangles
 from garage2usd.assets.glyphs import text_shape
 from garage2usd.assets.mesh import Asset, Part, make_part
-from garage2usd.assets.plate_texture import BAND, CHARACTERS, LETTER_SHARE, SPACE, cell_corners
+from garage2usd.assets.plate_texture import (
+    BAND,
+    CHARACTERS,
+    DOT,
+    LETTER_SHARE,
+    PROVINCES,
+    SPACE,
+    cell_corners,
+    ink_cell_corners,
+)
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["PLATE_CHARACTERS", "number_plates", "painted_plates", "plate_coordinates"]
+__all__ = [
+    "PLATE_CHARACTERS",
+    "PLATE_STYLES",
+    "PlateStyle",
+    "number_plates",
+    "painted_plates",
+    "plate_coordinates",
+]
 
 _BAND_M = 0.04
 PLATE_CHARACTERS = 7
@@ -23,7 +40,51 @@ PLATE_CHARACTERS = 7
 _CORNERS = 4
 
 
-def number_plates(body: CarBody, text: str) -> Asset:
+@dataclass(frozen=True)
+class PlateStyle:
+    """The number plates of a country.
+
+    Attributes
+    ----------
+    characters
+        How many cells a plate has, blanks included, besides that of the band.
+    width_m
+        Of a plate.
+    meshes
+        Material of each mesh of a car's plates, by its name: of both plates, or of the front and of the rear one.
+    has_band
+        Whether it has the band on the left.
+    """
+
+    characters: int
+    width_m: float
+    meshes: tuple[tuple[str, str], ...]
+    has_band: bool = False
+
+    def corners(self, text: str) -> NDArray[np.float64]:
+        """Texture coordinates of the corners of each cell; float64, shape (corners, 2)."""
+        if self.has_band:
+            return np.concatenate([cell_corners(character) for character in BAND + text])
+        return np.concatenate([ink_cell_corners(character) for character in text])
+
+    @property
+    def known(self) -> str:
+        """The characters that it may have."""
+        return CHARACTERS + SPACE + ("" if self.has_band else DOT + PROVINCES)
+
+
+_BANDED = PlateStyle(PLATE_CHARACTERS, PLATE_M[0], (("Plates", "number_plate"),), has_band=True)
+PLATE_STYLES = {
+    Country.NONE: _BANDED,
+    Country.DE: _BANDED,
+    Country.CN: PlateStyle(8, 0.44, (("Plates", "number_plate_cn"),)),
+    Country.GB: PlateStyle(8, PLATE_M[0], (("Plates", "number_plate_gb"), ("RearPlates", "number_plate_gb_rear"))),
+    Country.US: PlateStyle(7, 0.305, (("Plates", "number_plate_us"),)),
+}
+"""As wide as those of the country; all are as high as the place for them on a car is."""
+
+
+def number_plates(body: CarBody, text: str, country: Country = Country.NONE) -> Asset:
     """The front and the rear plate of a car, with the same text; origin and axes are those of the car.
 
     Parameters
@@ -31,9 +92,12 @@ def number_plates(body: CarBody, text: str) -> Asset:
     body
         On which they are.
     text
-        `PLATE_CHARACTERS` of `garage2usd.assets.plate_texture.CHARACTERS` and blanks.
+        As many of the characters of the country's style as that has.
+    country
+        Whose plates they are.
     """
-    return Asset((replace(_sheets(body), st=plate_coordinates(text)),))
+    corners = plate_coordinates(text, country)
+    return Asset(tuple(replace(sheet, st=corners) for sheet in _sheets(body, country)))
 
 
 def painted_plates(body: CarBody, text: str) -> tuple[Part, ...]:
@@ -41,8 +105,10 @@ def painted_plates(body: CarBody, text: str) -> tuple[Part, ...]:
 
     Parameters
     ----------
-    body, text
-        As for `number_plates`.
+    body
+        On which they are.
+    text
+        `PLATE_CHARACTERS` of `garage2usd.assets.plate_texture.CHARACTERS` and blanks.
     """
     (width, height), cell = PLATE_M, PLATE_M[0] / (PLATE_CHARACTERS + 1)
     sheet = shapely.box(-width / 2, -height / 2, width / 2, height / 2)
@@ -66,38 +132,44 @@ def _at_both_ends(shape: shapely.Geometry, body: CarBody) -> NDArray[np.float64]
     return np.concatenate([upright * (toward, 1.0, toward) + (0.0, y, z) for toward, y, z in plate_places(body)])
 
 
-def plate_coordinates(text: str) -> NDArray[np.float32]:
+def plate_coordinates(text: str, country: Country = Country.NONE) -> NDArray[np.float32]:
     """The texture coordinates of each of a car's plates, by what is to be read on them.
 
     Parameters
     ----------
-    text
+    text, country
         As for `number_plates`.
 
     Returns
     -------
     numpy.ndarray
-        float32, shape (corners, 2): of the band and of each character the corners of its cell.
+        float32, shape (corners, 2): of the band, where there is one, and of each character the corners of its cell.
 
     Raises
     ------
     ValueError
         If it has another number of characters, or one that no plate has.
     """
-    if len(text) != PLATE_CHARACTERS or not set(text) <= {*CHARACTERS, SPACE}:
-        raise ValueError(f"{text!r}: a plate has {PLATE_CHARACTERS} characters of {CHARACTERS} and blanks")
-    return np.concatenate([cell_corners(character) for character in BAND + text]).astype(np.float32)
+    style = PLATE_STYLES[country]
+    if len(text) != style.characters or not set(text) <= set(style.known):
+        raise ValueError(f"{text!r}: a plate has {style.characters} characters of {style.known!r}")
+    return style.corners(text).astype(np.float32)
 
 
-@lru_cache(maxsize=32)
-def _sheets(body: CarBody) -> Part:
+@lru_cache(maxsize=64)
+def _sheets(body: CarBody, country: Country) -> tuple[Part, ...]:
     """Both plates, whatever is to be read on them."""
-    (width, height), cells = PLATE_M, PLATE_CHARACTERS + 1
+    style = PLATE_STYLES[country]
+    width, height, cells = style.width_m, PLATE_M[1], style.characters + style.has_band
     edges = np.linspace(-width / 2, width / 2, cells + 1)
     left, right, low, high = edges[:-1], edges[1:], np.full(cells, -height / 2), np.full(cells, height / 2)
     # counter-clockwise from the lower left, as the corners of cells are
     corners = [np.stack(place, axis=1) for place in ((left, low), (right, low), (right, high), (left, high))]
     cell = np.insert(np.stack(corners, axis=1), 2, 0.0, axis=2)
-    faces = np.concatenate([cell * (toward, 1.0, 1.0) + (0.0, y, z) for toward, y, z in plate_places(body)])
-    part = make_part("Plates", faces, "number_plate")
-    return replace(part, st_indices=np.tile(np.arange(_CORNERS * cells, dtype=np.int32), 2))
+    plates = [cell * (toward, 1.0, 1.0) + (0.0, y, z) for toward, y, z in plate_places(body)]
+    meshes = [np.concatenate(plates)] if len(style.meshes) == 1 else plates
+    indices = np.arange(_CORNERS * cells, dtype=np.int32)
+    return tuple(
+        replace(make_part(name, faces, material), st_indices=np.tile(indices, len(faces) // cells))
+        for (name, material), faces in zip(style.meshes, meshes, strict=True)
+    )

@@ -1,17 +1,35 @@
-"""The texture of all number plates: a cell for each character, one without any, and one with the band on the left."""
+"""The textures of number plates: a cell for each character, and one without any.
+
+One is that of plates of no country and of Germany's, in its colours and with a cell for the band on the left. The other
+holds what is ink, and becomes that of any two colours.
+"""
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from garage2usd.assets.glyphs import text_shape
 
-__all__ = ["BAND", "CHARACTERS", "LETTER_SHARE", "SPACE", "bake_plates", "cell_corners"]
+__all__ = [
+    "BAND",
+    "CHARACTERS",
+    "DOT",
+    "LETTER_SHARE",
+    "PROVINCES",
+    "SPACE",
+    "bake_plate_ink",
+    "bake_plates",
+    "cell_corners",
+    "ink_cell_corners",
+]
 
 CHARACTERS = "0123456789ABCDEFGHJKLMNPRSTUVWXYZ"
 """Digits and capital letters, less those that are read as digits: I, O and Q."""
 SPACE, BAND = " ", "|"
 """What stands for a cell without a character, and for that with the band."""
+PROVINCES, DOT = "京沪川湘冀", "·"
+"""Of Chinese plates: the first character, and what stands after the second one."""
 _COLUMNS, _ROWS = 10, 4
 """So that the borders of cells are short as decimals, which stages as text hold for each car."""
 _CELL_PX = 96, 160
@@ -21,6 +39,8 @@ LETTER_SHARE = 0.68
 _BAND_PX = (6, 8, 58, 152)
 """Left, top, right and bottom of the band; cells are bare along their edges, so that none shines into the next one."""
 _FINER = 8
+_HAN_WIDTH = 0.92
+"""Of a Chinese character in the width of its cell."""
 _SHEET_RGB, _INK_RGB, _BAND_RGB = (224, 224, 218), (22, 22, 24), (20, 62, 150)
 
 _CELL_OF = {
@@ -28,6 +48,9 @@ _CELL_OF = {
     SPACE: len(CHARACTERS),
     BAND: len(CHARACTERS) + 1,
 }
+_INK_CELL_OF = {character: cell for cell, character in enumerate(CHARACTERS + SPACE + DOT + PROVINCES)}
+_DOT_RADIUS = 0.07
+"""In heights of a character."""
 
 
 def cell_corners(character: str) -> NDArray[np.float64]:
@@ -43,7 +66,16 @@ def cell_corners(character: str) -> NDArray[np.float64]:
     numpy.ndarray
         float64, shape (4, 2); V counts from the lower edge of the texture.
     """
-    row, column = divmod(_CELL_OF[character], _COLUMNS)
+    return _corners(_CELL_OF[character])
+
+
+def ink_cell_corners(character: str) -> NDArray[np.float64]:
+    """The same on the texture of ink, of one of `CHARACTERS`, `SPACE`, `DOT` or `PROVINCES`."""
+    return _corners(_INK_CELL_OF[character])
+
+
+def _corners(cell: int) -> NDArray[np.float64]:
+    row, column = divmod(cell, _COLUMNS)
     places = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
     corners: NDArray[np.float64] = (places + np.array((column, _ROWS - 1 - row))) / (_COLUMNS, _ROWS)
     return corners
@@ -65,12 +97,30 @@ def bake_plates(_rng: np.random.Generator) -> NDArray[np.uint8]:
     return pixels
 
 
+def bake_plate_ink(_rng: np.random.Generator) -> NDArray[np.uint8]:
+    """How much of each pixel is ink, without any chance; uint8, shape (rows, columns), 0 to 255."""
+    width, height = _CELL_PX
+    pixels = np.zeros((_ROWS * height, _COLUMNS * width), dtype=np.uint8)
+    for character, cell in _INK_CELL_OF.items():
+        row, column = divmod(cell, _COLUMNS)
+        if character != SPACE:
+            window = pixels[row * height : (row + 1) * height, column * width : (column + 1) * width]
+            window[:] = np.rint(255 * _ink(character)).astype(np.uint8)
+    return pixels
+
+
 def _ink(character: str) -> NDArray[np.float64]:
     """How much of each pixel of its cell a character covers; float64, shape (rows, columns), 0 to 1."""
     width, height = _CELL_PX
     canvas = Image.new("L", (width * _FINER, height * _FINER))
     draw = ImageDraw.Draw(canvas)
-    shape = text_shape(character, LETTER_SHARE * height * _FINER)
+    size = LETTER_SHARE * height * _FINER
+    if character == DOT:
+        shape: shapely.Geometry = shapely.Point(0, 0).buffer(_DOT_RADIUS * size)
+    elif character in PROVINCES:
+        shape = text_shape(character, min(size, _HAN_WIDTH * width * _FINER))
+    else:
+        shape = text_shape(character, size)
     middle = np.array([width, height]) * _FINER / 2
     for polygon in getattr(shape, "geoms", [shape]):
         for ring, value in [(polygon.exterior, 255), *((hole, 0) for hole in polygon.interiors)]:

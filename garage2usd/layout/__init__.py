@@ -197,6 +197,7 @@ def lay_out(
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
     is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
+    country = country_of(look.signs, config.standard)
     compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
     displaced = {name for core in cores for name in core.stalls}
     grid = TileGrid(structure, graph, bay, left_out=displaced.union(unreachable if is_dropped else ()))
@@ -236,7 +237,7 @@ def lay_out(
         yield floor_stains(grid, floors, stalls, fittings, draws)
         yield stall_panels(stalls, look.markings, draws)
         yield wheel_stops(stalls, fittings, config.standard)
-        yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws)]
+        yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws, country)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, grid, fittings, look)
         yield chargers(stalls)
@@ -263,7 +264,7 @@ def lay_out(
 
     return Layout(
         structure,
-        ObjectTable(with_signs_of(country_of(look.signs, config.standard), parts())),
+        ObjectTable(with_signs_of(country, parts())),
         StallTable(stalls),
         fittings.ceiling_height_m,
         illuminance,

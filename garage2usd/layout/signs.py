@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from garage2usd.assets.countries import Country
 from garage2usd.config.look import SignsLook, SignsOf
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.portal import PortalSpec
-from garage2usd.objects.signage import Country
 from garage2usd.profiles import Profile
 
 __all__ = ["country_of", "with_signs_of"]

@@ -6,13 +6,14 @@ from enum import StrEnum
 import numpy as np
 from shapely import affinity
 
+from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.assets.pictograms import running_man
 from garage2usd.objects.kind import Kind, Spec, VariantSet
-from garage2usd.objects.signage import SIGNAGE, Country, Signage
+from garage2usd.objects.signage import SIGNAGE, Signage
 
 __all__ = ["KIND", "ExitSignSpec", "Turn"]
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import shapely
 from shapely import affinity
 
+from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces, level_lathe_faces, moved, ring_faces, upright_lathe_faces
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
@@ -12,7 +13,7 @@ from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.objects.kind import Kind, Spec
 from garage2usd.objects.mounted import Mounted
 from garage2usd.objects.outline import Polygon, rectangle
-from garage2usd.objects.signage import SIGNAGE, Country
+from garage2usd.objects.signage import SIGNAGE
 
 __all__ = ["KIND", "MOUNTED", "HydrantCabinetSpec"]
 

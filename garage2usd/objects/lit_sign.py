@@ -4,12 +4,13 @@ import numpy as np
 import shapely
 from shapely import affinity
 
+from garage2usd.assets.countries import Country
 from garage2usd.assets.faces import box_faces, moved
 from garage2usd.assets.flat import upright_triangles
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.assets.han_glyphs import is_han
 from garage2usd.assets.mesh import Part, make_part
-from garage2usd.objects.signage import SIGNAGE, Country, Way
+from garage2usd.objects.signage import SIGNAGE, Way
 
 __all__ = ["lit_sign"]
 

@@ -3,8 +3,9 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
+from garage2usd.assets.countries import Country
 from garage2usd.assets.mesh import Asset
-from garage2usd.assets.number_plates import PLATE_CHARACTERS, number_plates
+from garage2usd.assets.number_plates import PLATE_STYLES, number_plates
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
@@ -30,12 +31,13 @@ class NumberPlateSpec(Spec, kind=KIND):
 
     body: str
     text: str
+    country: Country = Country.NONE
 
     @property
     def shape(self) -> Self:
         """The plates of the same body without text, as all are one asset: texture coordinates make the difference."""
-        return replace(self, text=" " * PLATE_CHARACTERS)
+        return replace(self, text=" " * PLATE_STYLES[self.country].characters)
 
     def asset(self) -> Asset:
         """Both plates with the text."""
-        return number_plates(_BODIES[self.body], self.text)
+        return number_plates(_BODIES[self.body], self.text, self.country)

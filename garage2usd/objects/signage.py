@@ -3,18 +3,9 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-__all__ = ["SIGNAGE", "Country", "Signage", "Way"]
+from garage2usd.assets.countries import Country
 
-
-class Country(StrEnum):
-    """Whose signs, by ISO 3166."""
-
-    NONE = ""
-    """Of no country: international."""
-    CN = "CN"
-    DE = "DE"
-    GB = "GB"
-    US = "US"
+__all__ = ["SIGNAGE", "Signage", "Way"]
 
 
 class Way(StrEnum):

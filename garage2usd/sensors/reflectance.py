@@ -92,7 +92,7 @@ _OF_KEY = {
     "glass": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
     "mirror": MaterialClass.MIRROR,
-    "number_plate": MaterialClass.RETROREFLECTOR,
+    **{key: MaterialClass.RETROREFLECTOR for key in MATERIALS if key.startswith("number_plate")},
     "sign_blue": MaterialClass.RETROREFLECTOR,
     "sign_ring": MaterialClass.RETROREFLECTOR,
     "lamp_front": MaterialClass.PLASTIC,

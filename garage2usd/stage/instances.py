@@ -94,7 +94,7 @@ class InstanceWriter:
             if has_car:
                 car_name = names[self._arrangement.name[car]].decode("ascii")
                 if isinstance(shape, NumberPlateSpec):
-                    said += plate_text(shape.text, car_name)
+                    said += plate_text(shape.text, car_name, shape.country)
                 else:
                     said += f"custom rel {CAR_OF_STALL} = <../{car_name}>\n"
             if said:

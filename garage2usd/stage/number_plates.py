@@ -2,13 +2,14 @@
 
 from functools import lru_cache
 
-from garage2usd.assets.number_plates import plate_coordinates
+from garage2usd.assets.countries import Country
+from garage2usd.assets.number_plates import PLATE_STYLES, plate_coordinates
 from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT
 
 __all__ = ["plate_text"]
 
 
-def plate_text(text: str, car: str) -> str:
+def plate_text(text: str, car: str, country: Country = Country.NONE) -> str:
     """What the prim of a car's plates says beside its place.
 
     Parameters
@@ -17,11 +18,16 @@ def plate_text(text: str, car: str) -> str:
         To be read on them.
     car
         Name of the car's prim, which stands beside it.
+    country
+        Whose plates they are.
     """
-    return f'custom string {PLATE_TEXT} = "{text}"\ncustom rel {CAR_OF_PLATE} = <../{car}>\n{_letters(text)}'
+    return f'custom string {PLATE_TEXT} = "{text}"\ncustom rel {CAR_OF_PLATE} = <../{car}>\n{_letters(text, country)}'
 
 
 @lru_cache(maxsize=1 << 12)
-def _letters(text: str) -> str:
-    corners = ", ".join(f"({u}, {v})" for u, v in plate_coordinates(text).astype(str).tolist())
-    return f'over "Geom"\n{{\nover "Plates"\n{{\ntexCoord2f[] primvars:st = [{corners}]\n}}\n}}\n'
+def _letters(text: str, country: Country) -> str:
+    corners = ", ".join(f"({u}, {v})" for u, v in plate_coordinates(text, country).astype(str).tolist())
+    meshes = "".join(
+        f'over "{name}"\n{{\ntexCoord2f[] primvars:st = [{corners}]\n}}\n' for name, _ in PLATE_STYLES[country].meshes
+    )
+    return f'over "Geom"\n{{\n{meshes}}}\n'

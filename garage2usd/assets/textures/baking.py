@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from garage2usd.assets.plate_texture import bake_plates
+from garage2usd.assets.plate_texture import bake_plate_ink, bake_plates
 from garage2usd.assets.stain_texture import bake_stains
 from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS
 from garage2usd.assets.textures.floor_finishes import FLOOR_FINISHES
@@ -32,6 +32,7 @@ _BAKERS: Bakers = {
     **_FINISHES,
     "stains.png": bake_stains,
     "plate_characters.png": bake_plates,
+    "plate_ink.png": bake_plate_ink,
 }
 _COLOUR_STEPS = {"plate_characters.png": 12, **dict.fromkeys(GLOSSES, 3), "gloss_matt.png": 5}
 """Saved with a palette, in half the bytes: those that have few colours, and how far these are apart."""

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 import shapely
 
+from garage2usd.assets.countries import Country
 from garage2usd.assets.glyphs import text_length, text_shape
 from garage2usd.config import GarageConfig
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lit_sign import lit_sign
-from garage2usd.objects.signage import SIGNAGE, Country, Way
+from garage2usd.objects.signage import SIGNAGE, Way
 from garage2usd.pipeline import generate
 from garage2usd.profiles import Profile
 
