@@ -195,9 +195,11 @@ def lay_out(
         left out.
     """
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
-    is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
+    country, is_dropped = (
+        country_of(look.signs, config.standard),
+        config.plan.unreachable_stalls is UnreachableStalls.DROP,
+    )
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
-    country = country_of(look.signs, config.standard)
     compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
     displaced = {name for core in cores for name in core.stalls}
     grid = TileGrid(structure, graph, bay, left_out=displaced.union(unreachable if is_dropped else ()))

@@ -27,8 +27,8 @@ _PATTERNS: dict[Country, _Pattern] = {
 """What stands at each place.
 
 That of no country is like those of many, and at the time of writing that of none. Those of countries look like theirs,
-and none of their offices issues them, so that nobody's own plate is meant: three letters among a Chinese number, letters
-for no German town, Britain's year 00, letters around the digits of the United States.
+and none of their offices issues them, so that nobody's own plate is meant: three letters among a Chinese number,
+letters for no German town, Britain's year 00, letters around the digits of the United States.
 """
 _NEXT = 1_299_709
 """By how much the number of a text grows where it is taken already: a prime, so that all are gone through."""
