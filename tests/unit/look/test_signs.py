@@ -1,24 +1,29 @@
 """Signs in the words of a country: that a garage has them, and everything else where it was."""
 
+import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
 import shapely
+from pxr import Usd, UsdGeom, UsdShade
 
+from garage2usd.assets import MATERIALS, pascal_case
 from garage2usd.assets.countries import Country
 from garage2usd.assets.glyphs import text_length, text_shape
+from garage2usd.assets.number_plates import PLATE_STYLES, plate_coordinates
+from garage2usd.assets.plate_texture import CHARACTERS, DOT, PROVINCES, SPACE, bake_plate_ink, ink_cell_corners
 from garage2usd.config import GarageConfig
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lit_sign import lit_sign
 from garage2usd.objects.signage import SIGNAGE, Way
-from garage2usd.pipeline import generate
+from garage2usd.pipeline import build, generate
 from garage2usd.profiles import Profile
 
 PLAN = {"episodes": 100}
 PROFILES = {"cn-jgj100": "CN", "de-garvo": "DE", "uk-istructe": "GB", "us-ada": "US"}
-SIGNED = ("exit_sign", "portal", "hydrant_cabinet")
+SIGNED = ("number_plate", "exit_sign", "portal", "hydrant_cabinet")
 
 
 def laid_out(profile, of):
@@ -131,3 +136,54 @@ def test_chinese_characters_are_apart_and_full():
         shape = text_shape(word, 1.0)
         assert shape.bounds[2] - shape.bounds[0] == pytest.approx(text_length(word), abs=0.35)
         assert 0.2 < shape.area / len(word) < 0.6
+
+
+PLATES = {"CN": "[京沪川湘冀][U-Z]·[A-Z]{3}\\d\\d", "DE": "[JTU] [A-Z]{2} \\d\\d", "GB": "[A-Z]{2}00 [A-Z]{3}"}
+PLATES["US"] = "[A-Z]{2}\\d \\d[A-Z]{2}"
+
+
+@pytest.mark.parametrize(("profile", "country"), PROFILES.items())
+def test_number_plates_are_those_of_the_country(profile, country, tmp_path):
+    config = GarageConfig(
+        seed=3, plan=PLAN, profile=profile, look={"signs": {"of": "profile"}}, stage={"texture_quality": "low"}
+    )
+    stage = Usd.Stage.Open(str(build(config, tmp_path / "garage.usda").stage))
+    texts = set()
+    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+        if not prim.HasAttribute("garage:numberPlate:text"):
+            continue
+        text = prim.GetAttribute("garage:numberPlate:text").Get()
+        assert re.fullmatch(PLATES[country], text)
+        texts.add(text)
+        meshes = [each for each in Usd.PrimRange(prim, Usd.TraverseInstanceProxies()) if each.IsA(UsdGeom.Mesh)]
+        style = PLATE_STYLES[Country(country)]
+        assert [mesh.GetName() for mesh in meshes] == [name for name, _ in style.meshes]
+        for mesh, (_, key) in zip(meshes, style.meshes, strict=True):
+            points = np.array(UsdGeom.Mesh(mesh).GetPointsAttr().Get())
+            assert np.ptp(points[:, 0]) == pytest.approx(style.width_m, abs=1e-4)
+            st = np.array(UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st").Get())
+            assert st == pytest.approx(plate_coordinates(text, Country(country)), abs=1e-5)
+            material = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()[0]
+            assert material.GetPrim().GetName() == pascal_case(key)
+    assert len(texts) > 15
+
+
+@pytest.mark.parametrize(
+    ("country", "rear", "sheet"), [("CN", False, "blue"), ("GB", False, "white"), ("GB", True, "yellow")]
+)
+def test_plates_have_the_colours_of_the_country(country, rear, sheet):
+    material = MATERIALS[PLATE_STYLES[Country(country)].meshes[int(rear)][1]]
+    red, green, blue = material.colour_texture.paint_rgb
+    assert {"blue": blue > 4 * red, "white": min(red, green, blue) > 0.6, "yellow": red > green > 5 * blue}[sheet]
+
+
+def test_every_place_on_a_plate_of_ink_shows_its_character():
+    ink = bake_plate_ink(np.random.default_rng(0)) / 255
+    high, wide = ink.shape
+    for character in CHARACTERS + DOT + PROVINCES:
+        corners = ink_cell_corners(character) * (wide, high)
+        left, low, right, top = *corners.min(axis=0), *corners.max(axis=0)
+        cell = ink[round(high - top) : round(high - low), round(left) : round(right)]
+        assert 0.005 < cell.mean() < 0.5
+        assert cell[0].max() == cell[-1].max() == cell[:, 0].max() == cell[:, -1].max() == 0
+    assert ink_cell_corners(SPACE).shape == (4, 2)
