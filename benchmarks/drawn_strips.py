@@ -49,13 +49,12 @@ class StripSettings:
     ----------
     pictures
         How many of each garage at most; fewer where there is no room for the car.
-    samples, bounces
-        Of the colour picture, which is denoised.
+    samples
+        Of each pixel of the colour picture, which is denoised.
     """
 
     pictures: int = 11
     samples: int = 4
-    bounces: int = 3
 
 
 @dataclass(frozen=True)
@@ -152,9 +151,7 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         finished, blender = work / "finished", work / "blender"
         blender.mkdir()
         kinds = tuple(kind for kind in Picture if kind is Picture.COLOUR or kind in NEEDED)
-        drawing = Drawing(
-            stage, labels, views, [[]] * len(views), kinds, settings.samples, 0, finished, bounces=settings.bounces
-        )
+        drawing = Drawing(stage, labels, views, [[]] * len(views), kinds, settings.samples, 0, finished, is_draft=True)
         drawing.draw(blender, silent)
         SlotLabels(stage, labels, views, finished).write(())
         strips = work / "strips"

@@ -26,6 +26,7 @@ _PR_SET_PDEATHSIG = 1
 _INDEX_LIMIT = 32768
 """Blender's object indices are below this; the ids of larger scenes are drawn digit by digit."""
 _POINT_FILTER_PX = 0.01
+_BOUNCES, _DRAFT_BOUNCES = 6, 3
 _TRANSPARENT_BOUNCES = 64
 _OPAQUE = 0.5
 _LENS = "lens"
@@ -306,8 +307,9 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
             device.use = device.type == job["device"]
         scene.cycles.device = "GPU"
     scene.cycles.use_denoising = True
-    scene.cycles.use_light_tree = True
-    scene.cycles.max_bounces = job["bounces"]
+    scene.cycles.denoising_quality = "FAST" if job["is_draft"] else "HIGH"
+    scene.cycles.use_light_tree = not job["is_draft"]
+    scene.cycles.max_bounces = _DRAFT_BOUNCES if job["is_draft"] else _BOUNCES
     scene.view_settings.view_transform = "AgX"
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"

@@ -220,7 +220,7 @@ def test_strips_are_drawn_once_with_the_corners_of_their_garage(tmp_path, monkey
         'name = "small"\n[garage.site]\nwidth_cells = 5\nheight_cells = 5\n[garage.stage]\ntexture_quality = "low"\n'
     )
     recipe = load_recipe(tmp_path / "recipe.toml")
-    settings = drawn_strips.StripSettings(pictures=2, samples=1, bounces=1)
+    settings = drawn_strips.StripSettings(pictures=2, samples=1)
 
     def draw(version):
         return drawn_strips.draw_strips(recipe, 1, tmp_path / "out", version=version, settings=settings, workers=1)
