@@ -88,6 +88,7 @@ def make_report(
         config_digest=config.digest(),
         structure_digest=structure.digest(),
         config=config,
+        look=layout.look,
         tape=tape,
         rank=None if tape is None else hex(rank_of(tape)),
         S=tuple(str(structure).splitlines()),

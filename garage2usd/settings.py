@@ -63,6 +63,9 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         Name of the setting that holds them, if one does.
     """
     finding = error.errors(include_url=False)[0]
+    cause = finding.get("ctx", {}).get("error")
+    if isinstance(cause, ConfigError):  # of a file that a setting names
+        return cause
     keys = [within] if within else []
     holders: list[type[BaseModel]] = []
     models: list[type[BaseModel]] = [model]

@@ -5,7 +5,8 @@ from functools import lru_cache
 import numpy as np
 from PIL import Image
 
-from garage2usd.assets.materials import Material, PaintedTexture, Rgb, Texture
+from garage2usd.assets.materials import Material, OwnTexture, PaintedTexture, Rgb, Texture
+from garage2usd.assets.own_textures import own_pixels
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import TextureQuality
 
@@ -45,8 +46,12 @@ def mean_colour(texture: Texture) -> Rgb:
             for paint, ground in zip(texture.paint_rgb, texture.ground_rgb, strict=True)
         )
         return red, green, blue
-    with Image.open(texture_folder(TextureQuality.LOW) / texture) as picture:
-        *channels, opacity = np.asarray(picture.convert("RGBA")).reshape(-1, 4).T
+    if isinstance(texture, OwnTexture):
+        pixels = own_pixels(texture, TextureQuality.LOW).convert("RGBA")
+    else:
+        with Image.open(texture_folder(TextureQuality.LOW) / texture) as picture:
+            pixels = picture.convert("RGBA")
+    *channels, opacity = np.asarray(pixels).reshape(-1, 4).T
     weights = None if opacity.min() == _OPAQUE else opacity / _OPAQUE
     counts = (np.bincount(channel, weights, minlength=len(_LINEAR)) for channel in channels)
     red, green, blue = (round(float(count @ _LINEAR) / max(float(count.sum()), 1.0), _PLACES) for count in counts)

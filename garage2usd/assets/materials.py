@@ -5,9 +5,22 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
+from garage2usd.config.map_names import Channel
+from garage2usd.config.texture_sets import MapFile
 from garage2usd.config.vehicles import PAINTS
 
-__all__ = ["GLOSSES", "MATERIALS", "VARYING", "Finish", "Material", "PaintedTexture", "Rgb", "Texture", "Touch"]
+__all__ = [
+    "GLOSSES",
+    "MATERIALS",
+    "VARYING",
+    "Finish",
+    "Material",
+    "OwnTexture",
+    "PaintedTexture",
+    "Rgb",
+    "Texture",
+    "Touch",
+]
 
 Rgb = tuple[float, float, float]
 
@@ -28,7 +41,26 @@ class PaintedTexture(NamedTuple):
     ground_rgb: Rgb
 
 
-Texture = str | PaintedTexture
+class OwnTexture(NamedTuple):
+    """A texture of the user's own.
+
+    Attributes
+    ----------
+    role
+        What it is for; the stem of its file's name.
+    maps
+        The colour alone, the normal alone, or any of occlusion, roughness and metallic, which become a packed one.
+    roughness, metallic
+        Of a packed one whose maps do not tell them, 0 to 1.
+    """
+
+    role: str
+    maps: tuple[tuple[Channel, MapFile], ...]
+    roughness: float = 0.6
+    metallic: float = 0.0
+
+
+Texture = str | PaintedTexture | OwnTexture
 """A file name in the texture folder, or what a texture is made from."""
 
 

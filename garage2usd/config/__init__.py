@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import Field, ValidationError, field_validator
 
 from garage2usd.config.design import designed_settings
-from garage2usd.config.files import with_files, without_files
+from garage2usd.config.files import with_files, with_textures, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.look import LookConfig
 from garage2usd.config.maps import MapsConfig
@@ -100,8 +100,13 @@ class GarageConfig(Settings):
         return GarageConfig(**{**{name: getattr(self, name) for name in type(self).model_fields}, "seed": seed})
 
     def digest(self) -> str:
-        """SHA-256 of the canonical JSON of all settings but ``maps``, which decides nothing of the garage."""
-        canonical = json.dumps(self.model_dump(mode="json", exclude={"maps"}), sort_keys=True, separators=(",", ":"))
+        """SHA-256 of the canonical JSON of all settings that decide the garage.
+
+        These are all but ``maps`` and the place of its textures, of which counts what they hold.
+        """
+        of_look = {"textures": {"folder"}} if self.look.textures else {"textures"}
+        settings = self.model_dump(mode="json", exclude={"maps": True, "look": of_look})
+        canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
 
 
@@ -132,8 +137,9 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     Parameters
     ----------
     path
-        The file. Relative paths in it, of ``profile`` or of the files with S, R and C, start at its folder; they are
-        read here, so that the configuration carries profile and matrices itself.
+        The file. Relative paths in it, of ``profile``, of the files with S, R and C or of textures, start at its
+        folder; they are read here, so that the configuration carries profile and matrices itself, and of the textures
+        what they hold as a digest.
     profile
         Name or file of a profile that takes the place of the file's own.
 
@@ -143,7 +149,7 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
         If the file cannot be read, is not TOML, or holds an unknown key or a value that is not allowed.
     """
     path = Path(path)
-    settings = read_toml(path, field="CONFIG")
+    settings = with_textures(read_toml(path, field="CONFIG"), path.parent)
     if profile is not None:
         settings["profile"] = profile_setting(profile)
     elif isinstance(settings.get("profile"), str):

@@ -1,4 +1,4 @@
-"""S, R and C in files beside a configuration: text, or files of NumPy."""
+"""Files beside a configuration: S, R and C as text or files of NumPy, and the folder of textures."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from garage2usd.documents import ARRAY_SUFFIXES, read_arrays, read_text
 from garage2usd.errors import ConfigError
 
-__all__ = ["is_array_file", "matrices_of", "with_files", "without_files"]
+__all__ = ["is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
 
 
 class _Given(NamedTuple):
@@ -74,6 +74,14 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
             if other.key in found.get(other.section, {}):
                 _put(found[other.section][other.key], other, result, path)
     return result
+
+
+def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """The settings, valid or not, with the whole path of the folder of textures if they name one by a relative path."""
+    match settings:
+        case {"look": {"textures": str(named)} as look} if named:
+            return {**settings, "look": {**look, "textures": str((folder / named).absolute())}}
+    return dict(settings)
 
 
 def _put(matrix: Any, given: _Given, settings: dict[str, Any], path: Path) -> None:  # noqa: ANN401

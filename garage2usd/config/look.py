@@ -10,6 +10,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
+from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 from garage2usd.settings import Settings
 
 __all__ = [
@@ -391,6 +392,20 @@ class LookConfig(Settings):
     drawn: bool | tuple[str, ...] = False
     """What the seed draws: true for each axis that is not given, or a list of axes ('floor.gloss') and of groups
     ('markings', for all in it that are not given)."""
+
+    textures: TextureFolder | None = None
+    """Textures of one's own by role: a folder (see the page of looks), in place of those that the axes ask for."""
+
+    @field_validator("textures", mode="before")
+    @classmethod
+    def _folder(cls, textures: object) -> object:
+        return {"folder": textures} if isinstance(textures, str) else textures
+
+    @field_validator("textures")
+    @classmethod
+    def _read(cls, textures: TextureFolder | None) -> TextureFolder | None:
+        """The folder with the digest of what it holds; one that has a digest is read when it is used."""
+        return read_texture_sets(textures)[0] if textures is not None and not textures.sha256 else textures
 
     @field_validator("drawn")
     @classmethod

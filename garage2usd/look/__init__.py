@@ -10,6 +10,7 @@ from garage2usd.look.lights import drawn_lights, light_finishes
 from garage2usd.look.markings import drawn_markings, paint_finishes
 from garage2usd.look.numbers import drawn_numbers
 from garage2usd.look.signs import drawn_signs
+from garage2usd.look.textures import own_finishes
 from garage2usd.look.walls import drawn_walls, wall_finishes
 
 __all__ = ["drawn_look", "finishes_of"]
@@ -30,13 +31,20 @@ def drawn_look(look: LookConfig, seed: int) -> LookConfig:
         ceiling=drawn_ceiling(axes.of("ceiling")),
         lights=drawn_lights(axes.of("lights")),
         signs=drawn_signs(axes.of("signs")),
+        textures=look.textures,
     )
 
 
 def finishes_of(look: LookConfig) -> dict[str, Finish]:
-    """The finishes of a look by the keys of the materials that they stand for; without those that stay as usual."""
+    """The finishes of a look by the keys of the materials that they stand for; without those that stay as usual.
+
+    Raises
+    ------
+    ConfigError
+        If textures of the user's own cannot be used.
+    """
     floor = floor_finishes(look.floor)
-    return {
+    drawn = {
         **floor,
         **paint_finishes(look.markings, look.numbers, floor),
         **column_finishes(look.columns),
@@ -44,3 +52,4 @@ def finishes_of(look: LookConfig) -> dict[str, Finish]:
         **ceiling_finishes(look.ceiling),
         **light_finishes(look.lights),
     }
+    return drawn if look.textures is None else {**drawn, **own_finishes(look.textures, look.floor, drawn)}

@@ -102,7 +102,7 @@ class PanelSpec(Spec):
             groups[marking.paint, marking.surface].append(shapely.Polygon(marking.polygon))
         base = shapely.box(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2)
         openings = shapely.union_all([shapely.Polygon(shape) for shape in self.openings])
-        base = shapely.difference(base, openings, grid_size=GRID_M)
+        base = _level(shapely.difference(base, openings, grid_size=GRID_M))
         painted = []
         for (paint, surface), shapes in groups.items():
             area = _level(shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M))
@@ -111,7 +111,7 @@ class PanelSpec(Spec):
                 name = pascal_case(f"{paint}_{colour}")
                 piece = "" if paint is Paint.GHOST else paint.value
                 painted.append(flat_part(name, area, _MATERIALS[surface], piece=piece))
-                base = shapely.difference(base, area, grid_size=GRID_M)
+                base = _level(shapely.difference(base, area, grid_size=GRID_M))
         material = _MATERIALS[self.surface]
         coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []
         return Asset((*coating, *painted))

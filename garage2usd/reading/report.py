@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import AliasChoices, Field, ValidationError
 
-from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_text
 from garage2usd.errors import ConfigError, ReportError
 from garage2usd.layout.lighting import LightLevels
@@ -116,6 +116,7 @@ class Report(Record):
     config_digest: str = ""
     structure_digest: str = ""
     config: GarageConfig
+    look: LookConfig | None = None
     tape: str | None = None
     rank: str | None = None
     S: tuple[str, ...]

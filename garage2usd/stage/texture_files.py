@@ -5,7 +5,8 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from garage2usd.assets import Material, PaintedTexture, Texture
+from garage2usd.assets import Material, OwnTexture, PaintedTexture, Texture
+from garage2usd.assets.own_textures import own_file
 from garage2usd.assets.textures import texture_folder
 from garage2usd.assets.worn_paint import painted
 from garage2usd.config.stage import TextureQuality
@@ -30,7 +31,16 @@ def content_name(stem: str, data: bytes, suffix: str) -> str:
 
 @lru_cache(maxsize=256)
 def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
-    """A texture of the shipped set in a quality, or what is made from one; read once a process."""
+    """A texture of the shipped set or the user's own in a quality, or what is made from one; read once a process.
+
+    Raises
+    ------
+    ConfigError
+        If one of the user's own cannot be used.
+    """
+    if isinstance(texture, OwnTexture):
+        data, suffix = own_file(texture, quality)
+        return NamedFile(content_name(f"own_{texture.role}", data, suffix), data)
     path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
     data = path.read_bytes()
     if isinstance(texture, PaintedTexture):

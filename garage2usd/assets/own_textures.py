@@ -1,0 +1,154 @@
+"""Textures of the user's own as what all readers of USD take: PNG of 8 bits a channel, or JPEG as it is."""
+
+import hashlib
+import io
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from PIL import Image, UnidentifiedImageError
+
+from garage2usd.assets.materials import OwnTexture
+from garage2usd.config.map_names import Channel
+from garage2usd.config.stage import TextureQuality
+from garage2usd.config.texture_sets import MapFile
+from garage2usd.documents import read_bytes
+from garage2usd.errors import ConfigError
+
+__all__ = ["own_file", "own_pixels", "own_shape"]
+
+Given = TypeVar("Given")
+_LARGEST_PX = {TextureQuality.LOW: 512, TextureQuality.MEDIUM: 1024, TextureQuality.HIGH: 2048}
+"""Of the longer side; a larger picture is made smaller."""
+_MOST_PX, _MOST_BYTES = 16384, 128 * 1024 * 1024
+_BANDS = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
+_WIDE = frozenset({"I;16", "I;16B", "I;16L", "I;16N", "I"})
+"""Pillow's modes of grey in 16 bits."""
+_BYTE, _HIGH_BYTE = 255, 8
+
+
+def own_shape(file: MapFile, role: str) -> tuple[int, int]:
+    """Width and height of a picture in pixels; raises as `own_file`."""
+    return _opened(file, role, lambda picture: picture.size)
+
+
+def own_file(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str]:
+    """The bytes of a texture and what their name ends in: ``.png``, or ``.jpg``.
+
+    A picture that all readers take, and that is not too large for the quality, is kept byte by byte. All others are
+    written as PNG: of 8 bits where they have 16, without a palette, normals with green upwards, and occlusion,
+    roughness and metallic packed in red, green and blue.
+
+    Raises
+    ------
+    ConfigError
+        If a file is no such picture, cannot be read, or has changed since the settings were read.
+    """
+    if (kept := _kept(texture, quality)) is not None:
+        return kept
+    stream = io.BytesIO()
+    own_pixels(texture, quality).save(stream, format="PNG", compress_level=9)
+    return stream.getvalue(), ".png"
+
+
+@lru_cache(maxsize=64)
+def own_pixels(texture: OwnTexture, quality: TextureQuality) -> Image.Image:
+    """A texture as a picture of red, green and blue; raises as `own_file`."""
+    maps = dict(texture.maps)
+    if Channel.COLOUR in maps:
+        return _smaller(_loaded(maps[Channel.COLOUR], texture.role), quality)
+    if Channel.NORMAL in maps:
+        normal = _smaller(_loaded(maps[Channel.NORMAL], texture.role), quality)
+        if not maps[Channel.NORMAL].is_turned:
+            return normal
+        red, green, blue = normal.split()
+        return Image.merge("RGB", (red, green.point([_BYTE - value for value in range(_BYTE + 1)]), blue))
+    usual = (_BYTE, round(texture.roughness * _BYTE), round(texture.metallic * _BYTE))
+    bands = {channel: _smaller(_band(maps[channel], texture.role), quality) for channel in _BANDS if channel in maps}
+    size = max((band.size for band in bands.values()), key=lambda sides: sides[0] * sides[1])
+    return Image.merge(
+        "RGB",
+        [
+            bands[channel].resize(size, Image.Resampling.BOX) if channel in bands else Image.new("L", size, value)
+            for channel, value in zip(_BANDS, usual, strict=True)
+        ],
+    )
+
+
+def _kept(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str] | None:
+    """A file as it is, if every reader takes it so."""
+    files = {file._replace(band=None) for _, file in texture.maps}
+    bands = [(channel, file.band) for channel, file in texture.maps if file.band is not None]
+    file = next(iter(files))
+    is_packed = bands == [(channel, number) for number, channel in enumerate(_BANDS)]
+    if len(files) > 1 or file.is_turned or not (is_packed or texture.maps[0][0] in {Channel.COLOUR, Channel.NORMAL}):
+        return None
+    data = _data(file, texture.role)
+    kind, mode, size = _opened(file, texture.role, lambda picture: (picture.format, picture.mode, picture.size))
+    if mode != "RGB" or max(size) > _LARGEST_PX[quality]:
+        return None
+    if kind == "PNG":
+        # 16 bits a channel are of mode RGB too
+        return (data, ".png") if data[24] == _HIGH_BYTE else None
+    return data, ".jpg"
+
+
+def _loaded(file: MapFile, role: str) -> Image.Image:
+    """A picture in red, green and blue; grey in all three, what is transparent as it is below."""
+    return _opened(file, role, _rgb)
+
+
+def _band(file: MapFile, role: str) -> Image.Image:
+    """One channel of a picture: that of the file, or of a picture of its own the red one."""
+    band = _loaded(file, role).getchannel(file.band or 0)
+    return band.point([_BYTE - value for value in range(_BYTE + 1)]) if file.is_turned else band
+
+
+def _rgb(picture: Image.Image) -> Image.Image:
+    if picture.mode in _WIDE:
+        values = np.asarray(picture).astype(np.uint32)
+        return Image.fromarray((values >> _HIGH_BYTE).astype(np.uint8)).convert("RGB")
+    if picture.mode in {"P", "PA"}:
+        picture = picture.convert("RGBA")
+    if picture.mode in {"RGBA", "LA"}:
+        bands = picture.split()[:-1]
+        return Image.merge("RGB", bands * (3 // len(bands)))
+    return picture.convert("RGB")
+
+
+def _smaller(picture: Image.Image, quality: TextureQuality) -> Image.Image:
+    """A picture whose longer side the quality allows; a pixel is the mean of those that it covers."""
+    largest = _LARGEST_PX[quality]
+    if max(picture.size) <= largest:
+        return picture
+    scale = largest / max(picture.size)
+    return picture.resize([max(1, round(side * scale)) for side in picture.size], Image.Resampling.BOX)
+
+
+def _opened(file: MapFile, role: str, use: Callable[[Image.Image], Given]) -> Given:
+    """What something gives for a picture."""
+    field, allowed = f"look.textures.{role}", "a PNG, or a JPEG in grey or in red, green and blue"
+    data = _data(file, role)
+    try:
+        with Image.open(io.BytesIO(data), formats=("PNG", "JPEG")) as picture:
+            if picture.mode == "CMYK":
+                raise ConfigError(field, f"{file.path} in CMYK", allowed)
+            if max(picture.size) > _MOST_PX:
+                raise ConfigError(field, f"{file.path} of {picture.size}", f"sides of at most {_MOST_PX} pixels")
+            return use(picture)
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        if isinstance(error, ConfigError):
+            raise
+        raise ConfigError(field, file.path, f"{allowed} ({error})") from None
+
+
+@lru_cache(maxsize=32)
+def _data(file: MapFile, role: str) -> bytes:
+    """What a file holds, which is what it held when the settings were read."""
+    field = f"look.textures.{role}"
+    data = read_bytes(Path(file.path), field=field, max_bytes=_MOST_BYTES)
+    if hashlib.sha256(data).hexdigest() != file.sha256:
+        raise ConfigError(field, file.path, "a file that stays as it was when the settings were read")
+    return data

@@ -1,0 +1,80 @@
+"""Finishes of textures of the user's own."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from garage2usd.assets import MATERIALS, Finish, OwnTexture
+from garage2usd.assets.own_textures import own_shape
+from garage2usd.config.look import FloorLook
+from garage2usd.config.map_names import Channel
+from garage2usd.config.texture_sets import Role, TextureFolder, TextureSet, read_texture_sets
+
+__all__ = ["own_finishes"]
+
+_KEYS = {
+    Role.FLOOR: ("floor_concrete",),
+    Role.STALL: ("stall_epoxy",),
+    Role.WALL: ("wall_concrete",),
+    Role.DADO: ("wall_band",),
+    Role.CEILING: ("ceiling_concrete",),
+    Role.COLUMN: ("column_concrete",),
+    Role.PAINT: ("paint_stall", "paint_number", "paint_white"),
+    Role.LANE_PAINT: ("paint_yellow",),
+    Role.STEEL: ("steel_galvanised", "service_steel"),
+}
+"""The materials of each role."""
+_ROUGHNESS = {Role.STALL: 0.4, Role.PAINT: 0.55, Role.LANE_PAINT: 0.55, Role.STEEL: 0.4}
+"""Where no map tells it; others are as rough as concrete."""
+_OF_CONCRETE = 0.75
+_METALLIC = {Role.STEEL: 1.0}
+
+
+def own_finishes(folder: TextureFolder, floor: FloorLook, finishes: Mapping[str, Finish]) -> dict[str, Finish]:
+    """What the roles that have textures of their own have in the place of their materials.
+
+    Parameters
+    ----------
+    folder
+        The textures.
+    floor
+        Bays that are as the aisle is have the textures of the floor, where they have none of their own.
+    finishes
+        What they would have: of that stays what they are to touch and to sensors.
+
+    Raises
+    ------
+    ConfigError
+        If a file cannot be used, or the textures are not those that the settings were read with.
+    """
+    _, sets = read_texture_sets(folder)
+    if floor.bays == "aisle" and Role.FLOOR in sets:
+        sets = {Role.STALL: sets[Role.FLOOR], **sets}
+    return {
+        key: _finish(role, each, finishes.get(key, Finish(key, MATERIALS[key])))
+        for role, each in sets.items()
+        for key in _KEYS[role]
+        if key in MATERIALS
+    }
+
+
+def _finish(role: Role, maps: TextureSet, usual: Finish) -> Finish:
+    of = dict(maps.maps)
+    roughness, metallic = _ROUGHNESS.get(role, _OF_CONCRETE), _METALLIC.get(role, 0.0)
+    packed = tuple((channel, file) for channel, file in maps.maps if channel not in {Channel.COLOUR, Channel.NORMAL})
+    normal = of.get(Channel.NORMAL)
+    along_m, up_m = maps.repeat_m
+    if up_m is None:
+        width, height = own_shape(of[Channel.COLOUR], role)
+        up_m = round(along_m * height / width, 6)
+    material = replace(
+        usual.material,
+        colour_texture=OwnTexture(role, ((Channel.COLOUR, of[Channel.COLOUR]),)),
+        tint_rgb=(1.0, 1.0, 1.0),
+        packed_texture=OwnTexture(role, packed, roughness, metallic) if packed else None,
+        normal_texture=None if normal is None else OwnTexture(role, ((Channel.NORMAL, normal),)),
+        roughness=roughness,
+        metallic=metallic,
+        repeat_m=along_m,
+        repeat_up_m=up_m,
+    )
+    return Finish(usual.key, material)
