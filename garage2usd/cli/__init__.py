@@ -13,6 +13,7 @@ from garage2usd.cli.commands import Commands
 from garage2usd.cli.dataset import dataset
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
+from garage2usd.cli.look import look
 from garage2usd.cli.meshes import meshes
 from garage2usd.cli.plan import plan
 from garage2usd.cli.render import render
@@ -29,7 +30,7 @@ __all__ = ["main", "run"]
 
 _KEPT_OBJECTS = 50_000
 """How many objects are made before Python looks for dead cycles: by default 700, though nearly all live to the end."""
-_MANY_THREADS = {"render", "dataset"}
+_MANY_THREADS = {"render", "dataset", "look"}
 """Commands whose work is done by threads of Blender, or by processes that are told of theirs when they are started."""
 _EXIT_CODES = """Results go to standard output, messages to standard error. The exit code is 1 where something was
 refused or found wrong, also for a file that is missing; 2 for wrong usage; else 0."""
@@ -45,7 +46,7 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, dataset, drive, export, meshes, plan, render, schema, textures, view):
+for _command in (build, check, dataset, drive, export, look, meshes, plan, render, schema, textures, view):
     main.add_command(_command)
 
 

@@ -5,8 +5,10 @@ import re
 import click
 from click.shell_completion import CompletionItem
 
-__all__ = ["Place", "Several", "Size"]
+__all__ = ["Numbers", "Place", "Several", "Size"]
 
+_NUMBERS = re.compile(r"(\d{1,18})(?::(\d{1,18}))?")
+_MOST_NUMBERS = 10_000
 _SIZE = re.compile(r"(\d{1,5})x(\d{1,5})")
 
 
@@ -23,6 +25,26 @@ class Size(click.ParamType[tuple[int, int]]):
         if found is None:
             self.fail(f"{value!r} is not a size such as 1280x720", param, ctx)
         return int(found[1]), int(found[2])
+
+
+class Numbers(click.ParamType[tuple[int, ...]]):
+    """Whole numbers from 0 on, as ``7``, ``0:48`` for 0 to 47, or several of these with commas."""
+
+    name = "A:B,..."
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, ...]:
+        """Read all of them, each once."""
+        if isinstance(value, tuple):
+            return value
+        numbers: dict[int, None] = {}
+        for part in str(value).split(","):
+            found = _NUMBERS.fullmatch(part.strip())
+            first = int(found[1]) if found else 0
+            end = int(found[2]) if found and found[2] else first + 1
+            if found is None or not 0 < end - first <= _MOST_NUMBERS:
+                self.fail(f"{part!r} is no number, nor at most {_MOST_NUMBERS} numbers such as 0:48", param, ctx)
+            numbers |= dict.fromkeys(range(first, end))
+        return tuple(numbers)
 
 
 class Place(click.ParamType[tuple[float, float, float]]):

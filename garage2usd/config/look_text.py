@@ -1,0 +1,39 @@
+"""A look as TOML, which a configuration takes back."""
+
+import json
+from typing import Any
+
+from garage2usd.config.look import LookConfig
+from garage2usd.settings import Settings
+
+__all__ = ["look_in_words", "look_text"]
+
+_TOLD = (
+    ("floor", ("finish", "colour", "gloss")),
+    ("markings", ("pattern", "colour", "wear")),
+    ("columns", ("section", "guard")),
+    ("walls", ("finish",)),
+    ("lights", ("temperature_k",)),
+)
+"""What tells looks apart in a line."""
+
+
+def look_text(look: LookConfig) -> str:
+    """All axes of a look as the tables of a configuration, each axis with its value: nothing is left to the seed."""
+    tables = {name: group for name in type(look).model_fields if isinstance(group := getattr(look, name), Settings)}
+    textures = tables.pop("textures", None)
+    blocks = [] if textures is None else [_table("look", {"textures": getattr(textures, "folder")})]  # noqa: B009
+    blocks += [_table(f"look.{name}", group.model_dump(mode="json")) for name, group in tables.items()]
+    return "\n\n".join(blocks) + "\n"
+
+
+def look_in_words(look: LookConfig) -> str:
+    """What tells it apart from others, in a line."""
+    values = look.model_dump(mode="json")
+    parts = (" ".join(f"{values[group][axis]}" for axis in axes) for group, axes in _TOLD)
+    return ", ".join(parts).replace("_", " ") + " K"
+
+
+def _table(name: str, values: dict[str, Any]) -> str:
+    # strings, numbers and booleans are written alike in JSON and in TOML
+    return "\n".join([f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in values.items())])

@@ -1,0 +1,193 @@
+"""Contact sheets: pictures of many garages beside each other, inside and from above, drawn by Blender."""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from PIL import Image, ImageDraw, ImageFont
+
+from garage2usd.config import GarageConfig
+from garage2usd.config.look_text import look_in_words
+from garage2usd.errors import ConfigError, GenerationError
+from garage2usd.output import check_file, publish_at, staging_folder, unfinished_folder
+from garage2usd.pipeline import Garage, generate, stage_metadata
+from garage2usd.planning import Plan
+from garage2usd.progress import Announce, Progress, silent, unheard
+from garage2usd.render import Device, Picture, render_stage
+from garage2usd.render.blender_process import check_blender
+from garage2usd.stage import arrangement_of, write_stage
+from garage2usd.version import VERSION
+
+__all__ = ["SheetGarage", "draw_contact_sheet"]
+
+_CAMERAS = ("Inside", "Above")
+_SUFFIXES = (".png", ".jpg", ".jpeg")
+_JPEG_QUALITY = 85
+_PAPER, _INK, _QUIET = (24, 25, 27), (230, 230, 230), (150, 152, 155)
+_LETTERS_PX, _SMALL_PX, _GAP_PX = 15, 11, 8
+_CAPTION_PX = _LETTERS_PX + _SMALL_PX + 12
+_MOST_PX = 30_000
+"""Of a side of a sheet."""
+
+
+class SheetGarage(NamedTuple):
+    """A garage of a sheet.
+
+    Attributes
+    ----------
+    name
+        What its caption calls it.
+    config
+        Its settings.
+    plan
+        What was planned before with them; None to plan it.
+    """
+
+    name: str
+    config: GarageConfig
+    plan: Plan | None = None
+
+
+def draw_contact_sheet(
+    garages: Sequence[SheetGarage],
+    output: Path,
+    *,
+    size_px: tuple[int, int] = (320, 180),
+    samples: int = 16,
+    columns: int = 3,
+    device: Device = Device.AUTO,
+    progress: Progress = silent,
+    announce: Announce = unheard,
+) -> Path:
+    """Draw each garage from its entrance and from above, with a caption.
+
+    Parameters
+    ----------
+    garages
+        In the order in which they stand, row by row.
+    output
+        The picture, PNG or JPEG by its name. Until it is finished, the garages that are stand in
+        ``<output>.unfinished``, and the same call goes on from there.
+    size_px
+        Width and height of each of the two pictures of a garage.
+    samples
+        Of each pixel.
+    columns
+        How many garages a row has.
+    device
+        What draws them.
+    progress
+        Told how many garages are drawn.
+    announce
+        Told which garages are left out, as their settings allow none.
+
+    Raises
+    ------
+    ConfigError
+        If the name or a size cannot be used.
+    GenerationError
+        If none of the garages is possible.
+    MissingExtraError
+        If Blender is not installed.
+    OutputError, RenderError
+        As `garage2usd.render.render_stage`.
+    """
+    columns = min(columns, len(garages))
+    if output.suffix.lower() not in _SUFFIXES:
+        raise ConfigError("contact-sheet", str(output), f"a file that ends in {', '.join(_SUFFIXES)}")
+    rows = -(-len(garages) // max(columns, 1))
+    if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
+        raise ConfigError(
+            "contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side"
+        )
+    check_blender()
+    check_file(output)
+    with unfinished_folder(output, _key(garages, size_px, samples, device)) as work:
+        cells: list[Path] = []
+        for number, garage in enumerate(garages):
+            progress("garages", number, len(garages))
+            cell = work / f"{number:05}.png"
+            try:
+                if not cell.exists():
+                    _draw(garage, cell, size_px, samples, device)
+                cells.append(cell)
+            except (ConfigError, GenerationError) as error:
+                refused = error
+                announce(f"without {garage.name}: {error}")
+        progress("garages", len(garages), len(garages))
+        if not cells:
+            raise refused
+        sheet = work / f"sheet{output.suffix.lower()}"
+        _sheet(cells, columns, size_px).save(sheet, quality=_JPEG_QUALITY)
+        publish_at({sheet: output})
+    return output
+
+
+def _key(garages: Sequence[SheetGarage], size_px: tuple[int, int], samples: int, device: Device) -> str:
+    """Which work it is."""
+    told = [VERSION, size_px, samples, device, [(garage.name, garage.config.digest()) for garage in garages]]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+
+
+def _draw(garage: SheetGarage, cell: Path, size_px: tuple[int, int], samples: int, device: Device) -> None:
+    """Draw a garage's two pictures with their caption."""
+    made = generate(garage.config, plan=garage.plan)
+    with staging_folder() as folder:
+        stage = _stage(made, folder)
+        drawn = render_stage(
+            stage,
+            folder / "drawn",
+            cameras=_CAMERAS,
+            size_px=size_px,
+            samples=samples,
+            pictures=(Picture.COLOUR,),
+            device=device,
+        )
+        pictures = [Image.open(drawn.folder / Picture.COLOUR / f"{name}.png").convert("RGB") for name in drawn.names]
+    picture = Image.new("RGB", _cell_size(size_px), _PAPER)
+    for number, each in enumerate(pictures):
+        picture.paste(each, (number * size_px[0], 0))
+    draw = ImageDraw.Draw(picture)
+    draw.text((2, size_px[1] + 3), garage.name, _INK, ImageFont.load_default(size=_LETTERS_PX))
+    words = look_in_words(made.layout.look)
+    draw.text((2, size_px[1] + 6 + _LETTERS_PX), words, _QUIET, ImageFont.load_default(size=_SMALL_PX))
+    half = cell.with_suffix(".part")
+    picture.save(half, format="PNG")
+    half.replace(cell)
+
+
+def _stage(garage: Garage, folder: Path) -> Path:
+    config = garage.config.stage
+    place = folder / "stage"
+    place.mkdir()
+    made = write_stage(
+        garage.layout,
+        garage.graph,
+        place / "garage.usdc",
+        arrangement=arrangement_of(garage.layout, config),
+        metadata=stage_metadata(garage),
+        config=config.model_copy(update={"assets": "own"}),
+    )
+    return made.stage
+
+
+def _cell_size(size_px: tuple[int, int]) -> tuple[int, int]:
+    return len(_CAMERAS) * size_px[0], size_px[1] + _CAPTION_PX
+
+
+def _sheet_size(columns: int, rows: int, size_px: tuple[int, int]) -> tuple[int, int]:
+    width, height = _cell_size(size_px)
+    return columns * (width + _GAP_PX) + _GAP_PX, rows * (height + _GAP_PX) + _GAP_PX
+
+
+def _sheet(cells: Sequence[Path], columns: int, size_px: tuple[int, int]) -> Image.Image:
+    """All cells row by row."""
+    width, height = _cell_size(size_px)
+    sheet = Image.new("RGB", _sheet_size(columns, -(-len(cells) // columns), size_px), _PAPER)
+    for number, cell in enumerate(cells):
+        row, column = divmod(number, columns)
+        with Image.open(cell) as picture:
+            sheet.paste(picture, (_GAP_PX + column * (width + _GAP_PX), _GAP_PX + row * (height + _GAP_PX)))
+    return sheet

@@ -1,0 +1,60 @@
+"""Some garages of a recipe by their numbers: as its data set has them, or as they are drawn."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from garage2usd.contact_sheet import SheetGarage
+from garage2usd.datasets.making import PLAN_FILE
+from garage2usd.datasets.plans import DrawnPlan, planned, plans_of, replanned
+from garage2usd.datasets.recipe import RECIPE_FILE, Recipe, load_recipe
+from garage2usd.errors import ConfigError
+
+__all__ = ["chosen_garages"]
+
+
+def chosen_garages(path: Path, numbers: Sequence[int]) -> Iterator[SheetGarage]:
+    """Garages of a recipe, each as soon as its plan is there.
+
+    Parameters
+    ----------
+    path
+        The recipe. Of a data set's own, ``recipe.json``, the plans are those that the data set has. Of another one
+        each garage is drawn until it is possible; a data set may draw it once more, where its plan is there already.
+    numbers
+        Of the garages, from 0 on.
+
+    Raises
+    ------
+    ConfigError
+        If the recipe cannot be used, or has no such garage.
+    """
+    recipe = load_recipe(path)
+    plans = path.with_name(PLAN_FILE)
+    made = plans_of(_table(plans)) if path.name == RECIPE_FILE and plans.is_file() else None
+    for number in numbers:
+        if made is not None and number >= len(made):
+            raise ConfigError("seeds", number, f"numbers of garages of the data set: 0 to {len(made) - 1}")
+        drawn = _drawn(recipe, number) if made is None else made[number]
+        if drawn.error:
+            raise ConfigError("seeds", number, f"a garage that is possible ({drawn.error})")
+        config, _ = recipe.drawn(drawn.seed)
+        yield SheetGarage(f"garage {number}", config, replanned(drawn, config))
+
+
+def _drawn(recipe: Recipe, number: int) -> DrawnPlan:
+    """The first plan of a garage that is possible; the last one where none is."""
+    for attempt in range(recipe.attempts):
+        (drawn,) = planned(recipe, [(number, attempt)])
+        if not drawn.error:
+            break
+    return drawn
+
+
+def _table(path: Path) -> pa.Table:
+    try:
+        return pq.read_table(path)
+    except (OSError, pa.ArrowException) as error:
+        raise ConfigError("CONFIG", str(path), f"the plans of a data set ({error})") from None
