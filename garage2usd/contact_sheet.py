@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
+from garage2usd.config.stage import AssetPlace
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.output import check_file, publish_at, staging_folder, unfinished_folder
 from garage2usd.pipeline import Garage, generate, stage_metadata
@@ -18,11 +20,19 @@ from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import check_blender
 from garage2usd.stage import arrangement_of, write_stage
+from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 from garage2usd.version import VERSION
 
 __all__ = ["SheetGarage", "draw_contact_sheet"]
 
-_CAMERAS = ("Inside", "Above")
+_CAMERA = "Inside"
+_LEAN = 0.25
+"""How far the camera above stands before the middle of the garage, as a share of its height."""
+_ROOM = 1.12
+"""Around the floor in that picture, which the nearer side needs."""
+_HALF_WIDTH = APERTURE_MM[0] / FOCAL_MM / 2
+"""What the cameras see to each side, at a distance of 1."""
+_BRIGHT = 200
 _SUFFIXES = (".png", ".jpg", ".jpeg")
 _JPEG_QUALITY = 85
 _PAPER, _INK, _QUIET = (24, 25, 27), (230, 230, 230), (150, 152, 155)
@@ -99,9 +109,7 @@ def draw_contact_sheet(
         raise ConfigError("contact-sheet", str(output), f"a file that ends in {', '.join(_SUFFIXES)}")
     rows = -(-len(garages) // max(columns, 1))
     if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
-        raise ConfigError(
-            "contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side"
-        )
+        raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")
     check_blender()
     check_file(output)
     with unfinished_folder(output, _key(garages, size_px, samples, device)) as work:
@@ -134,21 +142,23 @@ def _key(garages: Sequence[SheetGarage], size_px: tuple[int, int], samples: int,
 def _draw(garage: SheetGarage, cell: Path, size_px: tuple[int, int], samples: int, device: Device) -> None:
     """Draw a garage's two pictures with their caption."""
     made = generate(garage.config, plan=garage.plan)
+    at_m, look_at_m = _over(made, size_px)
     with staging_folder() as folder:
-        stage = _stage(made, folder)
         drawn = render_stage(
-            stage,
+            _stage(made, folder),
             folder / "drawn",
-            cameras=_CAMERAS,
+            cameras=(_CAMERA,),
+            at_m=at_m,
+            look_at_m=look_at_m,
             size_px=size_px,
             samples=samples,
             pictures=(Picture.COLOUR,),
             device=device,
         )
-        pictures = [Image.open(drawn.folder / Picture.COLOUR / f"{name}.png").convert("RGB") for name in drawn.names]
+        inside, above = (_opened(drawn.folder / Picture.COLOUR / f"{name}.png") for name in drawn.names)
     picture = Image.new("RGB", _cell_size(size_px), _PAPER)
-    for number, each in enumerate(pictures):
-        picture.paste(each, (number * size_px[0], 0))
+    picture.paste(inside, (0, 0))
+    picture.paste(_exposed(above), (size_px[0], 0))
     draw = ImageDraw.Draw(picture)
     draw.text((2, size_px[1] + 3), garage.name, _INK, ImageFont.load_default(size=_LETTERS_PX))
     words = look_in_words(made.layout.look)
@@ -156,6 +166,29 @@ def _draw(garage: SheetGarage, cell: Path, size_px: tuple[int, int], samples: in
     half = cell.with_suffix(".part")
     picture.save(half, format="PNG")
     half.replace(cell)
+
+
+def _over(garage: Garage, size_px: tuple[int, int]) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Where a camera stands that sees the whole floor, and the middle of it."""
+    structure, height_m = garage.layout.structure, garage.layout.ceiling_height_m
+    width_m, depth_m = structure.column_widths_mm.sum() / 1000, structure.row_depths_mm.sum() / 1000
+    half_height = _HALF_WIDTH * size_px[1] / size_px[0]
+    far_m = _ROOM * max(width_m / 2 / _HALF_WIDTH, depth_m / 2 / half_height) + height_m
+    x, z = float(width_m / 2), float(depth_m / 2)
+    return (x, float(far_m), z + _LEAN * float(far_m)), (x, 0.0, z)
+
+
+def _opened(path: Path) -> Image.Image:
+    with Image.open(path) as picture:
+        return picture.convert("RGB")
+
+
+def _exposed(picture: Image.Image) -> Image.Image:
+    """A picture from above as bright as its brightest tenth allows, as nothing above the floor throws light back."""
+    bright = np.asarray(picture.convert("L"))
+    lit = bright[bright > 0]
+    gain = _BRIGHT / max(float(np.percentile(lit, 90)) if lit.size else _BRIGHT, 1.0)
+    return picture.point([min(255, round(value * max(gain, 1.0))) for value in range(256)] * 3)
 
 
 def _stage(garage: Garage, folder: Path) -> Path:
@@ -168,13 +201,13 @@ def _stage(garage: Garage, folder: Path) -> Path:
         place / "garage.usdc",
         arrangement=arrangement_of(garage.layout, config),
         metadata=stage_metadata(garage),
-        config=config.model_copy(update={"assets": "own"}),
+        config=config.model_copy(update={"assets": AssetPlace.OWN}),
     )
     return made.stage
 
 
 def _cell_size(size_px: tuple[int, int]) -> tuple[int, int]:
-    return len(_CAMERAS) * size_px[0], size_px[1] + _CAPTION_PX
+    return 2 * size_px[0], size_px[1] + _CAPTION_PX
 
 
 def _sheet_size(columns: int, rows: int, size_px: tuple[int, int]) -> tuple[int, int]:

@@ -47,7 +47,7 @@ class OwnTexture(NamedTuple):
     Attributes
     ----------
     role
-        What it is for; the stem of its file's name.
+        What it is for.
     maps
         The colour alone, the normal alone, or any of occlusion, roughness and metallic, which become a packed one.
     roughness, metallic
@@ -58,6 +58,12 @@ class OwnTexture(NamedTuple):
     maps: tuple[tuple[Channel, MapFile], ...]
     roughness: float = 0.6
     metallic: float = 0.0
+
+    @property
+    def use(self) -> str:
+        """What a surface takes from it: ``colour``, ``normal`` or ``packed``."""
+        channel = self.maps[0][0]
+        return str(channel) if channel in {Channel.COLOUR, Channel.NORMAL} else "packed"
 
 
 Texture = str | PaintedTexture | OwnTexture

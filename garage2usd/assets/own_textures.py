@@ -26,7 +26,10 @@ _MOST_PX, _MOST_BYTES = 16384, 128 * 1024 * 1024
 _BANDS = (Channel.OCCLUSION, Channel.ROUGHNESS, Channel.METALLIC)
 _WIDE = frozenset({"I;16", "I;16B", "I;16L", "I;16N", "I"})
 """Pillow's modes of grey in 16 bits."""
+_JPEG_QUALITY, _COMPRESSION = 90, 6
 _BYTE, _HIGH_BYTE = 255, 8
+_ORIENTATION, _UPRIGHT = 0x0112, 1
+"""A tag of Exif, and its value for a picture that is stored as it is seen."""
 
 
 def own_shape(file: MapFile, role: str) -> tuple[int, int]:
@@ -37,9 +40,9 @@ def own_shape(file: MapFile, role: str) -> tuple[int, int]:
 def own_file(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str]:
     """The bytes of a texture and what their name ends in: ``.png``, or ``.jpg``.
 
-    A picture that all readers take, and that is not too large for the quality, is kept byte by byte. All others are
-    written as PNG: of 8 bits where they have 16, without a palette, normals with green upwards, and occlusion,
-    roughness and metallic packed in red, green and blue.
+    A picture that all readers take, and that is not too large for the quality, is kept byte by byte. A colour from a
+    JPEG is written as one. All others are written as PNG: of 8 bits where they have 16, without a palette, normals with
+    green upwards, and occlusion, roughness and metallic packed in red, green and blue.
 
     Raises
     ------
@@ -48,8 +51,13 @@ def own_file(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str]:
     """
     if (kept := _kept(texture, quality)) is not None:
         return kept
-    stream = io.BytesIO()
-    own_pixels(texture, quality).save(stream, format="PNG", compress_level=9)
+    stream, pixels = io.BytesIO(), own_pixels(texture, quality)
+    channel, file = texture.maps[0]
+    if channel is Channel.COLOUR and _opened(file, texture.role, _facts)[0] == "JPEG":
+        pixels.save(stream, format="JPEG", quality=_JPEG_QUALITY, subsampling="4:2:0", optimize=True)
+        return stream.getvalue(), ".jpg"
+    # at 9 a photograph takes ten times as long and is a hundredth smaller
+    pixels.save(stream, format="PNG", compress_level=_COMPRESSION)
     return stream.getvalue(), ".png"
 
 
@@ -80,19 +88,24 @@ def own_pixels(texture: OwnTexture, quality: TextureQuality) -> Image.Image:
 def _kept(texture: OwnTexture, quality: TextureQuality) -> tuple[bytes, str] | None:
     """A file as it is, if every reader takes it so."""
     files = {file._replace(band=None) for _, file in texture.maps}
-    bands = [(channel, file.band) for channel, file in texture.maps if file.band is not None]
+    bands = {channel: file.band for channel, file in texture.maps if file.band is not None}
     file = next(iter(files))
-    is_packed = bands == [(channel, number) for number, channel in enumerate(_BANDS)]
+    is_packed = bands == {channel: number for number, channel in enumerate(_BANDS)}
     if len(files) > 1 or file.is_turned or not (is_packed or texture.maps[0][0] in {Channel.COLOUR, Channel.NORMAL}):
         return None
     data = _data(file, texture.role)
-    kind, mode, size = _opened(file, texture.role, lambda picture: (picture.format, picture.mode, picture.size))
-    if mode != "RGB" or max(size) > _LARGEST_PX[quality]:
+    kind, mode, size, turn = _opened(file, texture.role, _facts)
+    if mode != "RGB" or turn != _UPRIGHT or max(size) > _LARGEST_PX[quality]:
         return None
     if kind == "PNG":
         # 16 bits a channel are of mode RGB too
         return (data, ".png") if data[24] == _HIGH_BYTE else None
     return data, ".jpg"
+
+
+def _facts(picture: Image.Image) -> tuple[str | None, str, tuple[int, int], int]:
+    """Format, mode, size and, as a camera tells it in Exif, which way is up, which readers follow or not."""
+    return picture.format, picture.mode, picture.size, picture.getexif().get(_ORIENTATION, _UPRIGHT)
 
 
 def _loaded(file: MapFile, role: str) -> Image.Image:

@@ -30,7 +30,10 @@ def look_text(look: LookConfig) -> str:
 def look_in_words(look: LookConfig) -> str:
     """What tells it apart from others, in a line."""
     values = look.model_dump(mode="json")
-    parts = (" ".join(f"{values[group][axis]}" for axis in axes) for group, axes in _TOLD)
+    parts = (
+        " ".join(f"{values[group][axis]:g}" if axis.endswith("_k") else str(values[group][axis]) for axis in axes)
+        for group, axes in _TOLD
+    )
     return ", ".join(parts).replace("_", " ") + " K"
 
 

@@ -15,7 +15,7 @@ from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
-from garage2usd.datasets.settings_table import first_value, over, resolved
+from garage2usd.datasets.settings_table import first_value, over, pin_textures, resolved
 from garage2usd.documents import MAX_SETTINGS_BYTES, read_json, read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.randomness import Step, derived_seed
@@ -239,7 +239,8 @@ def load_recipe(path: str | Path) -> Recipe:
     Parameters
     ----------
     path
-        The file; a profile and a rig of one's own that it names are looked for in its folder.
+        The file; a profile, a rig and textures of one's own that it names are looked for in its folder. Of textures the
+        recipe has the whole path and the digest of what they hold.
 
     Raises
     ------
@@ -253,6 +254,7 @@ def load_recipe(path: str | Path) -> Recipe:
     if isinstance(garage, dict) and isinstance(garage.get("profile"), str):
         profile = profile_setting(garage["profile"], folder=path.parent)
         garage["profile"] = profile if isinstance(profile, str) else profile.model_dump(mode="json")
+    pin_textures(settings, path.parent)
     match settings:
         case {"make": {"drives": {"rig": str(rig)} as drives}} if rig.lower().endswith(".toml"):
             try:

@@ -1,11 +1,14 @@
 """Tables of settings as recipes have them, with distributions in place of values."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, TypeGuard
 
+from garage2usd.config.files import with_textures
+from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 from garage2usd.datasets.distribution import distribution_of
 
-__all__ = ["first_value", "over", "resolved"]
+__all__ = ["first_value", "over", "pin_textures", "resolved"]
 
 
 def over(settings: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
@@ -45,3 +48,30 @@ def first_value(
         return given[field]
     ends_of[field] = distribution.ends()
     return ends_of[field][0]
+
+
+def pin_textures(recipe: Mapping[str, Any], folder: Path) -> None:
+    """Put the whole paths of folders of textures, with the digests of what they hold, in the place of relative ones.
+
+    Parameters
+    ----------
+    recipe
+        A recipe as it was read, valid or not; its tables of settings are changed.
+    folder
+        Where relative paths start.
+
+    Raises
+    ------
+    ConfigError
+        If textures cannot be used.
+    """
+    groups = recipe.get("groups")
+    of_groups = groups.values() if isinstance(groups, dict) else ()
+    alternatives = [each for group in of_groups if isinstance(group, list) for each in group]
+    for holder in (recipe, *alternatives):
+        match holder:
+            case {"garage": dict() as table}:
+                match with_textures(table, folder):
+                    case {"look": {"textures": str(named)} as look}:
+                        textures, _ = read_texture_sets(TextureFolder(folder=named))
+                        table["look"] = {**look, "textures": textures.model_dump()}

@@ -40,7 +40,7 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
     """
     if isinstance(texture, OwnTexture):
         data, suffix = own_file(texture, quality)
-        return NamedFile(content_name(f"own_{texture.role}", data, suffix), data)
+        return NamedFile(content_name(f"own_{texture.role}_{texture.use}", data, suffix), data)
     path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
     data = path.read_bytes()
     if isinstance(texture, PaintedTexture):

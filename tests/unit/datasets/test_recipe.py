@@ -1,8 +1,11 @@
 """Recipes: what they draw for a garage, and what they refuse before a garage is made."""
 
 import pytest
+from PIL import Image
 from support.data_sets import SMALL, small_recipe
 
+from garage2usd import build
+from garage2usd.config.stage import AssetPlace
 from garage2usd.datasets import Recipe, load_recipe
 from garage2usd.errors import ConfigError
 
@@ -117,3 +120,23 @@ def test_what_a_data_set_records_is_the_recipe_again(tmp_path):
     path = tmp_path / "recipe.json"
     path.write_text(recipe.record())
     assert load_recipe(path) == recipe
+
+
+def test_textures_of_a_recipe_are_beside_it_and_pinned_by_what_they_hold(tmp_path):
+    (tmp_path / "mine").mkdir()
+    Image.new("RGB", (8, 8), (90, 80, 70)).save(tmp_path / "mine" / "floor_color.png")
+    groups = '[[groups.look]]\nname = "own"\n[groups.look.garage.look]\ntextures = "mine"\n'
+    (tmp_path / "recipe.toml").write_text(f'name = "own"\n{groups}')
+    recipe = load_recipe(tmp_path / "recipe.toml")
+    textures = recipe.drawn(1)[0].look.textures
+    assert (textures.folder, len(textures.sha256)) == (str(tmp_path / "mine"), 64)
+    (tmp_path / "recipe.json").write_text(recipe.record())
+    assert load_recipe(tmp_path / "recipe.json") == recipe
+    Image.new("RGB", (8, 8)).save(tmp_path / "mine" / "floor_color.png")
+    with pytest.raises(ConfigError, match="that it was given with"):
+        generate_stage(recipe.drawn(1)[0], tmp_path)
+
+
+def generate_stage(config, folder):
+    own = config.model_copy(update={"stage": config.stage.model_copy(update={"assets": AssetPlace.OWN})})
+    return build(own, folder / "garage.usdc")
