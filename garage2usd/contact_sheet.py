@@ -23,7 +23,7 @@ from garage2usd.stage import arrangement_of, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 from garage2usd.version import VERSION
 
-__all__ = ["SheetGarage", "draw_contact_sheet"]
+__all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 
 _CAMERA = "Inside"
 _LEAN = 0.25
@@ -33,7 +33,7 @@ _ROOM = 1.12
 _HALF_WIDTH = APERTURE_MM[0] / FOCAL_MM / 2
 """What the cameras see to each side, at a distance of 1."""
 _BRIGHT = 200
-_SUFFIXES = (".png", ".jpg", ".jpeg")
+SHEET_SUFFIXES = (".png", ".jpg", ".jpeg")
 _JPEG_QUALITY = 85
 _PAPER, _INK, _QUIET = (24, 25, 27), (230, 230, 230), (150, 152, 155)
 _LETTERS_PX, _SMALL_PX, _GAP_PX = 15, 11, 8
@@ -105,8 +105,8 @@ def draw_contact_sheet(
         As `garage2usd.render.render_stage`.
     """
     columns = min(columns, len(garages))
-    if output.suffix.lower() not in _SUFFIXES:
-        raise ConfigError("contact-sheet", str(output), f"a file that ends in {', '.join(_SUFFIXES)}")
+    if output.suffix.lower() not in SHEET_SUFFIXES:
+        raise ConfigError("contact-sheet", str(output), f"a file that ends in {', '.join(SHEET_SUFFIXES)}")
     rows = -(-len(garages) // max(columns, 1))
     if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
         raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")

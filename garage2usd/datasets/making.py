@@ -233,7 +233,8 @@ def _plan_figures(row: ManifestRow, drawn: DrawnPlan) -> PlanFigures:
 
 def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequence[ManifestRow]) -> None:
     """Write what tells of the whole; the sums last, as they say that it is whole."""
-    from garage2usd.datasets.page import write_page  # noqa: PLC0415 - it brings Matplotlib, for which no refusal waits
+    from garage2usd.contact_sheet import SHEET_SUFFIXES  # noqa: PLC0415 - it brings USD, for which no refusal waits
+    from garage2usd.datasets.page import write_page  # noqa: PLC0415 - it brings Matplotlib likewise
 
     store(folder / PLAN_FILE, table_bytes(plan_table(plans)))
     store(folder / TABLE_FILE, table_bytes(manifest_table(rows)))
@@ -246,6 +247,7 @@ def _finish(recipe: Recipe, folder: Path, plans: Sequence[DrawnPlan], rows: Sequ
             page,
             sorted(figures, key=lambda plan: splits.index(plan.split)),
             title=recipe.name,
+            sheets=sorted(path for suffix in SHEET_SUFFIXES for path in folder.glob(f"*{suffix}")),
             facts={"recipe": RECIPE_FILE, "seed": str(recipe.seed), "garage2usd": VERSION},
         )
         page.replace(folder / PAGE_FILE)

@@ -1,5 +1,6 @@
 """The page of a data set: what its plans look like and how much they differ, in one file that opens offline."""
 
+import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,7 @@ def write_page(
     title: str = "Data set of parking garages",
     facts: Mapping[str, str] | None = None,
     most_drawn: int = _MOST_DRAWN,
+    sheets: Sequence[Path] = (),
 ) -> Variety:
     """Write the page of a set of plans.
 
@@ -58,6 +60,8 @@ def write_page(
         What else is said under the title, by name: the seed, say, or a version.
     most_drawn
         How many plans are drawn at most, evenly spread over all of them.
+    sheets
+        Contact sheets, PNG or JPEG, which the page holds.
 
     Returns
     -------
@@ -82,6 +86,7 @@ def write_page(
         charts=_charts(variety),
         legend=[(_THUMBNAIL_WORDS[kind], kind) for kind in THUMBNAIL_COLOURS],
         fills={kind: _css(colour) for kind, colour in THUMBNAIL_COLOURS.items()},
+        sheets=[(sheet.stem, _picture(sheet)) for sheet in sheets],
         plans=[(plan, _thumbnail(plan)) for plan in _evenly(variety.plans, most_drawn)],
         number=_number,
     )
@@ -128,6 +133,12 @@ def _thumbnail(plan: PlanFigures) -> Markup:
     rows, cols = cells.shape
     title = f"{plan.key}: {rows} x {cols} squares, {plan.stalls} stalls, {plan.area_per_stall_m2:.1f} m2 a stall"
     return Markup(to_svg(draw_thumbnail(cells, title)))  # noqa: S704 - ElementTree has escaped the key
+
+
+def _picture(path: Path) -> str:
+    """A picture as an address that holds it."""
+    kind = "png" if path.suffix.lower() == ".png" else "jpeg"
+    return f"data:image/{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"
 
 
 def _median(values: NDArray[np.float64]) -> float | None:

@@ -1,5 +1,6 @@
 """The page of a data set: the same bytes again, alone in a browser, with the figures of its plans."""
 
+import base64
 import hashlib
 import re
 import subprocess
@@ -8,6 +9,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import sync_playwright
 from support.browser import find_browser
 from support.sample_files import REPOSITORY
@@ -191,6 +193,18 @@ def test_of_many_plans_some_are_drawn_evenly_spread(plans, tmp_path):
     text = (tmp_path / "few.html").read_text()
     assert re.findall(r"<b>(\d{6})</b>", text) == ["000000", "000023", "000046", "000069"]
     assert "4 of 70 plans, evenly spread." in text
+
+
+def test_the_page_holds_contact_sheets(plans, tmp_path):
+    for name, kind in (("looks.png", "png"), ("night.jpg", "jpeg")):
+        Image.new("RGB", (40, 20), (90, 80, 70)).save(tmp_path / name)
+        write_page(tmp_path / "page.html", plans, sheets=[tmp_path / name])
+        text = (tmp_path / "page.html").read_text()
+        assert f"Contact sheet {name.partition('.')[0]}" in text
+        held = re.search(rf"data:image/{kind};base64,([^\"]+)", text)[1]
+        assert base64.b64decode(held) == (tmp_path / name).read_bytes()
+    write_page(tmp_path / "page.html", plans)
+    assert "Contact sheet" not in (tmp_path / "page.html").read_text()
 
 
 def test_keys_and_splits_are_escaped(tmp_path):
