@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
 Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, rules, circulation, scale, stages,
-exports, datasets, workers, lidar, unity and compiled.
+exports, datasets, workers, looks, lidar, unity and compiled.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -22,6 +22,7 @@ from circulation import circulation
 from datasets import datasets, workers
 from exports import exports
 from lidar import lidar
+from looks import looks
 from planning import planning
 from rules import rules
 from scale import scale
@@ -49,6 +50,7 @@ def main() -> None:
         "exports": exports,
         "datasets": datasets,
         "workers": workers,
+        "looks": looks,
         "lidar": lidar,
         "unity": unity,
         "compiled": _compiled,
