@@ -155,6 +155,9 @@ class Reader:
             pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
             small = ["--scale", "0.05", "--every-m", "40"] if "--rig" in arguments else ["--size", "32x18"]
             arguments = [*arguments, *small, "--samples", "1"]
+        elif arguments[0] == "look" and "--contact-sheet" in arguments:
+            pytest.importorskip("bpy", reason="Blender's bpy is made for Python 3.11 only")
+            arguments = [*arguments, "--seeds", "0", "--size", "32x18", "--samples", "1"]
         elif arguments[0] == "dataset" and "--workers" not in arguments:
             arguments = [*arguments, "--workers", "1"]  # not one a core, each of which loads all, for three garages
         with contextlib.chdir(self.folder):
