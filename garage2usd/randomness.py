@@ -22,8 +22,6 @@ class Step(IntEnum):
     FLOOR_STAINS = 12
     NUMBER_PLATES = 13
     LOOK = 14
-    GHOSTS = 15
-    CROSSINGS = 16
     ARRANGEMENTS = 20
     LIDAR = 30
     GARAGES = 40

@@ -57,7 +57,6 @@ _STROKES: dict[str, tuple[Stroke, ...]] = {
     "9": (_loop(_TOP, 0.58), ((_RIGHT, 0.4), (_RIGHT, _BOTTOM - _CUT), (_RIGHT - _CUT, _BOTTOM), (_LEFT, _BOTTOM))),
 }
 
-_DASH = ((0.06, _MIDDLE), (GLYPH_WIDTH - 0.06, _MIDDLE))
 _POST = ((_LEFT, 0.0), (_LEFT, 1.0))
 _TOP_ARC = ((_RIGHT - _CUT, _TOP), (_RIGHT, _TOP + _CUT))
 _BOTTOM_ARC = ((_RIGHT, _BOTTOM - _CUT), (_RIGHT - _CUT, _BOTTOM))
@@ -90,7 +89,6 @@ _STROKES |= {
     "F": (((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, 1.0)), ((_LEFT, _MIDDLE), (0.46, _MIDDLE))),
     "G": ((*_OPEN_RING, (_RIGHT, 0.54), (0.28, 0.54)),),
     " ": (),
-    "-": (_DASH,),
     "H": (_POST, ((_RIGHT, 0.0), (_RIGHT, 1.0)), ((_LEFT, _MIDDLE), (_RIGHT, _MIDDLE))),
     "I": (((0.28, 0.0), (0.28, 1.0)),),
     "J": (((_RIGHT, 0.0), *_BOTTOM_ARC, (_LEFT + _CUT, _BOTTOM), (_LEFT, _BOTTOM - _CUT), (_LEFT, 0.66)),),

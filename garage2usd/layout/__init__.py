@@ -33,17 +33,15 @@ from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.stains import floor_stains
-from garage2usd.layout.stall_numbers import stall_numbers
 from garage2usd.layout.stall_table import STALL_USES, StallTable
 from garage2usd.layout.table import ObjectTable
 from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
 from garage2usd.layout.zone_plates import zone_plates
-from garage2usd.layout.zones import Zones, with_numbers
+from garage2usd.layout.zones import Zones, stall_numbers, with_numbers
 from garage2usd.look import drawn_look
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
-from garage2usd.randomness import Step
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -211,8 +209,9 @@ def lay_out(
     arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
 
+    stalls = _used_stalls(grid, graph, cores, config, unreachable)
     zones = Zones(structure) if fittings.zones else None
-    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
+    stalls = with_numbers(stalls, zones)
     core_on = {core.square: core for core in cores if core.recess_m}
     tubes = tube_lights(grid, fittings, levels, core_on)
     lamps, illuminance = light_up(installed_lamps(tubes, look.lights, draws, seed=seed), grid, stalls, fittings)
@@ -222,7 +221,6 @@ def lay_out(
         crossings = _crossings(grid, cores)
         bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
         with_bump = {bump.square for bump in bumps}
-        crossings = _spare_crossings(look.markings.zebra, draws, with_bump) | crossings
         floors = [
             floor_panel(
                 tile,
@@ -237,11 +235,11 @@ def lay_out(
         ]
         yield floors
         yield floor_stains(grid, floors, stalls, fittings, draws)
-        yield stall_panels(stalls, look.markings, draws)
+        yield stall_panels(stalls, look.markings)
         yield wheel_stops(stalls, fittings, config.standard)
         yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws, country)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
-        yield stall_numbers(stalls, grid, fittings, look)
+        yield stall_numbers(stalls, fittings)
         yield chargers(stalls)
         yield bumps
         yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
@@ -300,12 +298,6 @@ def _crossings(grid: TileGrid, cores: Iterable[Core]) -> dict[Square, float]:
         is_beside = grid.tiles[core.lane].axis_is_x is core.along_x
         crossings.setdefault(core.lane, core.along_m if is_beside else 0.0)
     return crossings
-
-
-def _spare_crossings(share: float, draws: SquareDraws, with_bump: Collection[Square | None]) -> dict[Square, float]:
-    """Crossings in the middle of a share of the squares that have no bump, whatever is on these squares."""
-    drawn = draws.of_step(Step.CROSSINGS, 1) if share else {}
-    return {square: 0.0 for square, (there,) in drawn.items() if there < share and square not in with_bump}
 
 
 def _foot_exits(grid: TileGrid, cores: Iterable[Core]) -> list[Point]:

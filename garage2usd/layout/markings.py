@@ -1,13 +1,12 @@
 """Painted lines, arrows and hatching, in the coordinates of one panel (origin in its middle)."""
 
-from collections.abc import Callable
 from functools import lru_cache
 
 import shapely
 
 from garage2usd.config.look import BandForm, MarkingsLook
 from garage2usd.layout.placement import box_inside
-from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.structure.stalls import Edge
 
@@ -50,52 +49,23 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
 
 @lru_cache(maxsize=1024)
 def entry_band(
-    edge: Edge, half_x: float, half_z: float, trims: tuple[float | None, float | None], look: MarkingsLook
+    edge: Edge, half_x: float, half_z: float, trims: tuple[float, float], look: MarkingsLook
 ) -> tuple[Marking, ...]:
-    """What runs on a lane square along the entries of stalls at one edge.
-
-    ``trims`` cuts its two ends as for `edge_line`; None where another band meets it there in a corner.
-    """
+    """What runs on a lane square along the entries of stalls at one edge; ``trims`` as for `edge_line`."""
     if look.band is BandForm.NONE:
         return ()
-    half = half_x if edge.along_x else half_z
+    half, (low, high) = half_x if edge.along_x else half_z, trims
 
     def strip(near: float, far: float, surface: Surface) -> Marking:
-        low, high = (near if trim is None else trim for trim in trims)
-        box = box_inside(edge, (half_x, half_z), (low - half, half - high), (near, far))
-        return Marking(rectangle(*(round(side, 6) for side in box)), surface, Paint.LANE_LINE)
+        box = box_inside(edge, (half_x, half_z), (low - half, half - high), (round(near, 6), round(far, 6)))
+        return Marking(rectangle(*box), surface, Paint.LANE_LINE)
 
     gap, line = look.band_gap_m, look.line_width_m
     first = strip(gap, gap + line, Surface.PAINT_STALL)
     if look.band is BandForm.LINE:
         return (first,)
     inner = gap + line + look.band_width_m
-    middle = _inside(edge, half_x, half_z, (gap + line + inner) / 2)
-    ahead = Edge.RIGHT if edge.along_x else Edge.DOWN
-    size = look.band_width_m * _SIGN_SHARE
-    signs = [
-        Marking(_placed(outline, middle, towards, size), Surface.PAINT_STALL, Paint.LANE_LINE)
-        for outline, towards in ((_WALKER, edge), (_BAND_ARROW, ahead), (_BAND_ARROW, ahead.opposite))
-    ]
-    return (
-        *signs,
-        first,
-        strip(gap + line, inner, Surface.PAINT_BAND),
-        strip(inner, inner + line, Surface.PAINT_STALL),
-    )
-
-
-def _inside(edge: Edge, half_x: float, half_z: float, depth: float) -> Point:
-    """The point that far inside the middle of an edge."""
-    left, top, right, bottom = box_inside(edge, (half_x, half_z), (0.0, 0.0), (depth, depth))
-    return (left + right) / 2, (top + bottom) / 2
-
-
-def _placed(outline: Polygon, middle: Point, towards: Edge, size: float) -> Polygon:
-    """An outline of size 1 that looks to -Z, turned towards an edge and scaled."""
-    turn = _TURNS[towards]
-    turned = (turn(point) for point in outline)
-    return tuple((round(middle[0] + size * x, 6), round(middle[1] + size * z, 6)) for x, z in turned)
+    return first, strip(gap + line, inner, Surface.PAINT_BAND), strip(inner, inner + line, Surface.PAINT_STALL)
 
 
 @lru_cache(maxsize=4096)
@@ -133,28 +103,14 @@ def dashes(half_x: float, half_z: float, *, along_x: bool) -> tuple[Marking, ...
 def arrow(x: float, z: float, towards: Edge) -> Marking:
     """A straight-on arrow of 2.4 m with its middle at (x, z)."""
     outline = ((-0.08, 1.2), (0.08, 1.2), (0.08, -0.2), (0.3, -0.2), (0.0, -1.2), (-0.3, -0.2), (-0.08, -0.2))
-    turned = (_TURNS[towards](point) for point in outline)
+    turns = {
+        Edge.UP: lambda p: (p[0], p[1]),
+        Edge.DOWN: lambda p: (-p[0], -p[1]),
+        Edge.LEFT: lambda p: (p[1], -p[0]),
+        Edge.RIGHT: lambda p: (-p[1], p[0]),
+    }
+    turned = (turns[towards](point) for point in outline)
     return Marking(tuple((x + px, z + pz) for px, pz in turned), Surface.PAINT_WHITE, Paint.LANE_ARROW)
-
-
-_TURNS: dict[Edge, Callable[[Point], Point]] = {
-    Edge.UP: lambda p: (p[0], p[1]),
-    Edge.DOWN: lambda p: (-p[0], -p[1]),
-    Edge.LEFT: lambda p: (p[1], -p[0]),
-    Edge.RIGHT: lambda p: (-p[1], p[0]),
-}
-"""Turns of what looks to -Z towards each edge."""
-_SIGN_SHARE = 0.8
-"""Of a band's width that its signs take."""
-_WALKER = (
-    (-0.1, -0.36), (-0.1, -0.5), (0.1, -0.5), (0.1, -0.36), (0.04, -0.3), (0.22, -0.06), (0.16, 0.0), (0.06, -0.12),
-    (0.06, 0.1), (0.22, 0.5), (0.1, 0.5), (-0.02, 0.18), (-0.16, 0.5), (-0.28, 0.5), (-0.08, 0.06), (-0.08, -0.12),
-    (-0.2, 0.04), (-0.26, -0.02), (-0.04, -0.3),
-)  # fmt: skip
-"""A person on foot, an outline of one piece."""
-_BAND_ARROW = (
-    (-0.09, -0.9), (-0.09, -1.3), (-0.25, -1.3), (0.0, -1.7), (0.25, -1.3), (0.09, -1.3), (0.09, -0.9)
-)  # fmt: skip
 
 
 def two_way_arrows(half_x: float, half_z: float, setback: float, *, along_x: bool) -> tuple[Marking, Marking]:

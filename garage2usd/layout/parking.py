@@ -15,7 +15,7 @@ from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.markings import hatching
 from garage2usd.layout.placement import Placement, Stall, StallUse
-from garage2usd.layout.stall_lines import GHOSTS, ghost_lines, stall_lines
+from garage2usd.layout.stall_lines import stall_lines
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.panel import Surface
@@ -104,28 +104,17 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequenc
     return tuple(turned)
 
 
-def stall_panels(stalls: tuple[Stall, ...], look: MarkingsLook, draws: SquareDraws) -> list[Placement]:
-    """The floor of each stall with its lines, on some of them older ones as well."""
-    most = max((stall.ordinal for stall in stalls), default=0)
-    numbers = draws.of_step(Step.GHOSTS, most, 2) if look.ghosts else {}
-    panels = []
-    for stall in stalls:
-        ghost = None
-        if look.ghosts:
-            there, which = numbers[stall.square][stall.ordinal - 1].tolist()
-            ghost = int(which * GHOSTS) if there < look.ghosts else None
-        spec = _stall_panel(stall.width_m, stall.length_m, stall.use, look, ghost)
-        panels.append(stall.placement("Stall", spec))
-    return panels
+def stall_panels(stalls: tuple[Stall, ...], look: MarkingsLook) -> list[Placement]:
+    """The floor of each stall with its lines."""
+    return [stall.placement("Stall", _stall_panel(stall.width_m, stall.length_m, stall.use, look)) for stall in stalls]
 
 
 @lru_cache
-def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsLook, ghost: int | None) -> StallSpec:
+def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsLook) -> StallSpec:
     lines = stall_lines(width_m, length_m, look)
     if not use.takes_cars:
         lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
-    older = () if ghost is None else ghost_lines(width_m, length_m, ghost, look.line_width_m)
-    return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use), *older))
+    return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
 def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:

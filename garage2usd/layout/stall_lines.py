@@ -7,7 +7,7 @@ from garage2usd.config.look import MarkingsLook, StallPattern
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
 
-__all__ = ["GHOSTS", "ghost_lines", "outer_spans", "stall_lines"]
+__all__ = ["outer_spans", "stall_lines"]
 
 Span = tuple[float, float]
 """From where to where along a stall, metres from its mouth."""
@@ -18,8 +18,6 @@ _BESIDE_M = 0.06
 """From a stall's side to lines that are its own."""
 _DOUBLE_GAP_M = 0.2
 """Half of what lies between two parallel lines."""
-_GHOST_INSETS_M = 0.35, 0.7, 1.2
-"""From a stall's entry to where an older one was."""
 _DASH_M, _DASH_GAP_M = 0.6, 0.5
 _SHARED = {StallPattern.SIDES, StallPattern.CLOSED, StallPattern.DASHED, StallPattern.T_MARKS}
 """Patterns whose side lines lie half on each neighbour."""
@@ -35,26 +33,6 @@ def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Ma
         for left, right, near, far in _boxes(half_width, length_m, line, look.pattern)
     ]
     return tuple(_line(shape) for shape in shapes)
-
-
-GHOSTS = 4
-"""How many different older lines a stall may have."""
-
-
-@lru_cache(maxsize=1024)
-def ghost_lines(width_m: float, length_m: float, ghost: int, line_m: float) -> tuple[Marking, ...]:
-    """Lines of an older division of the floor that still show on a stall: one along it, and its entry.
-
-    ``ghost`` from 0 says which of `GHOSTS` it is.
-    """
-    half_width, half_length = width_m / 2, length_m / 2
-    across = (2 * (ghost + 0.5) / GHOSTS - 1) * (half_width - line_m)
-    inset = _GHOST_INSETS_M[ghost % len(_GHOST_INSETS_M)]
-    shapes = (
-        rectangle(round(across, 6), round(-half_length + 0.4, 6), round(across + line_m, 6), half_length),
-        rectangle(-half_width, round(half_length - inset - line_m, 6), half_width, round(half_length - inset, 6)),
-    )
-    return tuple(Marking(shape, Surface.PAINT_GHOST, Paint.GHOST) for shape in shapes)
 
 
 def outer_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:

@@ -275,11 +275,8 @@ def _lane_markings(
             low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
             markings.append(edge_line(edge, half_x, half_z, setback, (low, high)))
         elif not tile.drivable[edge]:
-            first, last = (
-                None if tile.stall_mouths[side] and not tile.drivable[side] else _trim(tile, edge, side, setback)
-                for side in edge.ends
-            )
-            markings.extend(entry_band(edge, half_x, half_z, (first, last), look))
+            low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
+            markings.extend(entry_band(edge, half_x, half_z, (low, high), look))
     for vertical in (Edge.UP, Edge.DOWN):
         for horizontal in (Edge.LEFT, Edge.RIGHT):
             beyond = grid.neighbour(tile, vertical, horizontal)

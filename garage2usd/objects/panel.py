@@ -51,8 +51,6 @@ class Paint(StrEnum):
     CROSSING = "crossing"
     HATCHING = "hatching"
     STALL_SYMBOL = "stall_symbol"
-    GHOST = "ghost"
-    """What is left of older paint: it belongs to the floor, and says nothing."""
 
 
 @dataclass(frozen=True)
@@ -109,8 +107,7 @@ class PanelSpec(Spec):
             if area.area > 0:
                 colour = surface.removeprefix("paint_")
                 name = pascal_case(f"{paint}_{colour}")
-                piece = "" if paint is Paint.GHOST else paint.value
-                painted.append(flat_part(name, area, _MATERIALS[surface], piece=piece))
+                painted.append(flat_part(name, area, _MATERIALS[surface], piece=paint.value))
                 base = _level(shapely.difference(base, area, grid_size=GRID_M))
         material = _MATERIALS[self.surface]
         coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []
