@@ -22,6 +22,7 @@ class Step(IntEnum):
     FLOOR_STAINS = 12
     NUMBER_PLATES = 13
     LOOK = 14
+    FLOOR_MARKINGS = 17
     ARRANGEMENTS = 20
     LIDAR = 30
     GARAGES = 40

@@ -89,6 +89,7 @@ _STROKES |= {
     "F": (((GLYPH_WIDTH, _TOP), (_LEFT, _TOP), (_LEFT, 1.0)), ((_LEFT, _MIDDLE), (0.46, _MIDDLE))),
     "G": ((*_OPEN_RING, (_RIGHT, 0.54), (0.28, 0.54)),),
     " ": (),
+    "-": (((0.1, _MIDDLE), (GLYPH_WIDTH - 0.1, _MIDDLE)),),
     "H": (_POST, ((_RIGHT, 0.0), (_RIGHT, 1.0)), ((_LEFT, _MIDDLE), (_RIGHT, _MIDDLE))),
     "I": (((0.28, 0.0), (0.28, 1.0)),),
     "J": (((_RIGHT, 0.0), *_BOTTOM_ARC, (_LEFT + _CUT, _BOTTOM), (_LEFT, _BOTTOM - _CUT), (_LEFT, 0.66)),),
@@ -128,7 +129,7 @@ def text_shape(text: str, height_m: float) -> shapely.Geometry:
     Parameters
     ----------
     text
-        Digits, capital letters, dashes and spaces; or Chinese characters.
+        Digits, capital letters, spaces and hyphens; or Chinese characters.
     height_m
         Of each character.
     """

@@ -274,10 +274,11 @@ MATERIALS: dict[str, Material] = {
     "stain_rubber": Material(colour_texture="stains.png", has_alpha=True, roughness=0.6),
     "stain_patch": Material(colour_texture="stains.png", has_alpha=True, roughness=0.85),
     "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_white_worn": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_stall": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_stall_worn": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_number": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_band": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_ghost": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "wall_concrete": Material(
         colour_texture="wall_colour.jpg",

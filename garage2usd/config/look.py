@@ -14,6 +14,7 @@ from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
 from garage2usd.settings import Settings
 
 __all__ = [
+    "AISLE",
     "NATURAL",
     "NO_DADO",
     "BandForm",
@@ -33,6 +34,7 @@ __all__ = [
     "NumberForm",
     "NumberPlace",
     "NumbersLook",
+    "Pictogram",
     "SignsLook",
     "SignsOf",
     "StallPattern",
@@ -45,6 +47,8 @@ NATURAL = "natural"
 """The colour that a material has by itself."""
 NO_DADO = "none"
 """Instead of its colour: there is none."""
+AISLE = "aisle"
+"""The floor of stalls that have that of the aisle."""
 _HEX = re.compile(r"#[0-9a-f]{6}")
 _COLOURS = {
     "white": "#dedede",
@@ -117,7 +121,7 @@ class FloorLook(Settings):
     """Mean colour of the aisles' floor: #rrggbb in sRGB, a name such as 'green', or 'natural'."""
     gloss: Gloss = Gloss.SATIN
     """'matt', 'satin', 'polished' or 'mirror'."""
-    bays: Annotated[str, AfterValidator(lambda value: value if value in {"coated", "aisle"} else _colour(value))] = (
+    bays: Annotated[str, AfterValidator(lambda value: value if value in {"coated", AISLE} else _colour(value))] = (
         "coated"
     )
     """Floor of the stalls: 'coated' with blue-grey epoxy, as the 'aisle' is, or a colour that fills them."""
@@ -154,6 +158,15 @@ class BandForm(StrEnum):
     """A coloured band between two lines, as walkways and guide strips are."""
 
 
+class Pictogram(StrEnum):
+    """What is painted on coloured bands, every other square."""
+
+    WALKER = "walker"
+    CAR = "car"
+    LIFT = "lift"
+    NONE = "none"
+
+
 class Wear(StrEnum):
     """How much of the paint traffic has taken."""
 
@@ -184,12 +197,18 @@ class MarkingsLook(Settings):
     """Of a coloured band."""
     band_colour: Colour = "green"
     """Of a coloured band."""
+    band_both_sides: bool = True
+    """Whether a coloured band runs on both sides of aisles; else one side has it and the other a line."""
+    pictogram: Pictogram = Pictogram.WALKER
+    """On a coloured band: 'walker', 'car', 'lift' or 'none', with chevrons between them."""
+    hatching: bool = False
+    """Whether the floor between rows of stalls, beside columns and at the ends of rows, is hatched."""
     lane_colour: Colour = "yellow"
     """Of the lines along the edges of lanes."""
     arrow_colour: Colour = "white"
     """Of arrows, dashes and crossings."""
     ghosts: float = Field(0.0, ge=0, le=1)
-    """Share of the stalls before which older lines, at other places, still show."""
+    """Share of the squares with stalls before which older lines, at other places, still show."""
     zebra: float = Field(0.0, ge=0, le=1)
     """Share of the straight lane squares with a crossing that leads to no door."""
 
@@ -202,9 +221,9 @@ class NumberPlace(StrEnum):
     MIDDLE = "middle"
     REAR = "rear"
     LANE = "lane"
-    """Before the stall, on the lane."""
+    """Before the stall, on the lane, where what runs along the aisle leaves room; else at its entry."""
     WALL = "wall"
-    """On the wall behind it, where there is one."""
+    """On the wall behind it, where there is one; else at its entry."""
     NONE = "none"
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig, LookConfig
+from garage2usd.config.look import AISLE
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
@@ -22,6 +23,7 @@ from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
+from garage2usd.layout.floor_panels import drawn_markings_of, floor_panels
 from garage2usd.layout.lamps import installed_lamps, ramp_lamps
 from garage2usd.layout.lighting import LightLevels, light_up
 from garage2usd.layout.mounts import mounted_objects
@@ -33,11 +35,12 @@ from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.stains import floor_stains
+from garage2usd.layout.stall_numbers import stall_numbers
 from garage2usd.layout.stall_table import STALL_USES, StallTable
 from garage2usd.layout.table import ObjectTable
-from garage2usd.layout.tiles import TileGrid, ceiling_panel, floor_panel
+from garage2usd.layout.tiles import TileGrid, ceiling_panel
 from garage2usd.layout.zone_plates import zone_plates
-from garage2usd.layout.zones import Zones, stall_numbers, with_numbers
+from garage2usd.layout.zones import Zones, with_numbers
 from garage2usd.look import drawn_look
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -220,26 +223,16 @@ def lay_out(
         # what lies on the lanes decides what is painted there
         crossings = _crossings(grid, cores)
         bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
-        with_bump = {bump.square for bump in bumps}
-        floors = [
-            floor_panel(
-                tile,
-                grid,
-                bay,
-                look=look.markings,
-                has_bump=tile.square in with_bump,
-                crossing_m=crossings.get(tile.square),
-                kept_free=core_on[tile.square].landing(tile) if tile.square in core_on else None,
-            )
-            for tile in grid
-        ]
+        drawn = drawn_markings_of(grid, look.markings, draws)
+        floors = floor_panels(grid, bay, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on)
         yield floors
         yield floor_stains(grid, floors, stalls, fittings, draws)
-        yield stall_panels(stalls, look.markings)
+        # a coat on the stalls covers what was painted before it
+        yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
         yield wheel_stops(stalls, fittings, config.standard)
         yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws, country)]
         yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
-        yield stall_numbers(stalls, fittings)
+        yield stall_numbers(stalls, grid, look, fittings)
         yield chargers(stalls)
         yield bumps
         yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))

@@ -4,7 +4,6 @@ from functools import lru_cache
 
 import shapely
 
-from garage2usd.config.look import BandForm, MarkingsLook
 from garage2usd.layout.placement import box_inside
 from garage2usd.objects.outline import Polygon, rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -16,7 +15,6 @@ __all__ = [
     "corner_lines",
     "dashes",
     "edge_line",
-    "entry_band",
     "hatching",
     "stripes",
     "two_way_arrows",
@@ -45,27 +43,6 @@ def edge_line(edge: Edge, half_x: float, half_z: float, setback: float, trims: t
     half, (low, high) = half_x if edge.along_x else half_z, trims
     box = box_inside(edge, (half_x, half_z), (low - half, half - high), (setback, setback + LINE_WIDTH_M))
     return Marking(rectangle(*box), Surface.PAINT_YELLOW, Paint.LANE_LINE)
-
-
-@lru_cache(maxsize=1024)
-def entry_band(
-    edge: Edge, half_x: float, half_z: float, trims: tuple[float, float], look: MarkingsLook
-) -> tuple[Marking, ...]:
-    """What runs on a lane square along the entries of stalls at one edge; ``trims`` as for `edge_line`."""
-    if look.band is BandForm.NONE:
-        return ()
-    half, (low, high) = half_x if edge.along_x else half_z, trims
-
-    def strip(near: float, far: float, surface: Surface) -> Marking:
-        box = box_inside(edge, (half_x, half_z), (low - half, half - high), (round(near, 6), round(far, 6)))
-        return Marking(rectangle(*box), surface, Paint.LANE_LINE)
-
-    gap, line = look.band_gap_m, look.line_width_m
-    first = strip(gap, gap + line, Surface.PAINT_STALL)
-    if look.band is BandForm.LINE:
-        return (first,)
-    inner = gap + line + look.band_width_m
-    return first, strip(gap + line, inner, Surface.PAINT_BAND), strip(inner, inner + line, Surface.PAINT_STALL)
 
 
 @lru_cache(maxsize=4096)

@@ -1,7 +1,7 @@
 """Stalls on the squares that lanes serve, their wheel stops, and the cars parked in them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,6 +13,7 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.errors import ConfigError
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.ghost_lines import ghosts_on_stall
 from garage2usd.layout.markings import hatching
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.stall_lines import stall_lines
@@ -104,9 +105,22 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequenc
     return tuple(turned)
 
 
-def stall_panels(stalls: tuple[Stall, ...], look: MarkingsLook) -> list[Placement]:
-    """The floor of each stall with its lines."""
-    return [stall.placement("Stall", _stall_panel(stall.width_m, stall.length_m, stall.use, look)) for stall in stalls]
+def stall_panels(
+    stalls: tuple[Stall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
+) -> list[Placement]:
+    """The floor of each stall with its lines, below them those of older rows by the squares that show them."""
+    return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
+
+
+def _with_ghosts(stall: Stall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
+    panel = _stall_panel(stall.width_m, stall.length_m, stall.use, look)
+    number = ghosts.get(stall.square)
+    if number is None or stall.use in _COATINGS:
+        return panel
+    count = max(place.row.count for place in grid.stall_places[stall.square])
+    middle = grid.tiles[stall.square].middle_m
+    older = ghosts_on_stall(number, stall, middle, count * stall.width_m / 2, look.line_width_m)
+    return replace(panel, markings=(*panel.markings, *older))
 
 
 @lru_cache

@@ -1,10 +1,11 @@
 """The painted lines of stalls: which of them a pattern has, in the coordinates of a stall (mouth at +Z)."""
 
+import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from garage2usd.config.look import MarkingsLook, StallPattern
-from garage2usd.objects.outline import Polygon, rectangle
+from garage2usd.config.look import MarkingsLook, StallPattern, Wear
+from garage2usd.objects.outline import rectangle
 from garage2usd.objects.panel import Marking, Paint, Surface
 
 __all__ = ["outer_spans", "stall_lines"]
@@ -21,18 +22,24 @@ _DOUBLE_GAP_M = 0.2
 _DASH_M, _DASH_GAP_M = 0.6, 0.5
 _SHARED = {StallPattern.SIDES, StallPattern.CLOSED, StallPattern.DASHED, StallPattern.T_MARKS}
 """Patterns whose side lines lie half on each neighbour."""
-_CLOSED = {StallPattern.CLOSED, StallPattern.DASHED}
+_PAINT, _WORN_PAINT = Surface.PAINT_STALL, Surface.PAINT_STALL_WORN
+_WHEELS_M = 0.5, 1.0
+"""From where to where beside the middle of a stall wheels cross its mouth."""
+_UNEVEN = {Wear.LIGHT, Wear.WORN}
+"""Wear that is worse where wheels roll; fresh paint and what is nearly gone is the same all over."""
 
 
 @lru_cache(maxsize=1024)
 def stall_lines(width_m: float, length_m: float, look: MarkingsLook) -> tuple[Marking, ...]:
     """The lines of one stall; of a side line that it shares with a neighbour its half."""
     half_width, half_length, line = width_m / 2, length_m / 2, look.line_width_m
-    shapes = [
-        rectangle(round(left, 6), round(half_length - far, 6), round(right, 6), round(half_length - near, 6))
-        for left, right, near, far in _boxes(half_width, length_m, line, look.pattern)
-    ]
-    return tuple(_line(shape) for shape in shapes)
+    lines = []
+    for left, right, near, far in _boxes(half_width, length_m, line, look.pattern):
+        is_driven_over = near == 0.0 and far == line and look.wear in _UNEVEN
+        for start, end, surface in _worn_pieces(left, right) if is_driven_over else ((left, right, _PAINT),):
+            shape = rectangle(round(start, 6), round(half_length - far, 6), round(end, 6), round(half_length - near, 6))
+            lines.append(Marking(shape, surface, Paint.STALL_LINE))
+    return tuple(lines)
 
 
 def outer_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:
@@ -40,8 +47,18 @@ def outer_spans(length_m: float, look: MarkingsLook) -> tuple[Span, ...]:
     return _side_spans(length_m, look.pattern) if look.pattern in _SHARED else ()
 
 
-def _line(shape: Polygon) -> Marking:
-    return Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE)
+def _worn_pieces(left: float, right: float) -> Iterator[tuple[float, float, Surface]]:
+    """A line across a stall's mouth in pieces, those more worn where wheels cross it."""
+    low, high = _WHEELS_M
+    for start, end, surface in (
+        (-math.inf, -high, _PAINT),
+        (-high, -low, _WORN_PAINT),
+        (-low, low, _PAINT),
+        (low, high, _WORN_PAINT),
+        (high, math.inf, _PAINT),
+    ):
+        if max(left, start) < min(right, end):
+            yield max(left, start), min(right, end), surface
 
 
 def _side_spans(length_m: float, pattern: StallPattern) -> tuple[Span, ...]:

@@ -1,7 +1,5 @@
-"""Squares in metres: where each one lies, what surrounds it, and its floor and ceiling."""
-# Over 300 lines: a square's floor, markings and ceiling are drawn from the same tile and what surrounds it.
+"""Squares in metres: where each one lies, what surrounds it, and its ceiling."""
 
-import itertools
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
@@ -10,25 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from garage2usd.config import BayConfig, FittingsConfig
-from garage2usd.config.look import MarkingsLook
-from garage2usd.layout.markings import (
-    LINE_WIDTH_M,
-    arrow,
-    corner_lines,
-    dashes,
-    edge_line,
-    entry_band,
-    hatching,
-    stripes,
-    two_way_arrows,
-    zebra,
-)
 from garage2usd.layout.placement import Placement, box_inside, stall_name
-from garage2usd.layout.stall_lines import outer_spans
 from garage2usd.objects.ceiling import CeilingSpec
-from garage2usd.objects.floor import FloorSpec
-from garage2usd.objects.outline import Box, Point, Polygon, rectangle
-from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.objects.outline import Point, Polygon, rectangle
+from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneGraph, Square
 from garage2usd.structure.stalls import Edge, StallRow
@@ -38,8 +21,9 @@ __all__ = [
     "Tile",
     "TileGrid",
     "ceiling_panel",
-    "floor_panel",
     "lane_edges",
+    "row_rectangle",
+    "row_start_m",
     "stall_rectangle",
 ]
 
@@ -132,6 +116,7 @@ class TileGrid:
         """Place every square of `structure` and look at what surrounds it; `left_out` names stalls to leave out."""
         self.structure = structure
         self.setback_m = bay.carriageway_setback_m
+        self.doors = door_edges(structure.cells)
         self.stall_places = _stall_places(graph.stall_rows, left_out)
         mouths = {
             (*place.row.edge.beyond(square), place.row.edge.opposite)
@@ -196,38 +181,6 @@ def lane_edges(tile: Tile) -> list[Edge]:
     return [edge for edge in Edge if tile.drivable[edge]]
 
 
-def floor_panel(
-    tile: Tile,
-    grid: TileGrid,
-    bay: BayConfig,
-    *,
-    look: MarkingsLook,
-    has_bump: bool,
-    crossing_m: float | None = None,
-    kept_free: Box | None = None,
-) -> Placement:
-    """The floor of one square with its markings, open where stalls lie.
-
-    ``crossing_m`` is where on a lane a crossing to a core's door lies, along it from the middle; ``kept_free`` is the
-    floor before the door on the core's own square.
-    """
-    openings: list[Polygon] = []
-    markings: tuple[Marking, ...]
-    if tile.cell is Cell.LANE:
-        markings = _lane_markings(tile, grid, look, has_bump=has_bump, crossing_m=crossing_m)
-    elif tile.cell is Cell.FREE:
-        places = grid.stall_places.get(tile.square, [])
-        openings = [stall_rectangle(tile, place.row, place.slot, bay) for place in places]
-        if kept_free is not None:
-            markings = (*_row_end_lines(tile, places, bay, look), *stripes(*kept_free))
-        else:
-            markings = _row_end_lines(tile, places, bay, look) if places else hatching(tile.half_x_m, tile.half_z_m)
-    else:
-        markings = _portal_markings(tile)
-    spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, tuple(openings))
-    return Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), square=tile.square)
-
-
 def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
     """The ceiling slab over one square."""
     spec = CeilingSpec(tile.width_m, tile.depth_m, CEILING_THICKNESS_M)
@@ -237,74 +190,19 @@ def ceiling_panel(tile: Tile, fittings: FittingsConfig) -> Placement:
 
 def stall_rectangle(tile: Tile, row: StallRow, slot: int, bay: BayConfig) -> Polygon:
     """The rectangle of one stall of a row in the tile's coordinates."""
-    start = _row_start_m(row, bay) + slot * bay.stall_width_m
-    return _row_rectangle(tile, row.edge, start, start + bay.stall_width_m, (0.0, bay.stall_length_m))
+    start = row_start_m(row, bay) + slot * bay.stall_width_m
+    return row_rectangle(tile, row.edge, start, start + bay.stall_width_m, (0.0, bay.stall_length_m))
 
 
-def _row_rectangle(tile: Tile, edge: Edge, start: float, end: float, depth: tuple[float, float]) -> Polygon:
+def row_rectangle(tile: Tile, edge: Edge, start: float, end: float, depth: tuple[float, float]) -> Polygon:
     """A rectangle on a tile by how far it lies inside one edge, from `start` to `end` along that."""
     box = box_inside(edge, (tile.half_x_m, tile.half_z_m), (start, end), depth)
     return rectangle(*(round(side, 6) for side in box))
 
 
-def _row_end_lines(tile: Tile, places: list[StallPlace], bay: BayConfig, look: MarkingsLook) -> tuple[Marking, ...]:
-    """The outer half of the lines beside stalls that have no other one there."""
-    lines: list[Marking] = []
-    half_line, spans = look.line_width_m / 2, outer_spans(bay.stall_length_m, look)
-    for place in places:
-        start = _row_start_m(place.row, bay) + place.slot * bay.stall_width_m
-        ends = [start - half_line] * place.is_first + [start + bay.stall_width_m] * place.is_last
-        for end, span in itertools.product(ends, spans):
-            shape = _row_rectangle(tile, place.row.edge, end, end + half_line, span)
-            lines.append(Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE))
-    return tuple(lines)
-
-
-def _row_start_m(row: StallRow, bay: BayConfig) -> float:
+def row_start_m(row: StallRow, bay: BayConfig) -> float:
     """Where a row begins along its edge, from the edge's middle."""
     return -row.count * bay.stall_width_m / 2
-
-
-def _lane_markings(
-    tile: Tile, grid: TileGrid, look: MarkingsLook, *, has_bump: bool, crossing_m: float | None
-) -> tuple[Marking, ...]:
-    half_x, half_z, setback = tile.half_x_m, tile.half_z_m, grid.setback_m
-    markings: list[Marking] = []
-    for edge in Edge:
-        if not tile.drivable[edge] and not tile.stall_mouths[edge]:
-            low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
-            markings.append(edge_line(edge, half_x, half_z, setback, (low, high)))
-        elif not tile.drivable[edge]:
-            low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
-            markings.extend(entry_band(edge, half_x, half_z, (low, high), look))
-    for vertical in (Edge.UP, Edge.DOWN):
-        for horizontal in (Edge.LEFT, Edge.RIGHT):
-            beyond = grid.neighbour(tile, vertical, horizontal)
-            closed = beyond is None or beyond.cell not in {Cell.LANE, Cell.ENTRANCE, Cell.EXIT}
-            if tile.drivable[vertical] and tile.drivable[horizontal] and closed:
-                markings.extend(corner_lines(vertical, horizontal, half_x, half_z, setback))
-    along_x = tile.axis_is_x
-    if along_x is not None and crossing_m is not None:
-        markings.extend(zebra(half_x, half_z, setback, along_x=along_x, offset_m=crossing_m))
-    elif along_x is not None and not has_bump:
-        markings.extend(dashes(half_x, half_z, along_x=along_x))
-        if sum(tile.square) % 2 == 0:
-            markings.extend(two_way_arrows(half_x, half_z, setback, along_x=along_x))
-    return tuple(markings)
-
-
-def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
-    """How much an edge line is cut at the end on `side`, so that lines meet in a corner without overlap."""
-    if tile.drivable[side]:
-        return 0.0
-    runs_behind = not edge.along_x and not tile.stall_mouths[side]
-    return setback + (LINE_WIDTH_M if runs_behind else 0.0)
-
-
-def _portal_markings(tile: Tile) -> tuple[Marking, ...]:
-    """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
-    inwards = lane_edges(tile)[0]
-    return (arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else inwards.opposite),)
 
 
 def _by_edge(row: int, col: int, test: Callable[[Square, Edge], bool]) -> tuple[bool, bool, bool, bool]:

@@ -1,4 +1,4 @@
-"""Zones by letter and number, by which people find their car again, and the numbers of stalls."""
+"""Zones by letter and number, by which people find their car again."""
 
 import string
 from collections import Counter
@@ -6,21 +6,15 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-from garage2usd.assets.glyphs import GLYPH_PITCH
-from garage2usd.config import FittingsConfig
-from garage2usd.layout.placement import Placement, Stall
-from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.layout.placement import Stall
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["Zone", "Zones", "stall_numbers", "with_numbers"]
+__all__ = ["Zone", "Zones", "with_numbers"]
 
 _LETTERS = "".join(letter for letter in string.ascii_uppercase if letter not in "IO")
 _MAX_NUMBER = 99
 _MIN_SIDE = 4
-_DIGIT_HEIGHT_M = 0.45
-_NUMBER_FROM_MOUTH_M = 0.45
-_PIECE_DIGITS = 2
 
 
 class Zone(NamedTuple):
@@ -63,20 +57,3 @@ def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, .
         number = f"{zone}-{counts[zone]:02d}" if zone else f"{counts[zone]:03d}"
         numbered.append(replace(stall, number=number))
     return tuple(numbered)
-
-
-def stall_numbers(stalls: Iterable[Stall], fittings: FittingsConfig) -> list[Placement]:
-    """The number of each stall without its zone, painted at its mouth, in pieces of two digits at most."""
-    if not fittings.stall_numbers:
-        return []
-    pitch_m = GLYPH_PITCH * _DIGIT_HEIGHT_M
-    numbers: list[Placement] = []
-    for stall in stalls:
-        painted = stall.number.rpartition("-")[2]
-        along = stall.length_m / 2 - _NUMBER_FROM_MOUTH_M
-        for piece, end in enumerate(range(len(painted), 0, -_PIECE_DIGITS), start=1):
-            start = max(end - _PIECE_DIGITS, 0)
-            across = (start + end - len(painted)) / 2 * pitch_m
-            spec = NumberSpec(painted[start:end], _DIGIT_HEIGHT_M)
-            numbers.append(stall.placement("StallNumber", spec, (across, along), piece=piece))
-    return numbers

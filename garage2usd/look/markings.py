@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from garage2usd.assets import MATERIALS, Finish, Material, PaintedTexture, Rgb
 from garage2usd.assets.colours import linear_rgb, material_colour
-from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, StallPattern, Wear
+from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, Pictogram, StallPattern, Wear
 from garage2usd.look.axes import Group
 
 __all__ = ["drawn_markings", "paint_finishes"]
@@ -16,41 +16,55 @@ _WHITE, _YELLOW, _ORANGE, _BLUE, _GREY = "#dedede", "#d8a62e", "#d87822", "#3f6f
 def drawn_markings(axes: Group) -> MarkingsLook:
     """Lines: mostly white, mostly closed along the aisle, more or less worn."""
     colour = axes.colour(
-        "colour", {_WHITE: 0.62, _YELLOW: 0.22, _GREY: 0.08, _ORANGE: 0.05, _BLUE: 0.03}, tone=0.06, hue=0.02
+        "colour", {_WHITE: 0.62, _YELLOW: 0.24, _GREY: 0.08, _ORANGE: 0.04, _BLUE: 0.02}, tone=0.06, hue=0.02
     )
+    band = axes.one_of("band", {BandForm.NONE: 0.5, BandForm.LINE: 0.26, BandForm.BAND: 0.24})
+    # bands are newer than most lines
+    wear = {Wear.FRESH: 0.28, Wear.LIGHT: 0.34, Wear.WORN: 0.27, Wear.FADED: 0.11}
+    newer = {Wear.FRESH: 0.45, Wear.LIGHT: 0.4, Wear.WORN: 0.13, Wear.FADED: 0.02}
     return MarkingsLook(
         pattern=axes.one_of(
             "pattern",
             {
-                StallPattern.CLOSED: 0.5,
+                StallPattern.CLOSED: 0.55,
                 StallPattern.SIDES: 0.14,
-                StallPattern.T_MARKS: 0.08,
-                StallPattern.L_MARKS: 0.05,
-                StallPattern.DOUBLE: 0.1,
-                StallPattern.CORNERS: 0.05,
+                StallPattern.T_MARKS: 0.07,
+                StallPattern.L_MARKS: 0.04,
+                StallPattern.DOUBLE: 0.08,
+                StallPattern.CORNERS: 0.04,
                 StallPattern.DASHED: 0.05,
                 StallPattern.NONE: 0.03,
             },
         ),
         colour=colour,
-        line_width_m=axes.between("line_width_m", 0.08, 0.18, 0.01),
-        wear=axes.one_of("wear", {Wear.FRESH: 0.3, Wear.LIGHT: 0.3, Wear.WORN: 0.27, Wear.FADED: 0.13}),
-        band=axes.one_of("band", {BandForm.NONE: 0.5, BandForm.LINE: 0.27, BandForm.BAND: 0.23}),
-        band_gap_m=axes.between("band_gap_m", 0.1, 0.5, 0.05),
-        band_width_m=axes.between("band_width_m", 0.3, 1.0, 0.1),
+        line_width_m=axes.one_of(
+            "line_width_m", {0.06: 0.05, 0.08: 0.15, 0.1: 0.3, 0.12: 0.22, 0.15: 0.2, 0.18: 0.05, 0.2: 0.03}
+        ),
+        wear=axes.one_of("wear", newer if band is BandForm.BAND else wear),
+        band=band,
+        band_gap_m=axes.between("band_gap_m", 0.15, 0.6, 0.05),
+        band_width_m=axes.one_of("band_width_m", {0.4: 0.15, 0.5: 0.2, 0.6: 0.25, 0.8: 0.25, 1.0: 0.15}),
         band_colour=axes.colour(
             "band_colour",
             {"#1f7a52": 0.45, _BLUE: 0.2, _YELLOW: 0.15, "#a83226": 0.1, "#6c7072": 0.1},
             tone=0.1,
             hue=0.05,
         ),
-        lane_colour=axes.colour("lane_colour", {_YELLOW: 0.4, _WHITE: 0.5, colour: 0.1}, tone=0.06, hue=0.02),
-        arrow_colour=axes.colour("arrow_colour", {_WHITE: 0.8, _YELLOW: 0.2}, tone=0.06, hue=0.02),
-        ghosts=axes.one_of("ghosts", {0.0: 0.6, 0.15: 0.2, 0.4: 0.15, 0.9: 0.05}),
+        band_both_sides=axes.one_of("band_both_sides", {False: 0.6, True: 0.4}),
+        pictogram=axes.one_of(
+            "pictogram", {Pictogram.WALKER: 0.4, Pictogram.LIFT: 0.25, Pictogram.CAR: 0.15, Pictogram.NONE: 0.2}
+        ),
+        hatching=axes.one_of("hatching", {False: 0.72, True: 0.28}),
+        lane_colour=axes.colour("lane_colour", {_YELLOW: 0.3, _WHITE: 0.35, colour: 0.35}),
+        arrow_colour=axes.colour("arrow_colour", {_WHITE: 0.8, _YELLOW: 0.2}),
+        ghosts=axes.one_of("ghosts", {0.0: 0.62, 0.15: 0.18, 0.4: 0.14, 0.9: 0.06}),
         zebra=axes.one_of("zebra", {0.0: 0.6, 0.05: 0.2, 0.15: 0.2}),
     )
 
 
+_WORSE = {Wear.LIGHT: Wear.WORN, Wear.WORN: Wear.FADED}
+"""How worn paint is where wheels roll over it, where that is worse than elsewhere."""
+_STEPS = 24
 _WORN = {Wear.FRESH: None, Wear.LIGHT: "paint_fresh", Wear.WORN: "paint_worn", Wear.FADED: "paint_gone"}
 """The material of each degree of wear; without one paint is even."""
 
@@ -59,30 +73,39 @@ def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[
     """The paints on a floor with some finishes of its own."""
     aisle, bay = (_colour_of(key, floor) for key in ("floor_concrete", "stall_epoxy"))
     usual, usual_numbers = MarkingsLook(), NumbersLook()
+    wear, driven = markings.wear, _WORSE.get(markings.wear, markings.wear)
     paints = {
-        "paint_stall": (markings.colour, bay, usual.colour),
-        "paint_number": (numbers.colour, bay, usual_numbers.colour),
-        "paint_yellow": (markings.lane_colour, aisle, usual.lane_colour),
-        "paint_white": (markings.arrow_colour, aisle, usual.arrow_colour),
-        "paint_band": (markings.band_colour, aisle, ""),
-        "paint_ghost": (markings.colour, aisle, ""),
+        "paint_stall": (markings.colour, bay, usual.colour, wear),
+        "paint_stall_worn": (markings.colour, bay, "", driven),
+        "paint_number": (numbers.colour, bay, usual_numbers.colour, wear),
+        "paint_yellow": (markings.lane_colour, aisle, usual.lane_colour, wear),
+        "paint_white": (markings.arrow_colour, aisle, usual.arrow_colour, wear),
+        "paint_white_worn": (markings.arrow_colour, aisle, "", driven),
+        "paint_band": (markings.band_colour, aisle, "", wear),
+        "paint_ghost": (markings.colour, aisle, "", None),
     }
     is_usual = markings.wear is usual.wear and not floor
     return {
-        key: _painted(key, colour, ground, markings.wear)
-        for key, (colour, ground, usual_colour) in paints.items()
+        key: _painted(colour, ground, degree)
+        for key, (colour, ground, usual_colour, degree) in paints.items()
         if colour != usual_colour or not is_usual
     }
 
 
-def _painted(key: str, colour: str, ground: Rgb, wear: Wear) -> Finish:
-    """Paint of a colour on ground of another, which shows where it is worn."""
+def _painted(colour: str, ground: Rgb, wear: Wear | None) -> Finish:
+    """Paint of a colour on ground of another, which shows where it is worn; without a degree only its trace."""
     paint = linear_rgb(colour)
-    worn = "paint_ghost" if key == "paint_ghost" else _WORN[wear]
+    worn = "paint_ghost" if wear is None else _WORN[wear]
     if worn is None:
         return Finish("paint_fresh", replace(MATERIALS["paint_fresh"], colour_texture=None, colour_rgb=paint))
     material = MATERIALS[worn]
-    return Finish(worn, replace(material, colour_texture=PaintedTexture(_mask(material), paint, ground)))
+    return Finish(worn, replace(material, colour_texture=PaintedTexture(_mask(material), paint, _coarse(ground))))
+
+
+def _coarse(ground: Rgb) -> Rgb:
+    """A colour in steps that nobody sees between specks of paint, so that garages share textures."""
+    red, green, blue = (round((round(channel**0.5 * _STEPS) / _STEPS) ** 2, 6) for channel in ground)
+    return red, green, blue
 
 
 def _mask(material: Material) -> str:

@@ -8,19 +8,25 @@ __all__ = ["drawn_numbers"]
 
 def drawn_numbers(axes: Group) -> NumbersLook:
     """Numbers: mostly on the floor at the entry."""
+    place = axes.one_of(
+        "place",
+        {
+            NumberPlace.MOUTH: 0.55,
+            NumberPlace.LANE: 0.1,
+            NumberPlace.MIDDLE: 0.08,
+            NumberPlace.REAR: 0.05,
+            NumberPlace.WALL: 0.07,
+            NumberPlace.NONE: 0.15,
+        },
+    )
+    form = axes.one_of("form", {NumberForm.SHORT: 0.42, NumberForm.FULL: 0.5, NumberForm.BOXED: 0.08})
+    # long numbers are small
+    heights = {0.2: 0.2, 0.25: 0.35, 0.3: 0.3, 0.35: 0.15}
+    if form is not NumberForm.FULL:
+        heights = {0.2: 0.1, 0.3: 0.3, 0.4: 0.3, 0.5: 0.2, 0.6: 0.1}
     return NumbersLook(
-        place=axes.one_of(
-            "place",
-            {
-                NumberPlace.MOUTH: 0.5,
-                NumberPlace.LANE: 0.12,
-                NumberPlace.MIDDLE: 0.1,
-                NumberPlace.REAR: 0.05,
-                NumberPlace.WALL: 0.08,
-                NumberPlace.NONE: 0.15,
-            },
-        ),
-        form=axes.one_of("form", {NumberForm.SHORT: 0.5, NumberForm.FULL: 0.42, NumberForm.BOXED: 0.08}),
-        height_m=axes.between("height_m", 0.15, 0.6, 0.05),
-        colour=axes.colour("colour", {"#dedede": 0.6, "#d8a62e": 0.3, "#3c3d40": 0.1}, tone=0.06, hue=0.02),
+        place=place,
+        form=form,
+        height_m=axes.one_of("height_m", heights),
+        colour=axes.colour("colour", {"#dedede": 0.58, "#d8a62e": 0.34, "#3c3d40": 0.08}),
     )

@@ -24,7 +24,9 @@ class Surface(StrEnum):
     STALL_ACCESSIBLE = "stall_accessible"
     PAINT_WHITE = "paint_white"
     PAINT_YELLOW = "paint_yellow"
+    PAINT_WHITE_WORN = "paint_white_worn"
     PAINT_STALL = "paint_stall"
+    PAINT_STALL_WORN = "paint_stall_worn"
     PAINT_BAND = "paint_band"
     PAINT_GHOST = "paint_ghost"
 
@@ -36,7 +38,9 @@ _MATERIALS = {
     Surface.STALL_ACCESSIBLE: "stall_blue",
     Surface.PAINT_WHITE: "paint_white",
     Surface.PAINT_YELLOW: "paint_yellow",
+    Surface.PAINT_WHITE_WORN: "paint_white_worn",
     Surface.PAINT_STALL: "paint_stall",
+    Surface.PAINT_STALL_WORN: "paint_stall_worn",
     Surface.PAINT_BAND: "paint_band",
     Surface.PAINT_GHOST: "paint_ghost",
 }
@@ -55,11 +59,21 @@ class Paint(StrEnum):
 
 @dataclass(frozen=True)
 class Marking:
-    """A painted polygon on a floor panel."""
+    """A painted polygon on a floor panel.
+
+    Attributes
+    ----------
+    polygon
+        Without holes.
+    surface
+        What it is painted with.
+    paint
+        Its semantic class; None for what belongs to the floor, as coloured strips and traces of older lines do.
+    """
 
     polygon: Polygon
     surface: Surface
-    paint: Paint
+    paint: Paint | None
 
 
 @dataclass(frozen=True)
@@ -95,7 +109,7 @@ class PanelSpec(Spec):
 
     def asset(self) -> Asset:
         """Coating and paint, each a level sheet."""
-        groups: dict[tuple[Paint, Surface], list[shapely.Polygon]] = defaultdict(list)
+        groups: dict[tuple[Paint | None, Surface], list[shapely.Polygon]] = defaultdict(list)
         for marking in self.markings:
             groups[marking.paint, marking.surface].append(shapely.Polygon(marking.polygon))
         base = shapely.box(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2)
@@ -106,8 +120,8 @@ class PanelSpec(Spec):
             area = _level(shapely.intersection(shapely.union_all(shapes, grid_size=GRID_M), base, grid_size=GRID_M))
             if area.area > 0:
                 colour = surface.removeprefix("paint_")
-                name = pascal_case(f"{paint}_{colour}")
-                painted.append(flat_part(name, area, _MATERIALS[surface], piece=paint.value))
+                name = pascal_case(f"{paint}_{colour}" if paint else surface)
+                painted.append(flat_part(name, area, _MATERIALS[surface], piece=paint or ""))
                 base = _level(shapely.difference(base, area, grid_size=GRID_M))
         material = _MATERIALS[self.surface]
         coating = [flat_part(pascal_case(material), base, material)] if base.area > 0 else []

@@ -1,29 +1,61 @@
-"""Numbers painted at the mouths of stalls."""
+"""Numbers painted on the floor of stalls, before them, and on walls."""
 
 from dataclasses import dataclass
 
-from garage2usd.assets.flat import flat_part
+import shapely
+
+from garage2usd.assets.flat import flat_part, upright_triangles
 from garage2usd.assets.glyphs import text_shape
-from garage2usd.assets.mesh import Asset
+from garage2usd.assets.mesh import Asset, make_part
 from garage2usd.objects.kind import Kind, Spec
 
-__all__ = ["KIND", "PAINT_LIFT_M", "NumberSpec"]
+__all__ = ["KIND", "PAINT_LIFT_M", "NumberFrameSpec", "NumberSpec", "WallNumberSpec"]
 
 KIND = Kind(
     "stall_number", number=20, label="stall_number", cityscapes="parking", is_solid=False, scattered="StallNumbers"
 )
 
 PAINT_LIFT_M = 0.003
+_FRAME_LINE_M = 0.05
 
 
 @dataclass(frozen=True)
 class NumberSpec(Spec, kind=KIND):
-    """Digits painted on the floor, their tops to -Z; origin in their middle on the floor."""
+    """Characters painted on the floor, their tops to -Z; origin in their middle on the floor."""
 
     digits: str
     height_m: float
 
     def asset(self) -> Asset:
-        """White digits a few millimetres over the floor."""
+        """The characters a few millimetres over the floor."""
         shape = text_shape(self.digits, self.height_m)
         return Asset((flat_part("Paint", shape, "paint_number", height_m=PAINT_LIFT_M, collider=None),))
+
+
+@dataclass(frozen=True)
+class NumberFrameSpec(Spec, kind=KIND):
+    """A painted frame around a number on the floor; origin in its middle on the floor."""
+
+    width_m: float
+    depth_m: float
+
+    def asset(self) -> Asset:
+        """The frame a few millimetres over the floor."""
+        x, z = self.width_m / 2, self.depth_m / 2
+        inside = shapely.box(_FRAME_LINE_M - x, _FRAME_LINE_M - z, x - _FRAME_LINE_M, z - _FRAME_LINE_M)
+        shape = shapely.difference(shapely.box(-x, -z, x, z), inside)
+        return Asset((flat_part("Paint", shape, "paint_number", height_m=PAINT_LIFT_M, collider=None),))
+
+
+@dataclass(frozen=True)
+class WallNumberSpec(Spec, kind=KIND):
+    """Characters painted on a wall, looking to +Z; origin in their middle on the wall."""
+
+    digits: str
+    height_m: float
+
+    def asset(self) -> Asset:
+        """The characters, upright."""
+        shape = text_shape(self.digits, self.height_m)
+        faces = list(upright_triangles(shape, middle_m=0.0, front_m=0.0))
+        return Asset((make_part("Paint", faces, "paint_number", collider=None),))

@@ -76,7 +76,9 @@ _OF_KEY = {
     **dict.fromkeys(
         (
             "paint_white",
+            "paint_white_worn",
             "paint_stall",
+            "paint_stall_worn",
             "paint_number",
             "paint_band",
             "paint_ghost",

@@ -1,0 +1,127 @@
+"""The numbers of stalls, painted on the floor or on walls."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
+from garage2usd.config import FittingsConfig, LookConfig
+from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
+from garage2usd.layout.placement import Placement, Stall, placed
+from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects.kind import Spec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
+from garage2usd.objects.wheel_stop import WHEEL_STOP_WIDTH_M
+from garage2usd.structure.grid import outside_squares
+
+__all__ = ["stall_numbers"]
+
+_PIECE_CHARACTERS = 2
+_FROM_LINE_M = 0.225
+"""From a stall's mouth or wheel stop to the characters."""
+_FROM_SIDES_M = 0.15
+_LEAST_HEIGHT_M = 0.12
+_HEIGHT_STEP_M = 0.01
+_ON_WALL_M, _WALL_LIFT_M = 1.55, 0.006
+"""Middle of a number on a wall over the floor, and how far it is from the wall."""
+_WHEEL_STOP_FROM_REAR_M = 0.55
+_LANE_GAP_M, _BESIDE_STRIP_M = 0.2, 0.08
+"""From a stall's mouth to a number on the lane, and from such a number to what runs along the aisle."""
+_FRAME_MARGIN = 0.3
+"""From the characters to a frame, as a share of their height."""
+
+
+def stall_numbers(
+    stalls: Iterable[Stall], grid: TileGrid, look: LookConfig, fittings: FittingsConfig
+) -> list[Placement]:
+    """The number of each stall, in pieces of two characters at most, so that few shapes make all numbers."""
+    numbers = look.numbers
+    if not fittings.stall_numbers or numbers.place is NumberPlace.NONE:
+        return []
+    outside = outside_squares(grid.structure.cells)
+    placements: list[Placement] = []
+    for stall in stalls:
+        if not stall.number:
+            continue
+        texts = _pieces(stall.number, numbers.form)
+        count = sum(map(len, texts))
+        height_m = _fitting_height_m(numbers.height_m, count, stall.width_m)
+        wall_m = _wall_behind_m(stall, grid, outside) if numbers.place is NumberPlace.WALL else None
+        if wall_m is not None:
+            along = -wall_m
+        else:
+            along, height_m = _along_m(stall, numbers.place, height_m, look.markings)
+        done = 0
+        for piece, text in enumerate(reversed(texts), start=1):
+            done += len(text)
+            across = (count - 2 * done + len(text)) / 2 * GLYPH_PITCH * height_m
+            spec: Spec = NumberSpec(text, height_m) if wall_m is None else WallNumberSpec(text, height_m)
+            placements.append(_placed(stall, spec, (across, along), piece, is_upright=wall_m is not None))
+        if numbers.form is NumberForm.BOXED and wall_m is None:
+            margin = 2 * _FRAME_MARGIN * height_m
+            width = (GLYPH_WIDTH + GLYPH_PITCH * (count - 1)) * height_m + margin
+            frame = NumberFrameSpec(round(width, 3), round(height_m + margin, 3))
+            placements.append(_placed(stall, frame, (0.0, along), len(texts) + 1, is_upright=False))
+    return placements
+
+
+def _placed(stall: Stall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
+    return placed(
+        f"StallNumber_{stall.ordinal}_{piece}",
+        spec,
+        stall.to_world(point),
+        height_m=_ON_WALL_M if is_upright else 0.0,
+        yaw_rad=stall.yaw_rad,
+        square=stall.square,
+        ordinal=stall.ordinal,
+    )
+
+
+def _pieces(number: str, form: NumberForm) -> list[str]:
+    """The painted characters of a number, cut where its zone ends."""
+    zone, _, own = number.rpartition("-")
+    parts = [zone, "-", own] if zone and form is NumberForm.FULL else [own]
+    texts = []
+    for part in parts:
+        first = len(part) % _PIECE_CHARACTERS
+        texts += [part[:first]] * bool(first)
+        texts += [part[start : start + _PIECE_CHARACTERS] for start in range(first, len(part), _PIECE_CHARACTERS)]
+    return texts
+
+
+def _fitting_height_m(height_m: float, count: int, stall_width_m: float) -> float:
+    """The height of some characters, lower where they would be wider than a stall between its lines."""
+    most = (stall_width_m - 2 * _FROM_SIDES_M) / (GLYPH_WIDTH + GLYPH_PITCH * (count - 1))
+    return height_m if height_m <= most else int(most / _HEIGHT_STEP_M) * _HEIGHT_STEP_M
+
+
+def _along_m(stall: Stall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:
+    """Where the middle of a number on the floor lies along its stall, from its middle to the mouth, and its height."""
+    half = stall.length_m / 2
+    if place is NumberPlace.MIDDLE:
+        return 0.0, height_m
+    if place is NumberPlace.REAR:
+        stop = _WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2
+        return -half + stop + _FROM_LINE_M + height_m / 2, height_m
+    if place is NumberPlace.LANE:
+        if markings.band is BandForm.NONE:
+            return half + _LANE_GAP_M + height_m / 2, height_m
+        room = markings.band_gap_m - 2 * _BESIDE_STRIP_M
+        if room >= _LEAST_HEIGHT_M:
+            lower = min(height_m, int(room / _HEIGHT_STEP_M) * _HEIGHT_STEP_M)
+            return half + markings.band_gap_m / 2, lower
+    return half - _FROM_LINE_M - height_m / 2, height_m
+
+
+def _wall_behind_m(stall: Stall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
+    """From the middle of a stall back to the outer wall on its square's rear edge; None without one there."""
+    row, col = stall.edge.opposite.beyond(stall.square)
+    rows, cols = outside.shape
+    if 0 <= row < rows and 0 <= col < cols and not outside[row, col]:
+        return None
+    tile = grid.tiles[stall.square]
+    half = tile.half_z_m if stall.edge.along_x else tile.half_x_m
+    from_mouth = 2 * half - stall.length_m / 2
+    return round(from_mouth - _WALL_LIFT_M, 6)
