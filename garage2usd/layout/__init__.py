@@ -196,10 +196,7 @@ def lay_out(
         left out.
     """
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
-    country, is_dropped = (
-        country_of(look.signs, config.standard),
-        config.plan.unreachable_stalls is UnreachableStalls.DROP,
-    )
+    is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
     compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
     displaced = {name for core in cores for name in core.stalls}
@@ -212,12 +209,12 @@ def lay_out(
     arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
 
-    stalls = _used_stalls(grid, graph, cores, config, unreachable)
     zones = Zones(structure) if fittings.zones else None
-    stalls = with_numbers(stalls, zones)
+    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
     core_on = {core.square: core for core in cores if core.recess_m}
-    tubes = tube_lights(grid, fittings, levels, core_on)
-    lamps, illuminance = light_up(installed_lamps(tubes, look.lights, draws, seed=seed), grid, stalls, fittings)
+    installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
+    lamps, illuminance = light_up(installed, grid, stalls, fittings)
+    country = country_of(look.signs, config.standard)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
