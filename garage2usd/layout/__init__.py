@@ -209,8 +209,8 @@ def lay_out(
     arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
 
-    zones = Zones(structure) if fittings.zones else None
-    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
+    stalls = _used_stalls(grid, graph, cores, config, unreachable)
+    stalls = with_numbers(stalls, zones := Zones(structure) if fittings.zones else None)
     core_on = {core.square: core for core in cores if core.recess_m}
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
