@@ -196,11 +196,9 @@ def lay_out(
         left out.
     """
     bay, fittings, seed, look = config.bay, config.fittings, config.seed, drawn_look(config.look, config.seed)
-    is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
     levels, ceiling = ceiling_levels(fittings), fittings.ceiling_height_m
     compartments, cores = plan_egress(structure, graph, config, sprinklered=levels.pipe_drop_m is not None)
-    displaced = {name for core in cores for name in core.stalls}
-    grid = TileGrid(structure, graph, bay, left_out=displaced.union(unreachable if is_dropped else ()))
+    grid = TileGrid(structure, graph, bay, left_out=_left_out(cores, config, unreachable))
     if not grid.stall_places:
         raise ConfigError("plan.unreachable_stalls", "drop", "a plan that leaves a stall that cars get into")
     check_carriageways(grid)
@@ -209,8 +207,8 @@ def lay_out(
     arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
     draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
 
-    stalls = _used_stalls(grid, graph, cores, config, unreachable)
-    stalls = with_numbers(stalls, zones := Zones(structure) if fittings.zones else None)
+    zones = Zones(structure) if fittings.zones else None
+    stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
     core_on = {core.square: core for core in cores if core.recess_m}
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
@@ -263,6 +261,12 @@ def lay_out(
         look,
         frozenset(unreachable),
     )
+
+
+def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collection[str]) -> set[str]:
+    """Names of the stalls that make room for cores, and of those that cars do not get into if these are dropped."""
+    is_dropped = config.plan.unreachable_stalls is UnreachableStalls.DROP
+    return {name for core in cores for name in core.stalls}.union(unreachable if is_dropped else ())
 
 
 def _used_stalls(
