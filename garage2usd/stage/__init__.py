@@ -1,13 +1,15 @@
 """The only authoring of USD: a layout becomes a stage with its assets and textures."""
 
 import os
+import posixpath
 import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import NamedTuple
 
+from garage2usd.assets import Finish
 from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
 from garage2usd.errors import ConfigError
 from garage2usd.json_text import json_text
@@ -23,7 +25,9 @@ from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
+from garage2usd.stage.own_assets import OWN_ASSETS, own_shapes, own_textures, write_own_assets
 from garage2usd.stage.prototypes import name_prototypes
+from garage2usd.stage.texture_files import NamedFile
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
@@ -141,8 +145,15 @@ def write_stage(
     if own is None or shared is None:
         folder.mkdir()
         own = f"{folder.name}/"
-    assets = _asset_files(layout, config, progress)
+    finishes = finishes_of(layout.look)
+    shapes = list(dict.fromkeys(spec.shape for spec in layout.placements.specs))
+    grounds = own_shapes(shapes, finishes) if shared is not None else []
+    of_garage = frozenset(grounds)
+    of_store = [shape for shape in shapes if shape not in of_garage]
+    assets = _asset_files(of_store, finishes, config, progress)
+    prototypes = name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()})
     contents = _contents(assets.values())
+    contents |= _textures(own_textures(grounds, finishes, config.texture_quality))
     is_flat = config.form is StageForm.FLAT
     is_compact = packed and not is_flat
     if shared is not None:
@@ -151,6 +162,16 @@ def write_stage(
     elif not is_compact:
         _write(contents, folder)
 
+    if grounds:
+        write_own_assets(
+            path.parent / f"{own}{OWN_ASSETS}",
+            {prototypes[shape].name: shape for shape in grounds},
+            finishes,
+            quality=config.texture_quality,
+            textures=posixpath.join(
+                posixpath.relpath(config.asset_folder, posixpath.dirname(own) or "."), TEXTURE_FOLDER
+            ),
+        )
     # a browser reads a package only if its root layer is text
     layer_path = path.with_suffix(".usda") if packed else path
     progress("stage", 0, 1)
@@ -158,7 +179,7 @@ def write_stage(
         layout,
         graph,
         arrangement=arrangement,
-        prototypes=name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()}),
+        prototypes=prototypes,
         own=own,
         asset_folder=folder.name if shared is None else config.asset_folder,
         metadata=metadata,
@@ -182,10 +203,11 @@ def write_stage(
     return StageFiles(path, None)
 
 
-def _asset_files(layout: Layout, config: StageConfig, progress: Progress) -> dict[Spec, AssetFile]:
-    """The assets of the shapes of a layout."""
-    shapes = list(dict.fromkeys(spec.shape for spec in layout.placements.specs))
-    files, finishes = {}, finishes_of(layout.look)
+def _asset_files(
+    shapes: Sequence[Spec], finishes: Mapping[str, Finish], config: StageConfig, progress: Progress
+) -> dict[Spec, AssetFile]:
+    """The assets of some shapes."""
+    files = {}
     for done, shape in enumerate(shapes):
         progress("assets", done, len(shapes))
         files[shape] = asset_file(shape, config.texture_quality, finishes)
@@ -197,8 +219,12 @@ def _contents(assets: Iterable[AssetFile]) -> dict[str, bytes]:
     contents: dict[str, bytes] = {}
     for asset in assets:
         contents[asset.layer.name] = asset.layer.data
-        contents.update((f"{TEXTURE_FOLDER}/{texture.name}", texture.data) for texture in asset.textures)
+        contents |= _textures(asset.textures)
     return contents
+
+
+def _textures(textures: Iterable[NamedFile]) -> dict[str, bytes]:
+    return {f"{TEXTURE_FOLDER}/{texture.name}": texture.data for texture in textures}
 
 
 def _remove_indents(layer_path: Path) -> None:

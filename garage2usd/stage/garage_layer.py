@@ -21,6 +21,7 @@ from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames
 from garage2usd.stage.instances import InstanceWriter
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE, STALL_OUTLINES, write_lane_graph
+from garage2usd.stage.own_assets import OWN_ASSETS
 from garage2usd.stage.prim_text import (
     anchored,
     group_pieces,
@@ -73,7 +74,7 @@ def write_garage_layer(
         Asset and look of every spec in the layout.
     own
         What the paths of the layers that belong to this garage alone begin with, relative to the folder of `path`: the
-        lane graph, and the scattered objects where tiles share prototypes.
+        lane graph, the assets that it shares with no other, and the scattered objects where tiles share prototypes.
     asset_folder
         Folder of the assets, relative to that of `path`, with slashes.
     metadata
@@ -91,6 +92,7 @@ def write_garage_layer(
         arrangement,
         prototypes,
         anchored(asset_folder),
+        f"./{own}{OWN_ASSETS}",
         classes=f"/{ROOT_NAME}/{_CLASSES}",
         describe_stalls=not arrangement.nested,
     )
@@ -108,7 +110,15 @@ def write_garage_layer(
     beside = anchored(posixpath.relpath(asset_folder, posixpath.dirname(own) or "."))
     for name, rows in arrangement.scattered.items():
         layer_path = path.parent / f"{own}{name}.usdc"
-        write_instancer(layer_path, layout.placements, rows, prototypes, name=name, asset_folder=beside)
+        write_instancer(
+            layer_path,
+            layout.placements,
+            rows,
+            prototypes,
+            name=name,
+            asset_folder=beside,
+            own_assets=f"./{posixpath.basename(own)}{OWN_ASSETS}",
+        )
 
 
 def _frame(

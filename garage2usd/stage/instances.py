@@ -39,8 +39,8 @@ class InstanceWriter:
         The objects, and which prim each one is.
     prototypes
         Asset and look of every spec in the layout.
-    asset_folder
-        Folder of the assets as the layer that the text goes to refers to it.
+    asset_folder, own_assets
+        Folder of the assets and the garage's own layer of them, as the layer that the text goes to refers to them.
     classes
         Path of the classes that objects which follow a switch, and stalls with a car, inherit from.
     describe_stalls
@@ -53,6 +53,7 @@ class InstanceWriter:
         arrangement: Arrangement,
         prototypes: Mapping[Spec, Prototype],
         asset_folder: str,
+        own_assets: str,
         *,
         classes: str,
         describe_stalls: bool,
@@ -60,7 +61,7 @@ class InstanceWriter:
         self._objects = layout.placements
         self._arrangement = arrangement
         self._prototypes = [prototypes[spec] for spec in self._objects.specs]
-        self._asset_folder = asset_folder
+        self._assets = asset_folder, own_assets
         self._classes = classes
         stalls, cars = self._objects.rows_of("stall"), layout.cars_in_stalls()
         self._stalls = dict(zip(stalls.tolist(), layout.stalls, strict=True)) if describe_stalls else {}
@@ -107,12 +108,12 @@ class InstanceWriter:
         switch = SWITCHES.get(KINDS[kind].name)
         name = OCCUPIED_STALL if is_taken else switch.class_name if switch else None
         base = f"{self._classes}/{name}" if name else None
-        asset = f"{self._asset_folder}/{prototype.file}"
+        layer, root = prototype.place(*self._assets)
         if KINDS[kind] is NUMBER_PLATE:
             # what differs below it keeps it from being an instance; one header does for all with the same asset
-            header = reference_text(asset, base=base)
+            header = reference_text(layer, root, base=base)
         else:
-            header = header_text(asset, look=prototype.look, base=base)
+            header = header_text(layer, root, look=prototype.look, base=base)
         self._headers[kind, spec, is_taken] = header
         return header
 

@@ -37,7 +37,7 @@ def define_material(
     layer, path
         Where.
     material
-        Its textures have the names of their files.
+        Its textures are paths, as the layer refers to them.
     non_visual
         What it is to sensors that do not see colours.
     finish
@@ -124,9 +124,9 @@ def _author_plain_finish(surface: Sdf.PrimSpec, material: Material) -> None:
 
 
 def _reader(layer: Sdf.Layer, path: Sdf.Path, name: str, file: Texture, colour_space: str) -> Sdf.PrimSpec:
-    """A reader of a texture, which has the name of its file."""
+    """A reader of a texture, which is the path of its file."""
     reader = _shader(layer, path.AppendChild(name), "UsdUVTexture")
-    attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(f"./{TEXTURE_FOLDER}/{file}"))
+    attribute(reader, "inputs:file", _TYPES.Asset, Sdf.AssetPath(str(file)))
     attribute(reader, "inputs:sourceColorSpace", _TYPES.Token, colour_space)
     for axis in ("wrapS", "wrapT"):
         attribute(reader, f"inputs:{axis}", _TYPES.Token, "repeat")

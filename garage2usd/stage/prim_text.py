@@ -39,16 +39,20 @@ def inherits_text(base: str) -> str:
     return f"prepend inherits = <{base}>\n"
 
 
-def reference_text(asset: str, *, base: str | None = None) -> str:
-    """The metadata of a prim that refers to the default prim of a layer, and may inherit from a class."""
-    return f"{inherits_text(base) if base else ''}prepend references = @{asset}@\n"
+def reference_text(asset: str, prim: str = "", *, base: str | None = None) -> str:
+    """The metadata of a prim that refers to a root prim of a layer, the default one if left out.
+
+    It may inherit from a class.
+    """
+    target = f"</{prim}>" if prim else ""
+    return f"{inherits_text(base) if base else ''}prepend references = @{asset}@{target}\n"
 
 
-def header_text(asset: str, *, look: Iterable[tuple[str, str]] = (), base: str | None = None) -> str:
-    """The metadata of an instance of a layer's default prim, which selects variants by (set, variant) pairs."""
+def header_text(asset: str, prim: str = "", *, look: Iterable[tuple[str, str]] = (), base: str | None = None) -> str:
+    """The metadata of an instance of a root prim of a layer, which selects variants by (set, variant) pairs."""
     choices = "".join(f'string {name} = "{choice}"\n' for name, choice in look)
     variants = f"variants = {{\n{choices}}}\n" if choices else ""
-    return f"instanceable = true\n{reference_text(asset, base=base)}{variants}"
+    return f"instanceable = true\n{reference_text(asset, prim, base=base)}{variants}"
 
 
 def instance_text(name: str, header: str, place: str, attributes: str = "") -> str:

@@ -40,11 +40,11 @@ from garage2usd.stage.authoring import (
     relationship,
 )
 from garage2usd.stage.display_colours import display_colour
-from garage2usd.stage.looks import define_material, label_material, set_glow, set_varying
+from garage2usd.stage.looks import TEXTURE_FOLDER, define_material, label_material, set_glow, set_varying
 from garage2usd.stage.texture_files import named_textures
 from garage2usd.stage.variants import POWER_SET
 
-__all__ = ["NITS_PER_INTENSITY", "define_mesh", "write_prototype"]
+__all__ = ["NITS_PER_INTENSITY", "define_mesh", "define_prototype", "write_prototype"]
 
 NITS_PER_INTENSITY = 27.0
 """What a UsdLux intensity of 1 stands for, cd/m2: with it a garage lit to 50 lx shows well at an exposure of 0."""
@@ -91,46 +91,54 @@ def write_prototype(
     finishes
         What takes the place of materials, by their keys.
     """
-    of = {
-        key: finishes.get(key, Finish(key, MATERIALS[key])) for key in sorted({part.material for part in asset.parts})
-    }
     with new_layer(path, default_prim=_ROOT) as layer:
-        root = define(
+        define_prototype(layer, _ROOT, asset, kind=kind, quality=quality, finishes=finishes)
+
+
+def define_prototype(
+    layer: Sdf.Layer,
+    name: str,
+    asset: Asset,
+    *,
+    kind: Kind,
+    quality: TextureQuality,
+    finishes: Mapping[str, Finish],
+    textures: str = f"./{TEXTURE_FOLDER}",
+) -> None:
+    """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`."""
+    keys = sorted({part.material for part in asset.parts})
+    of = {key: finishes.get(key, Finish(key, MATERIALS[key])) for key in keys}
+    path = Sdf.Path.absoluteRootPath.AppendChild(name)
+    root = define(layer, path, "Xform", kind=ModelKind.Tokens.component, label=kind.label)
+    root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
+    define(layer, root.path.AppendChild("Geom"), "Scope")
+    looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
+    glowing = {key: finish.material for key, finish in of.items() if any(finish.material.emissive_rgb)}
+    switched = glowing if asset.light is not None else {}
+    for key, finish in of.items():
+        define_material(
             layer,
-            Sdf.Path.absoluteRootPath.AppendChild(_ROOT),
-            "Xform",
-            kind=ModelKind.Tokens.component,
-            label=kind.label,
+            _look(looks, key),
+            named_textures(finish.material, quality, folder=textures),
+            non_visual=NON_VISUAL[finish.key],
+            finish=finish.key if finish.key != key else "",
+            varies=key in VARYING,
+            is_switched=key in switched,
         )
-        root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})
-        define(layer, root.path.AppendChild("Geom"), "Scope")
-        looks = define(layer, root.path.AppendChild("Looks"), "Scope").path
-        glowing = {key: finish.material for key, finish in of.items() if any(finish.material.emissive_rgb)}
-        switched = glowing if asset.light is not None else {}
-        for key, finish in of.items():
-            define_material(
-                layer,
-                _look(looks, key),
-                named_textures(finish.material, quality),
-                non_visual=NON_VISUAL[finish.key],
-                finish=finish.key if finish.key != key else "",
-                varies=key in VARYING,
-                is_switched=key in switched,
-            )
-        touches = {part.material: of[part.material].material.touch for part in asset.parts if part.collider is not None}
-        for touch in sorted(set(touches.values())):
-            _define_friction(layer, looks, touch)
-        for label in pieces_of(asset):
-            define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
-        for part in asset.parts:
-            define_mesh(layer, _place(root.path, part), part, looks, finish=of[part.material].material)
-        if asset.paints:
-            _define_paints(root, asset.paints)
-        else:
-            _display(root, display_colour(asset, finishes))
-        if asset.light is not None:
-            _define_light(layer, root.path.AppendChild("Light"), asset.light)
-            _define_power(root, asset.light, switched)
+    touches = {part.material: of[part.material].material.touch for part in asset.parts if part.collider is not None}
+    for touch in sorted(set(touches.values())):
+        _define_friction(layer, looks, touch)
+    for label in pieces_of(asset):
+        define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
+    for part in asset.parts:
+        define_mesh(layer, _place(root.path, part), part, looks, finish=of[part.material].material)
+    if asset.paints:
+        _define_paints(root, asset.paints)
+    else:
+        _display(root, display_colour(asset, finishes))
+    if asset.light is not None:
+        _define_light(layer, root.path.AppendChild("Light"), asset.light)
+        _define_power(root, asset.light, switched)
 
 
 def _place(root: Sdf.Path, part: Part) -> Sdf.Path:

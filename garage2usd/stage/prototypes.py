@@ -21,7 +21,7 @@ class Prototype(NamedTuple):
     name
         Name of the asset in this garage.
     file
-        Name of its file, the same in every garage.
+        Name of its file, the same in every garage; empty where it stands in the garage's own layer of assets.
     look
         (variant set, variant) pairs that an instance selects.
     """
@@ -29,6 +29,13 @@ class Prototype(NamedTuple):
     name: str
     file: str
     look: Look = ()
+
+    def place(self, asset_folder: str, own_assets: str) -> tuple[str, str]:
+        """The layer that it stands in and the name of its prim there, empty for the default one.
+
+        The folder of assets and the garage's own layer are given as whoever refers to them does.
+        """
+        return (f"{asset_folder}/{self.file}", "") if self.file else (own_assets, self.name)
 
 
 def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Prototype]:
@@ -39,7 +46,7 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
     layout
         The objects.
     files
-        Name of the file of each shape.
+        Name of the file of each shape; those of other shapes stand in the garage's own layer of assets.
 
     Returns
     -------
@@ -55,7 +62,7 @@ def name_prototypes(layout: Layout, files: Mapping[Spec, str]) -> dict[Spec, Pro
             kind = pascal_case(spec.kind.name)
             counts[kind] += 1
             names[shape] = f"{kind}_{counts[kind]:02d}"
-        prototypes[spec] = Prototype(names[shape], files[shape], spec.look)
+        prototypes[spec] = Prototype(names[shape], files.get(shape, ""), spec.look)
     return prototypes
 
 

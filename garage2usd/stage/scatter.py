@@ -27,10 +27,11 @@ def write_instancer(
     *,
     name: str,
     asset_folder: str,
+    own_assets: str,
 ) -> None:
     """Write a layer with an instancer `name` that has a point for each object in some rows, all of one kind.
 
-    Its assets are in `asset_folder`, as the layer refers to it.
+    Its assets are in `asset_folder` and in the layer `own_assets`, as it refers to them.
 
     Notes
     -----
@@ -41,16 +42,17 @@ def write_instancer(
     root = Sdf.Path.absoluteRootPath.AppendChild(name)
     with new_layer(path, default_prim=name) as layer:
         prim = define(layer, root, "PointInstancer", kind=Kind.Tokens.group, label=KINDS[objects.kind[rows[0]]].label)
-        _author_prototypes(prim, [prototypes[spec] for spec in specs], asset_folder)
+        _author_prototypes(prim, [prototypes[spec] for spec in specs], (asset_folder, own_assets))
         _author_points(prim, objects, rows, indices)
 
 
-def _author_prototypes(instancer: Sdf.PrimSpec, prototypes: Sequence[Prototype], asset_folder: str) -> None:
+def _author_prototypes(instancer: Sdf.PrimSpec, prototypes: Sequence[Prototype], assets: tuple[str, str]) -> None:
     folder = define(instancer.layer, instancer.path.AppendChild("Prototypes"), "Scope", kind=Kind.Tokens.group)
     targets = []
     for prototype in prototypes:
         child = define(instancer.layer, folder.path.AppendChild(prototype.name), "Xform")
-        reference = Sdf.Reference(f"{asset_folder}/{prototype.file}")
+        layer, root = prototype.place(*assets)
+        reference = Sdf.Reference(layer, f"/{root}" if root else Sdf.Path.emptyPath)
         child.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
         targets.append(child.path)
     relationship(instancer, "prototypes", targets)

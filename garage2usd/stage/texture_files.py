@@ -1,6 +1,7 @@
 """Textures as files whose names say what they hold, so that equal ones of all stages have one name."""
 
 import hashlib
+import posixpath
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -48,11 +49,11 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
     return NamedFile(content_name(path.stem, data, path.suffix), data)
 
 
-def named_textures(material: Material, quality: TextureQuality) -> Material:
-    """A material whose textures have the names that `texture_file` gives them."""
+def named_textures(material: Material, quality: TextureQuality, *, folder: str = "") -> Material:
+    """A material whose textures have the names that `texture_file` gives them, as paths where a folder is given."""
 
     def name(texture: Texture | None) -> str | None:
-        return None if texture is None else texture_file(texture, quality).name
+        return None if texture is None else posixpath.join(folder, texture_file(texture, quality).name)
 
     return replace(
         material,
