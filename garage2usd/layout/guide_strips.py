@@ -74,11 +74,9 @@ def guide_strips(
     gap, line = look.band_gap_m, look.line_width_m
     inside = _Inside(around, half_x, half_z, gap, strip_depth_m(look), is_round=look.band is BandForm.BAND)
     if look.band is BandForm.LINE:
-        return _markings(inside.between(gap, gap + line), Surface.PAINT_STALL)
+        return _markings(inside.between(gap, gap + line), Surface.PAINT_EDGE)
     first, second = gap + line, gap + line + look.band_width_m
-    coloured = shapely.union_all(
-        [_along(edge, half_x, half_z, second + line + inside.radius_m) for edge in _coloured(look)]
-    )
+    coloured = shapely.union_all(_coloured_ground(around, half_x, half_z, second + line + inside.radius_m, look))
     strip = shapely.intersection(inside.between(first, second), coloured)
     inner = shapely.intersection(inside.between(second, second + line), coloured)
     signs = [
@@ -88,8 +86,8 @@ def guide_strips(
     ]
     return (
         *(Marking(shape, Surface.PAINT_WHITE, Paint.LANE_ARROW) for shape in signs),
-        *_markings(inside.between(gap, first), Surface.PAINT_STALL),
-        *_markings(inner, Surface.PAINT_STALL),
+        *_markings(inside.between(gap, first), Surface.PAINT_EDGE),
+        *_markings(inner, Surface.PAINT_EDGE),
         *_markings(strip, Surface.PAINT_BAND, None),
     )
 
@@ -143,6 +141,19 @@ def _beyond(half_x: float, half_z: float, *edges: Edge) -> shapely.Polygon:
 
 def _coloured(look: MarkingsLook) -> tuple[Edge, ...]:
     return tuple(Edge) if look.band_both_sides else _COLOURED
+
+
+def _coloured_ground(
+    around: Around, half_x: float, half_z: float, depth_m: float, look: MarkingsLook
+) -> list[shapely.Polygon]:
+    """What of a square lies along its closed edges with a coloured strip, and at corners between two of such."""
+    edges = _coloured(look)
+    along = {edge: _along(edge, half_x, half_z, depth_m) for edge in edges}
+    corners = [(first, second) for first, second in around.corners if first in along and second in along]
+    return [
+        *(along[edge] for edge in edges if edge in around.edges),
+        *(shapely.intersection(along[first], along[second]) for first, second in sorted(corners)),
+    ]
 
 
 def _along(edge: Edge, half_x: float, half_z: float, depth_m: float) -> shapely.Polygon:

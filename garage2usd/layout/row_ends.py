@@ -31,7 +31,7 @@ def row_end_hatching(tile: Tile, places: list[StallPlace], bay: BayConfig, look:
         for side in ends:
             for polygon in _stripes(inner, half, length, line):
                 corners = [row_rectangle(tile, edge, side * x, side * x, (z, z))[0] for x, z in polygon]
-                markings.append(Marking(tuple(corners), Surface.PAINT_STALL, Paint.HATCHING))
+                markings.append(Marking(tuple(corners), Surface.PAINT_EDGE, Paint.HATCHING))
     return tuple(markings)
 
 

@@ -22,7 +22,7 @@ _PIECE_CHARACTERS = 2
 _FROM_LINE_M = 0.225
 """From a stall's mouth or wheel stop to the characters."""
 _FROM_SIDES_M = 0.15
-_LEAST_HEIGHT_M = 0.12
+_LEAST_ON_LANE_M = 0.2
 _HEIGHT_STEP_M = 0.01
 _ON_WALL_M, _WALL_LIFT_M = 1.55, 0.006
 """Middle of a number on a wall over the floor, and how far it is from the wall."""
@@ -109,7 +109,7 @@ def _along_m(stall: Stall, place: NumberPlace, height_m: float, markings: Markin
         if markings.band is BandForm.NONE:
             return half + _LANE_GAP_M + height_m / 2, height_m
         room = markings.band_gap_m - 2 * _BESIDE_STRIP_M
-        if room >= _LEAST_HEIGHT_M:
+        if room >= _LEAST_ON_LANE_M:
             lower = min(height_m, int(room / _HEIGHT_STEP_M) * _HEIGHT_STEP_M)
             return half + markings.band_gap_m / 2, lower
     return half - _FROM_LINE_M - height_m / 2, height_m

@@ -77,6 +77,7 @@ def paint_finishes(markings: MarkingsLook, numbers: NumbersLook, floor: Mapping[
     paints = {
         "paint_stall": (markings.colour, bay, usual.colour, wear),
         "paint_stall_worn": (markings.colour, bay, "", driven),
+        "paint_edge": (markings.colour, aisle, usual.colour, wear),
         "paint_number": (numbers.colour, bay, usual_numbers.colour, wear),
         "paint_yellow": (markings.lane_colour, aisle, usual.lane_colour, wear),
         "paint_white": (markings.arrow_colour, aisle, usual.arrow_colour, wear),

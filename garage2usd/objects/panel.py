@@ -27,6 +27,7 @@ class Surface(StrEnum):
     PAINT_WHITE_WORN = "paint_white_worn"
     PAINT_STALL = "paint_stall"
     PAINT_STALL_WORN = "paint_stall_worn"
+    PAINT_EDGE = "paint_edge"
     PAINT_BAND = "paint_band"
     PAINT_GHOST = "paint_ghost"
 
@@ -41,6 +42,7 @@ _MATERIALS = {
     Surface.PAINT_WHITE_WORN: "paint_white_worn",
     Surface.PAINT_STALL: "paint_stall",
     Surface.PAINT_STALL_WORN: "paint_stall_worn",
+    Surface.PAINT_EDGE: "paint_edge",
     Surface.PAINT_BAND: "paint_band",
     Surface.PAINT_GHOST: "paint_ghost",
 }

@@ -79,6 +79,7 @@ _OF_KEY = {
             "paint_white_worn",
             "paint_stall",
             "paint_stall_worn",
+            "paint_edge",
             "paint_number",
             "paint_band",
             "paint_ghost",

@@ -29,7 +29,7 @@ from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
-from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
@@ -82,6 +82,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return _centred(0.52, body.length_m)
         case NumberSpec():
             return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, spec.height_m)
+        case NumberFrameSpec():
+            return _centred(spec.width_m, spec.depth_m)
+        case WallNumberSpec():
+            return _centred((0.56 + 0.71 * (len(spec.digits) - 1)) * spec.height_m, 0.0)
         case ColumnPlatesSpec():
             return _centred(spec.column_size_m + 0.01, spec.column_size_m + 0.01)
         case ZonePlateSpec():

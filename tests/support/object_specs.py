@@ -30,7 +30,7 @@ from garage2usd.objects.sky import SkySpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall import StallSpec
-from garage2usd.objects.stall_number import NumberSpec
+from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
@@ -104,7 +104,9 @@ SPECS = {
     "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
     "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
     **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
-    **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88"]},
+    **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88", "A1", "-"]},
+    "number_frame": NumberFrameSpec(1.2, 0.7),
+    "wall_number": WallNumberSpec("07", 0.3),
     **{
         f"plate_{text}": ZonePlateSpec(text, 0.528)
         for text in [*(f"{letter}1" for letter in string.ascii_uppercase if letter not in "IO"), "B7", "K12"]
