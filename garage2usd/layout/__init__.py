@@ -219,8 +219,7 @@ def lay_out(
         crossings = _crossings(grid, cores)
         bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
         drawn = drawn_markings_of(grid, look.markings, draws)
-        floors = floor_panels(grid, bay, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on)
-        yield floors
+        yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
         yield floor_stains(grid, floors, stalls, fittings, draws)
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})

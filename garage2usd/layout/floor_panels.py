@@ -188,7 +188,6 @@ class _Panels:
 
 def floor_panels(
     grid: TileGrid,
-    bay: BayConfig,
     look: MarkingsLook,
     drawn: DrawnMarkings,
     *,
@@ -200,7 +199,7 @@ def floor_panels(
 
     Parameters
     ----------
-    grid, bay
+    grid
         The squares.
     look, drawn
         What is painted on them.
@@ -211,7 +210,7 @@ def floor_panels(
     cores
         The cores that stand among stalls, by their squares, whose landings are kept free.
     """
-    panels = _Panels(grid, bay, look, drawn)
+    panels = _Panels(grid, grid.bay, look, drawn)
     placements, with_bump = [], {bump.square for bump in bumps}
     for tile in grid:
         square = tile.square

@@ -114,7 +114,7 @@ class TileGrid:
         self, structure: Structure, graph: LaneGraph, bay: BayConfig, *, left_out: Collection[str] = ()
     ) -> None:
         """Place every square of `structure` and look at what surrounds it; `left_out` names stalls to leave out."""
-        self.structure = structure
+        self.structure, self.bay = structure, bay
         self.setback_m = bay.carriageway_setback_m
         self.doors = door_edges(structure.cells)
         self.stall_places = _stall_places(graph.stall_rows, left_out)
