@@ -64,7 +64,7 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
     """
     finding = error.errors(include_url=False)[0]
     cause = finding.get("ctx", {}).get("error")
-    if isinstance(cause, ConfigError):  # of a file that a setting names
+    if isinstance(cause, ConfigError) and not within:  # of a file that a setting names
         return cause
     keys = [within] if within else []
     holders: list[type[BaseModel]] = []

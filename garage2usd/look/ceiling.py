@@ -22,7 +22,7 @@ def drawn_ceiling(axes: Group) -> CeilingLook:
             "finish",
             {CeilingFinish.WHITE: 0.4, CeilingFinish.RAW: 0.35, CeilingFinish.BLACK: 0.08, CeilingFinish.BOARDS: 0.17},
         ),
-        services=axes.colour("services", {NATURAL: 0.65, "#d0d0cc": 0.2, "#2a2b2d": 0.05, "#8a9094": 0.1}, tone=0.05),
+        services=axes.one_of("services", {NATURAL: 0.65, "#d0d0cc": 0.2, "#2a2b2d": 0.05, "#8a9094": 0.1}),
         round_ducts=axes.one_of("round_ducts", {False: 0.75, True: 0.25}),
     )
 

@@ -14,7 +14,9 @@ def drawn_columns(axes: Group) -> ColumnsLook:
         section=axes.one_of(
             "section", {ColumnSection.SQUARE: 0.55, ColumnSection.ROUND: 0.25, ColumnSection.RECTANGULAR: 0.2}
         ),
-        colour=axes.colour("colour", {"#d6d6d2": 0.6, NATURAL: 0.25, "#b9b6ae": 0.15}, tone=0.06, hue=0.02),
+        colour=axes.one_of(
+            "colour", {"#d6d6d2": 0.45, "#c9c5b8": 0.12, NATURAL: 0.25, "#b2b0aa": 0.12, "#8fa3a8": 0.06}
+        ),
         guard=axes.one_of(
             "guard",
             {

@@ -20,7 +20,10 @@ def drawn_lights(axes: Group) -> LightsLook:
     """Lights: mostly cold tubes, a few of them dead."""
     return LightsLook(
         lamps=axes.one_of("lamps", {LampKind.TUBES: 0.75, LampKind.PANELS: 0.13, LampKind.ROUND: 0.12}),
-        temperature_k=axes.between("temperature_k", 2700, 7000, 100),
+        temperature_k=axes.one_of(
+            "temperature_k",
+            {3000.0: 0.05, 3500.0: 0.07, 4000.0: 0.3, 4500.0: 0.1, 5000.0: 0.2, 5700.0: 0.1, 6500.0: 0.18},
+        ),
         spread_k=axes.one_of("spread_k", {0.0: 0.5, 100.0: 0.2, 300.0: 0.2, 800.0: 0.1}),
         dead_share=axes.one_of("dead_share", {0.0: 0.45, 0.05: 0.25, 0.15: 0.2, 0.4: 0.1}),
         emergency_only=axes.one_of("emergency_only", {False: 0.96, True: 0.04}),

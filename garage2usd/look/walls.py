@@ -20,11 +20,13 @@ def drawn_walls(axes: Group) -> WallsLook:
     finish = axes.one_of(
         "finish", {WallFinish.PAINTED: 0.55, WallFinish.RAW: 0.25, WallFinish.BLOCKWORK: 0.13, WallFinish.PANELS: 0.07}
     )
-    colours = {NATURAL: 1.0} if finish is WallFinish.RAW else {"#d8d8d3": 0.6, "#c4bfb2": 0.25, "#aab0b0": 0.15}
+    colours = {"#d8d8d3": 0.5, "#c4bfb2": 0.2, "#aab0b0": 0.12, "#cfc49a": 0.1, "#b4c2b8": 0.08}
+    if finish is WallFinish.RAW:
+        colours = {NATURAL: 1.0}
     return WallsLook(
         finish=finish,
-        colour=axes.colour("colour", colours, tone=0.06, hue=0.02),
-        dado=axes.colour(
+        colour=axes.one_of("colour", colours),
+        dado=axes.one_of(
             "dado",
             {
                 "none": 0.35,
@@ -35,10 +37,8 @@ def drawn_walls(axes: Group) -> WallsLook:
                 "#9c3f33": 0.06,
                 NATURAL: 0.04,
             },
-            tone=0.1,
-            hue=0.04,
         ),
-        dado_height_m=axes.between("dado_height_m", 0.5, 1.5, 0.1),
+        dado_height_m=axes.between("dado_height_m", 0.5, 1.5, 0.25),
     )
 
 
