@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from garage2usd.assets import GLOSSES, MATERIALS
+from garage2usd.assets import GLOSSES, MATERIALS, PaintedTexture
 from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import TextureQuality
 
-NAMES = sorted({texture for material in MATERIALS.values() for texture in material.textures()} | {*GLOSSES.values()})
+_USED = {texture for material in MATERIALS.values() for texture in material.textures()}
+NAMES = sorted(
+    {texture.mask if isinstance(texture, PaintedTexture) else texture for texture in _USED} | {*GLOSSES.values()}
+)
 # bands of walls and columns are as high as one repeat
 SPAN_ONE_HEIGHT = {"band_colour.jpg", "band_packed.png", "dado_colour.jpg", "column_painted_colour.jpg"}
 HUNG_FROM_THE_TOP = {"wall_colour.jpg", "wall_packed.png"}  # a wall is lower than one repeat
