@@ -10,25 +10,38 @@ from garage2usd.look.axes import Group
 
 __all__ = ["drawn_markings", "paint_finishes"]
 
-_WHITE, _YELLOW, _ORANGE, _BLUE, _GREY = "#dedede", "#d8a62e", "#d87822", "#3f6fb0", "#a6a6a2"
+_WHITE, _CREAM, _GREY, _DARK_GREY = "#dedede", "#cfc8a8", "#a6a6a2", "#868682"
+_YELLOW, _DULL_YELLOW, _ORANGE, _BLUE = "#d8a62e", "#b0924a", "#d87822", "#3f6fb0"
 
 
 def drawn_markings(axes: Group) -> MarkingsLook:
     """Lines: mostly white, mostly closed along the aisle, more or less worn."""
     colour = axes.colour(
-        "colour", {_WHITE: 0.62, _YELLOW: 0.24, _GREY: 0.08, _ORANGE: 0.04, _BLUE: 0.02}, tone=0.06, hue=0.02
+        "colour",
+        {
+            _WHITE: 0.5,
+            _YELLOW: 0.16,
+            _DULL_YELLOW: 0.1,
+            _CREAM: 0.07,
+            _GREY: 0.07,
+            _DARK_GREY: 0.03,
+            _ORANGE: 0.04,
+            _BLUE: 0.03,
+        },
+        tone=0.08,
+        hue=0.03,
     )
     band = axes.one_of("band", {BandForm.NONE: 0.5, BandForm.LINE: 0.26, BandForm.BAND: 0.24})
     # bands are newer than most lines
-    wear = {Wear.FRESH: 0.28, Wear.LIGHT: 0.34, Wear.WORN: 0.27, Wear.FADED: 0.11}
+    wear = {Wear.FRESH: 0.28, Wear.LIGHT: 0.34, Wear.WORN: 0.24, Wear.FADED: 0.14}
     newer = {Wear.FRESH: 0.45, Wear.LIGHT: 0.4, Wear.WORN: 0.13, Wear.FADED: 0.02}
     return MarkingsLook(
         pattern=axes.one_of(
             "pattern",
             {
-                StallPattern.CLOSED: 0.55,
-                StallPattern.SIDES: 0.14,
-                StallPattern.T_MARKS: 0.07,
+                StallPattern.CLOSED: 0.6,
+                StallPattern.SIDES: 0.11,
+                StallPattern.T_MARKS: 0.05,
                 StallPattern.L_MARKS: 0.04,
                 StallPattern.DOUBLE: 0.08,
                 StallPattern.CORNERS: 0.04,
@@ -38,7 +51,7 @@ def drawn_markings(axes: Group) -> MarkingsLook:
         ),
         colour=colour,
         line_width_m=axes.one_of(
-            "line_width_m", {0.06: 0.05, 0.08: 0.15, 0.1: 0.3, 0.12: 0.22, 0.15: 0.2, 0.18: 0.05, 0.2: 0.03}
+            "line_width_m", {0.06: 0.08, 0.08: 0.22, 0.1: 0.3, 0.12: 0.2, 0.15: 0.15, 0.18: 0.03, 0.2: 0.02}
         ),
         wear=axes.one_of("wear", newer if band is BandForm.BAND else wear),
         band=band,
