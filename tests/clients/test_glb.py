@@ -29,6 +29,7 @@ from support.pictures import difference, read_png, store, stored
 from support.places import MILLIMETRE
 from support.sample_files import REPOSITORY, SAMPLES, each_sample
 
+from garage2usd.config.look import ColumnSection
 from garage2usd.maps.glb import write_glb
 
 pytestmark = pytest.mark.client
@@ -146,9 +147,19 @@ def test_blender_agrees(sample, builds, files, tmp_path):
     assert len({item["mesh"] for item in found.values()}) == len(glb.json["meshes"])
     assert len(scene["images"]) == len(glb.json["images"])
     assert all(image["values"] for image in scene["images"])
-    # what has no normals is faceted, and the rest is smooth
+    # what has no normals is faceted, and the rest is smooth where it is round
+    for number, node in enumerate(glb.nodes):
+        if "class" in node.get("extras", {}):
+            attributes = [primitive["attributes"] for primitive in glb.primitives(number)]
+            smooth = found[node["name"]]["smooth"]
+            assert smooth == 0 or any("NORMAL" in own for own in attributes), node["name"]
+            # for the sake of a normal map what is flat has them too, and tangents
+            assert smooth > 0 or all("NORMAL" not in own or "TANGENT" in own for own in attributes), node["name"]
+    layout = builds(sample, "usdz").garage.layout
+    has_round_columns = layout.look.columns.section is ColumnSection.ROUND
     facets = {item["said"]["class"]: item["smooth"] for item in found.values()}
-    assert facets["column"] == facets["wall"] == 0
+    assert facets["wall"] == 0
+    assert (facets["column"] > 0) == has_round_columns
     assert 0.2 < facets["car"] < 1
 
 
