@@ -23,6 +23,8 @@ SOLID = (*HANGING, *STANDING, "speed_bump")
 TOUCH_M = 1e-4
 # flanges of ducts that meet; doors of cores that stand side by side
 MAY_TOUCH = {"duct", "obstacle"}
+INTO_COLUMN_M = 0.025
+"""How far the arm of a mirror is let into a column whose surface it does not meet squarely."""
 SECTIONS = (1 / 6, 1 / 2, 5 / 6)
 """Where two pieces are compared, as shares of the height that both of them span."""
 
@@ -143,17 +145,18 @@ class Solids:
             if first.kind is second.kind and first.kind in MAY_TOUCH:
                 continue
             candidates = meet(self.piece_boxes[one][:, None], self.piece_boxes[other][None])
-            if any(self._meet(one, i, other, j) for i, j in np.argwhere(candidates).tolist()):
+            most_m = TOUCH_M + (INTO_COLUMN_M if is_let_in(first, second) else 0.0)
+            if any(self._meet(one, i, other, j, most_m) for i, j in np.argwhere(candidates).tolist()):
                 yield first, second
 
-    def _meet(self, one, i, other, j):
-        """Whether the convex outlines of two pieces overlap at one of some heights."""
+    def _meet(self, one, i, other, j, most_m):
+        """Whether the convex outlines of two pieces overlap by more than that at one of some heights."""
         boxes = self.piece_boxes[one][i], self.piece_boxes[other][j]
         low, high = max(box[0, 1] for box in boxes), min(box[1, 1] for box in boxes)
         for share in SECTIONS:
             height_m = low + (high - low) * share
             outlines = [self._outline(*piece, height_m) for piece in ((one, i), (other, j))]
-            if all(len(outline) > 2 for outline in outlines) and apart_m(*outlines) < -TOUCH_M:
+            if all(len(outline) > 2 for outline in outlines) and apart_m(*outlines) < -most_m:
                 return True
         return False
 
@@ -162,6 +165,12 @@ class Solids:
         x, y, z = place.position_m
         cos, sin = np.cos(place.yaw_rad), np.sin(place.yaw_rad)
         return self.shapes[index].section(piece, height_m - y) @ np.array([[cos, -sin], [sin, cos]]) + (x, z)
+
+
+def is_let_in(first, second):
+    """Whether one is a mirror and the other a column that does not fill its square."""
+    columns = [place for place in (first, second) if place.kind == "column"]
+    return {first.kind, second.kind} == {"column", "mirror"} and not columns[0].spec.fills_square
 
 
 def flat_boxes(boxes):
