@@ -278,9 +278,10 @@ def test_alpha_of_the_color_s_own_file_and_of_another(prefabs, tmp_path):
     assert material_of(prefab, "Veil")["colors"]["_Color"] == pytest.approx([0, 0, 1, 1])
 
 
-def test_indexed_images_with_alpha(prefabs, tmp_path):
+@pytest.mark.parametrize("bits", [1, 2, 4, 8])
+def test_indexed_images_with_alpha(prefabs, tmp_path, bits):
     look = Look(tmp_path)
-    image = Image.fromarray(noise(8, 8, 4)).quantize(64)
+    image = Image.fromarray(noise(8, 7, 4)).quantize(2**bits if bits < 8 else 64)
     image.save(tmp_path / "few.png")
     surface = look.material("Few")
     look.texture(surface, {"diffuseColor": "rgb", "opacity": "a"}, "./few.png")

@@ -70,17 +70,17 @@ namespace UnityEngine
         public static Color32[] Decode(byte[] data)
         {
             if (!IsPng(data)) { throw new NotSupportedException("pixels are read here of PNG files only"); }
-            int width = Big(data, 16, 4), height = Big(data, 20, 4), kind = data[25];
+            int width = Big(data, 16, 4), height = Big(data, 20, 4), bits = data[24], kind = data[25];
             int channels = kind == 0 || kind == 3 ? 1 : kind == 2 ? 3 : kind == 4 ? 2 : 4;
-            if (data[24] != 8 || data[28] != 0)
+            if (bits > 8 || data[28] != 0)
             {
-                throw new NotSupportedException("only PNG files of 8 bits without interlacing are read here");
+                throw new NotSupportedException("only PNG files of at most 8 bits without interlacing are read here");
             }
-            byte[] rows = Inflated(data, (width * channels + 1) * height);
+            int stride = (width * channels * bits + 7) / 8;
+            byte[] rows = Inflated(data, (stride + 1) * height);
             int colors = FindChunk(data, "PLTE"), alphas = FindChunk(data, "tRNS"), alphaCount = alphas < 0 ? 0
                 : Big(data, alphas - 8, 4);
             var pixels = new Color32[width * height];
-            int stride = width * channels;
             for (int row = 0; row < height; row++)
             {
                 int start = row * (stride + 1) + 1;
@@ -88,8 +88,10 @@ namespace UnityEngine
                 int into = (height - 1 - row) * width;
                 for (int column = 0; column < width; column++)
                 {
-                    int at = start + column * channels;
-                    byte first = rows[at];
+                    int at = start + column * channels * bits / 8;
+                    // several of fewer bits share a byte, from its highest bits on
+                    int most = (1 << bits) - 1, value = rows[at] >> (8 - bits - column * bits % 8) & most;
+                    byte first = (byte)(kind == 3 ? value : value * 255 / most);
                     if (kind == 3)
                     {
                         byte alpha = first < alphaCount ? data[alphas + first] : (byte)255;
