@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pxr import Usd
+from scipy.spatial import KDTree
+from support.finishes import lamp_of
 from support.pictures import difference, read_png, store, stored
 from support.places import assert_same_places
 from support.sample_files import REPOSITORY, each_build
@@ -54,10 +56,19 @@ def test_blender_agrees_with_the_layout(sample, extension, builds, imported):
         assert_same_places(np.array(found), np.array([place.position_m for place in layout.of_kind(kind)]))
 
     lights = [item for item in scene["drawn"] if item["type"] == "LIGHT"]
-    tubes = np.array([place.position_m for place in layout.of_kind("light")])
-    assert_same_places(np.array([item["place"] for item in lights])[:, [0, 2]], tubes[:, [0, 2]])
+    lamps = layout.of_kind("light")
+    places = np.array([lamp.position_m for lamp in lamps])
+    assert_same_places(np.array([item["place"] for item in lights])[:, [0, 2]], places[:, [0, 2]])
+    lamp_at = KDTree(places[:, [0, 2]])
     for item in lights:
-        assert item["energy_w"] > 0
+        lamp = lamps[lamp_at.query([item["place"][0], item["place"][2]])[1]]
+        shown = lamp_of(lamp.spec)
+        # Blender takes what a light radiates into the half space: pi times its radiance
+        assert item["w_per_m2"] == pytest.approx(math.pi * shown.intensity, rel=1e-5)
+        assert item["rgb"] == pytest.approx(shown.colour_rgb, abs=1e-6)
+        assert item["shape"] == ("DISK" if shown.is_round else "RECTANGLE")
+        sides_m = sorted(item["sides_m"] if item["shape"] == "RECTANGLE" else item["sides_m"][:1] * 2)
+        assert sides_m == pytest.approx(sorted(shown.sides_m), rel=1e-5)
         assert item["down"] == pytest.approx([0, 0, -1], abs=1e-5)
         assert 0 < layout.ceiling_height_m - item["place"][1] < 0.2
 

@@ -16,6 +16,7 @@ from support.sample_files import REPOSITORY, SAMPLES
 from support.stage_textures import texture_names
 
 from garage2usd.assets import MATERIALS
+from garage2usd.look import finishes_of
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.looks import PACKED_CHANNELS
 from garage2usd.stage.prototypes import asset_of
@@ -30,21 +31,22 @@ pytestmark = [
 VIEWS = ["inside", "above"]
 
 
-def images_by_size(package):
-    """Pictures of a package by the number of their bytes: a page knows the images that it shows by no other mark."""
+def images_by_mark(package):
+    """Pictures of a package by the CRC-32 of their bytes, by which the page knows the images that it shows."""
     images = {}
     with zipfile.ZipFile(package) as archive:
         for entry in archive.infolist():
             if entry.filename.endswith((".png", ".jpg")):
-                assert entry.file_size not in images
+                assert entry.CRC not in images
                 with Image.open(io.BytesIO(archive.read(entry))) as image:
-                    images[entry.file_size] = PurePosixPath(entry.filename).name, image.size
+                    images[entry.CRC] = PurePosixPath(entry.filename).name, image.size
     return images
 
 
 def uses_of_textures(layout, quality):
     """How many maps show each texture: a packed one is three of its material's."""
-    looks = {key: named_textures(material, quality) for key, material in MATERIALS.items()}
+    own = {key: finish.material for key, finish in finishes_of(layout.look).items()}
+    looks = {key: named_textures(material, quality) for key, material in {**MATERIALS, **own}.items()}
     uses = Counter()
     for placement in layout.placements:
         for part in asset_of(placement.spec).parts:
@@ -80,8 +82,8 @@ def test_three_agrees_with_the_layout(sample, builds, tmp_path):
     assert {light["type"] for light in scene["lights"]} == {"RectAreaLight"}
     assert np.allclose([light["down"] for light in scene["lights"]], [0, -1, 0], atol=1e-6)
 
-    images = images_by_size(build.stage)
-    shown = {images[int(size)][0]: texture for size, texture in scene["textures"].items()}
+    images = images_by_mark(build.stage)
+    shown = {images[int(mark)][0]: texture for mark, texture in scene["textures"].items()}
     assert set(shown) == texture_names(Usd.Stage.Open(str(build.stage)))
     assert {name: (texture["width"], texture["height"]) for name, texture in shown.items()} == dict(images.values())
     assert {name: texture["uses"] for name, texture in shown.items()} == uses_of_textures(

@@ -117,21 +117,23 @@ namespace Garage.Unity
                 color = new Color(color.r * heat.r, color.g * heat.g, color.b * heat.b);
             }
             float largest = color.maxColorComponent;
-            if (!(largest > 0 && strength > 0))
+            if (!(largest > 0))
             {
                 light.intensity = 0;
                 return;
             }
             color = new Color(color.r / largest, color.g / largest, color.b / largest);
             strength *= largest;
+            // of one that is off, too: whoever turns it on finds it there
+            light.color = color.gamma;
             // otherwise Unity takes color times intensity for a color of the screen
-            if (!GraphicsSettings.lightsUseLinearIntensity && QualitySettings.activeColorSpace == ColorSpace.Linear)
+            if (strength > 0 && !GraphicsSettings.lightsUseLinearIntensity
+                && QualitySettings.activeColorSpace == ColorSpace.Linear)
             {
                 Color shown = new Color(color.r * strength, color.g * strength, color.b * strength).gamma;
                 strength = shown.maxColorComponent;
                 light.color = new Color(shown.r / strength, shown.g / strength, shown.b / strength);
             }
-            else { light.color = color.gamma; }
             light.intensity = strength;
         }
 

@@ -3,19 +3,43 @@
 
 import { photographer, pictures, post } from "./client.js";
 
-// The loader makes a new blob of a texture for every material of every reference. Blobs of one size are one file here
-// (the test checks that sizes tell the files apart), so that an image is decoded once and known by its file's size.
-const urlOfSize = new Map();
-const sizeOfUrl = new Map();
+// The loader makes a new blob of a texture for every material of every reference, always of the same bytes. One URL
+// stands for all of them, so that an image is decoded once, and it is known by the CRC-32 of its file, as the archive
+// has it (the test checks that these differ).
+const bytesOfBlob = new WeakMap();
+const markOfBytes = new WeakMap();
+const urlOfMark = new Map();
+const markOfUrl = new Map();
 const createObjectURL = URL.createObjectURL;
-URL.createObjectURL = (blob) => {
-  if (!urlOfSize.has(blob.size)) {
-    urlOfSize.set(blob.size, createObjectURL(blob));
-    sizeOfUrl.set(urlOfSize.get(blob.size), blob.size);
+globalThis.Blob = class extends Blob {
+  constructor(parts, options) {
+    super(parts, options);
+    bytesOfBlob.set(this, parts[0]);
   }
-  return urlOfSize.get(blob.size);
+};
+URL.createObjectURL = (blob) => {
+  const bytes = bytesOfBlob.get(blob);
+  if (!markOfBytes.has(bytes)) markOfBytes.set(bytes, crc32(bytes));
+  const mark = markOfBytes.get(bytes);
+  if (!urlOfMark.has(mark)) {
+    urlOfMark.set(mark, createObjectURL(blob));
+    markOfUrl.set(urlOfMark.get(mark), mark);
+  }
+  return urlOfMark.get(mark);
 };
 URL.revokeObjectURL = () => {};
+
+const CRC_OF_BYTE = Uint32Array.from({ length: 256 }, (_, byte) => {
+  let crc = byte;
+  for (let bit = 0; bit < 8; bit++) crc = crc & 1 ? 0xedb88320 ^ (crc >>> 1) : crc >>> 1;
+  return crc;
+});
+
+function crc32(data) {
+  let crc = 0xffffffff;
+  for (const byte of new Uint8Array(data)) crc = CRC_OF_BYTE[(crc ^ byte) & 255] ^ (crc >>> 8);
+  return (crc ^ 0xffffffff) >>> 0;
+}
 
 async function main() {
   const THREE = await import("three");
@@ -44,18 +68,31 @@ function describe(THREE, group) {
   group.traverse((item) => {
     const path = pathOf(item);
     const place = new THREE.Vector3().setFromMatrixPosition(item.matrixWorld).toArray();
-    objects.push({ path, place, mesh: item.isMesh === true });
+    objects.push({ path, place, mesh: item.isMesh === true, surface: item.isMesh ? surfaceOf(item.material) : undefined });
     if (item.isLight) {
       const down = new THREE.Vector3(0, 0, -1).transformDirection(item.matrixWorld).toArray();
-      lights.push({ type: item.type, path, place, down, width: item.width, height: item.height });
+      const rgb = item.color.toArray();
+      lights.push({ type: item.type, path, place, down, width: item.width, height: item.height, rgb, intensity: item.intensity });
     }
     for (const texture of texturesOf(item)) {
-      const bytes = sizeOfUrl.get(texture.image?.src) ?? -1;
-      textures[bytes] ??= { uses: 0, width: texture.image?.naturalWidth ?? 0, height: texture.image?.naturalHeight ?? 0 };
-      textures[bytes].uses += 1;
+      const mark = markOf(texture);
+      textures[mark] ??= { uses: 0, width: texture.image?.naturalWidth ?? 0, height: texture.image?.naturalHeight ?? 0 };
+      textures[mark].uses += 1;
     }
   });
   return { objects, lights, textures };
+}
+
+// What a material shows: factors, and the marks of its maps.
+function surfaceOf(material) {
+  const maps = Object.fromEntries(Object.entries(material).filter(([, value]) => value?.isTexture).map(([name, map]) => [name, markOf(map)]));
+  const { roughness, metalness, opacity } = material;
+  return { color: material.color.toArray(), emissive: material.emissive.toArray(), roughness, metalness, opacity, maps };
+}
+
+// The CRC-32 of the file that a texture shows; -1 while it shows none.
+function markOf(texture) {
+  return markOfUrl.get(texture.image?.src) ?? -1;
 }
 
 function pathOf(item) {
