@@ -13,6 +13,7 @@ from garage2usd.assets import MATERIALS, VARYING, pascal_case
 from garage2usd.assets.lamp_colour import lamp_colour
 from garage2usd.config.look import LampKind
 from garage2usd.look import finishes_of
+from garage2usd.objects.pieces import piece_name
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.stage.texture_files import texture_file
@@ -100,6 +101,16 @@ def _surface(material, quality, tint):
         name(material.packed_texture),
         name(material.normal_texture),
     )
+
+
+def materials_by_mesh(layout):
+    """Name of the material of each mesh by its path."""
+    placed = zip(arrange(layout, nested=False).paths(), layout.placements, strict=True)
+    return {
+        f"{path}/Asset/{piece_name(part.piece) if part.piece else 'Geom'}/{part.name}": pascal_case(part.material)
+        for path, placement in placed
+        for part in asset_of(placement.spec).parts
+    }
 
 
 def grouped(items, paths):

@@ -11,9 +11,12 @@ import pytest
 from PIL import Image
 from scipy.spatial import KDTree
 from support.finishes import assert_shown, grouped, lamp_of, surfaces_by_object, unity_surface
+from support.foreign_set import assert_foreign_set, foreign_config
 from support.places import MILLIMETRE
 from support.sample_files import REPOSITORY
 from support.unity.layer import place_of
+
+import garage2usd
 
 
 @pytest.fixture(scope="module")
@@ -24,6 +27,12 @@ def built(builds):
 @pytest.fixture(scope="module")
 def prefab(built, prefabs):
     return prefabs(built.stage)
+
+
+def pixels_of(texture):
+    """Red, green, blue and alpha, the first row on top."""
+    values = np.frombuffer(base64.b64decode(texture["pixels"]), dtype=np.uint8)
+    return values.reshape(texture["height"], texture["width"], 4)[::-1]
 
 
 def path_of(item):
@@ -50,9 +59,7 @@ def test_gloss_is_turned_into_smoothness_and_worn_paint_is_as_it_is(built, prefa
     judged = {name: data for name, data in files.items() if name.startswith(("gloss_", "wear_"))}
     assert {name.partition("_")[0] for name in judged} == {"gloss", "wear"}
     for name, data in judged.items():
-        texture = textures[name]
-        pixels = np.frombuffer(base64.b64decode(texture["pixels"]), dtype=np.uint8)
-        pixels = pixels.reshape(texture["height"], texture["width"], 4)[::-1]
+        pixels = pixels_of(textures[name])
         with Image.open(io.BytesIO(data)) as picture:
             red, green, blue = np.asarray(picture.convert("RGB")).transpose(2, 0, 1)
         if name.startswith("gloss_"):
@@ -77,3 +84,21 @@ def test_lamps(built, prefab):
         assert light["enabled"] == (lamp.intensity > 0)
         linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in light["color"]]
         assert linear == pytest.approx(lamp.colour_rgb, abs=1e-4)
+
+
+def test_textures_of_ones_own(prefabs, tmp_path):
+    built = garage2usd.build(foreign_config(tmp_path / "set"), tmp_path / "own.usdz")
+    prefab = prefabs(built.stage)
+    found = {}
+    for material in prefab.of_type("Material").values():
+        found.setdefault(material["name"], set()).add(unity_surface(material, prefab.assets))
+    textures = {asset["name"]: asset for asset in prefab.of_type("Texture2D").values()}
+
+    def halves(name):
+        if name.endswith(".jpg"):
+            return None  # the fakes decode none
+        pixels = pixels_of(textures[name])
+        rows, columns = pixels.shape[:2]
+        return pixels[rows // 4, columns // 2], pixels[rows * 3 // 4, columns // 2]
+
+    assert_foreign_set(found, halves, packed=lambda own: (own[2], own[0], 0, 255 - own[1]))

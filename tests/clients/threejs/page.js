@@ -76,7 +76,7 @@ function describe(THREE, group) {
     }
     for (const texture of texturesOf(item)) {
       const mark = markOf(texture);
-      textures[mark] ??= { uses: 0, width: texture.image?.naturalWidth ?? 0, height: texture.image?.naturalHeight ?? 0 };
+      textures[mark] ??= { uses: 0, ...pictureOf(texture.image) };
       textures[mark].uses += 1;
     }
   });
@@ -93,6 +93,16 @@ function surfaceOf(material) {
 // The CRC-32 of the file that a texture shows; -1 while it shows none.
 function markOf(texture) {
   return markOfUrl.get(texture.image?.src) ?? -1;
+}
+
+// Size of an image, and red, green and blue in the middle of its upper and of its lower half.
+function pictureOf(image) {
+  const [width, height] = [image?.naturalWidth ?? 0, image?.naturalHeight ?? 0];
+  if (!width || !height) return { width, height, halves: [] };
+  const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+  context.drawImage(image, 0, 0);
+  const texel = (share) => [...context.getImageData(width >> 1, Math.floor(share * height), 1, 1).data.slice(0, 3)];
+  return { width, height, halves: [texel(0.25), texel(0.75)] };
 }
 
 function pathOf(item) {
