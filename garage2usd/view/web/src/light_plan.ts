@@ -36,8 +36,9 @@ interface Lamp {
   z: number;
   /** Candela straight ahead. */
   power: number;
-  /** Half of its sides across the plan: (x, z) of each. */
+  /** Half of its sides across the plan, or half of its diameters: (x, z) of each. */
   sides: [number, number, number, number];
+  round: boolean;
   down: number;
 }
 
@@ -103,7 +104,8 @@ function lampsOf(scene: SceneFile): Lamp[] {
       const other = place(0, light.size[1] / 2, 0, 0);
       const bright = 0.2126 * light.rgb[0] + 0.7152 * light.rgb[1] + 0.0722 * light.rgb[2];
       const down = light.kind === "RectLight" || light.kind === "DiskLight" ? -place(0, 0, -1, 0)[1] : 0.7;
-      lamps.push({ x, y, z, power: light.candela * bright, sides: [side[0], side[2], other[0], other[2]], down });
+      const round = light.kind === "DiskLight";
+      lamps.push({ x, y, z, power: light.candela * bright, sides: [side[0], side[2], other[0], other[2]], round, down });
     }
   return lamps;
 }
@@ -162,9 +164,17 @@ function drawn(
 }
 
 function drawLamps(context: CanvasRenderingContext2D, lamps: Lamp[]): void {
-  for (const { x, z, sides } of lamps) {
+  for (const { x, z, sides, round } of lamps) {
     const [ax, az, bx, bz] = sides;
     context.beginPath();
+    if (round) {
+      context.save();
+      context.transform(ax, az, bx, bz, x, z);
+      context.arc(0, 0, 1, 0, 2 * Math.PI);
+      context.restore();
+      context.fill();
+      continue;
+    }
     context.moveTo(x - ax - bx, z - az - bz);
     context.lineTo(x + ax - bx, z + az - bz);
     context.lineTo(x + ax + bx, z + az + bz);
