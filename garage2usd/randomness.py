@@ -23,6 +23,8 @@ class Step(IntEnum):
     NUMBER_PLATES = 13
     LOOK = 14
     FLOOR_MARKINGS = 17
+    PUDDLES = 18
+    PUDDLE_SHAPES = 19
     ARRANGEMENTS = 20
     LIDAR = 30
     GARAGES = 40

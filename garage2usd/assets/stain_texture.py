@@ -1,4 +1,4 @@
-"""The texture of all stains: what stains in its colours, how much of it there is in its alpha."""
+"""The textures of stains and of dirt: what stains in their colours, how much of it there is in their alpha."""
 
 from collections.abc import Callable
 
@@ -6,13 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
+from garage2usd.config.look import Dirt
 
-__all__ = ["CELLS", "CELLS_ACROSS", "bake_stains"]
+__all__ = ["CELLS", "CELLS_ACROSS", "DIRT_CELLS", "Cell", "bake_dirt", "bake_stains"]
 
-_Cell = tuple[float, float, float, float]
+Cell = tuple[float, float, float, float]
 CELLS_ACROSS = 8
 """Cells across and down the texture; `CELLS` counts in them."""
-CELLS: dict[str, tuple[_Cell, ...]] = {
+CELLS: dict[str, tuple[Cell, ...]] = {
     "wear_straight": ((0, 0, 2, 2), (2, 0, 2, 2)),
     "wear_bend": ((4, 0, 2, 2),),
     "wear_t": ((6, 0, 2, 2),),
@@ -26,9 +27,23 @@ CELLS: dict[str, tuple[_Cell, ...]] = {
 }
 """For each mark the cells of its variants: left, top, width and height."""
 
+DIRT_CELLS: dict[Dirt, dict[str, tuple[Cell, ...]]] = {
+    dirt: {
+        "wear_straight": ((0, top, 2, 2), (2, top, 2, 2)),
+        "wear_bend": ((4, top, 2, 2),),
+        "wear_t": ((6, top, 2, 2),),
+        "wear_cross": ((0, top + 2, 2, 2),),
+    }
+    for dirt, top in ((Dirt.FAINT, 0), (Dirt.FILTHY, 4))
+}
+"""The same of the texture of dirt, for what is not as usual."""
+
 _CELL_PIXELS = 128
 _INK_RGB = {"oil": (26, 23, 20), "drips": (26, 23, 20), "damp": (44, 43, 41), "patch": (138, 135, 128)}
 _RUBBER_RGB = (20, 20, 20)
+_DIRT_RGB = (24, 21, 18)
+_FAINT = 0.45
+"""Of usual wear."""
 _LANE = 0.228
 """Middle of each direction's lane from the middle of a square, in shares of its width."""
 _WHEEL = 0.096
@@ -36,18 +51,50 @@ _WHEEL = 0.096
 
 
 def bake_stains(rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The texture; uint8, shape (rows, columns, 4)."""
-    side = CELLS_ACROSS * _CELL_PIXELS
-    pixels = np.zeros((side, side, 4), dtype=np.uint8)
-    pixels[:, :, :3] = _RUBBER_RGB
+    """The texture of stains; uint8, shape (rows, columns, 4)."""
+    pixels = _sheet(_RUBBER_RGB)
     for mark, cells in CELLS.items():
         for cell in cells:
-            left, top, width, height = (int(value * _CELL_PIXELS) for value in cell)
-            window = pixels[top : top + height, left : left + width]
+            window = _window(pixels, cell)
             window[:, :, :3] = _INK_RGB.get(mark, _RUBBER_RGB)
-            share = _DRAWERS[mark](rng, (height, width))
-            window[:, :, 3] = np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
+            window[:, :, 3] = _alpha(_DRAWERS[mark](rng, window.shape[:2]))
     return pixels
+
+
+def bake_dirt(rng: np.random.Generator) -> NDArray[np.uint8]:
+    """The texture of dirt; uint8, shape (rows, columns, 4)."""
+    pixels = _sheet(_DIRT_RGB)
+    for dirt, marks in DIRT_CELLS.items():
+        for mark, cells in marks.items():
+            for cell in cells:
+                window = _window(pixels, cell)
+                shape = window.shape[:2]
+                worn = _DRAWERS[mark](rng, shape)
+                window[:, :, 3] = _alpha(_FAINT * worn if dirt is Dirt.FAINT else _filthy(rng, shape, worn))
+    return pixels
+
+
+def _sheet(ink_rgb: tuple[int, int, int]) -> NDArray[np.uint8]:
+    side = CELLS_ACROSS * _CELL_PIXELS
+    pixels = np.zeros((side, side, 4), dtype=np.uint8)
+    pixels[:, :, :3] = ink_rgb
+    return pixels
+
+
+def _window(pixels: NDArray[np.uint8], cell: Cell) -> NDArray[np.uint8]:
+    left, top, width, height = (int(value * _CELL_PIXELS) for value in cell)
+    return pixels[top : top + height, left : left + width]
+
+
+def _alpha(share: Field) -> NDArray[np.uint8]:
+    return np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
+
+
+def _filthy(rng: np.random.Generator, shape: tuple[int, int], worn: Field) -> Field:
+    """Much more of the same, with spills between the tracks that end before the border."""
+    spilt = ramp(clouds(rng, shape, (4, 4), 5), 0.5, 0.68) * _inside(shape, 0.2)
+    filth: Field = np.minimum(1.75 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
+    return filth
 
 
 def _places(shape: tuple[int, int]) -> tuple[Field, Field]:

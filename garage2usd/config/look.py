@@ -23,6 +23,8 @@ __all__ = [
     "ColumnSection",
     "ColumnsLook",
     "Daylight",
+    "Dirt",
+    "Drains",
     "FloorFinish",
     "FloorLook",
     "Gloss",
@@ -112,6 +114,27 @@ class Gloss(StrEnum):
     """Lamps stand in it as long streaks."""
 
 
+class Dirt(StrEnum):
+    """How dark wheels have made the lanes."""
+
+    SWEPT = "swept"
+    """Not at all: as just cleaned."""
+    FAINT = "faint"
+    USUAL = "usual"
+    FILTHY = "filthy"
+    """Black along the tracks, grey between them."""
+
+
+class Drains(StrEnum):
+    """What takes water off the lanes."""
+
+    NONE = "none"
+    GRATINGS = "gratings"
+    """Gullies of 0.3 m, one in three squares along a lane."""
+    CHANNELS = "channels"
+    """Channels 0.15 m wide along straight lanes, and across portals at their doors."""
+
+
 class FloorLook(Settings):
     """The floor."""
 
@@ -125,6 +148,12 @@ class FloorLook(Settings):
         "coated"
     )
     """Floor of the stalls: 'coated' with blue-grey epoxy, as the 'aisle' is, or a colour that fills them."""
+    dirt: Dirt = Dirt.USUAL
+    """'swept', 'faint', 'usual' or 'filthy': how dark wheels have made the lanes."""
+    wet: float = Field(0.0, ge=0, le=1)
+    """Share of the lane squares without a speed bump that have a puddle; those with drains and before ramps first."""
+    drains: Drains = Drains.NONE
+    """'none', 'gratings' or 'channels'."""
 
 
 class StallPattern(StrEnum):

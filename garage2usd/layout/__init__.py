@@ -20,6 +20,7 @@ from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.clearance import check_carriageways
 from garage2usd.layout.cores import Core, core_placements
 from garage2usd.layout.designation import chargers, with_designated_stalls
+from garage2usd.layout.drains import drains
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.egress import plan_egress
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
@@ -32,6 +33,7 @@ from garage2usd.layout.number_plates import number_plates
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.puddles import puddles
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.signs import country_of, with_signs_of
 from garage2usd.layout.stains import floor_stains
@@ -220,7 +222,9 @@ def lay_out(
         bumps = speed_bumps(grid, graph, fittings, config.standard, seed=seed, crossings=crossings)
         drawn = drawn_markings_of(grid, look.markings, draws)
         yield (floors := floor_panels(grid, look.markings, drawn, bumps=bumps, crossings=crossings, cores=core_on))
-        yield floor_stains(grid, floors, stalls, fittings, draws)
+        yield (drained := list(drains(grid, floors, look.floor.drains)))
+        yield floor_stains(grid, floors, stalls, fittings, draws, look.floor.dirt, drained)
+        yield puddles(grid, look.floor.wet, drained, bumps, draws)
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
         yield wheel_stops(stalls, fittings, config.standard)

@@ -6,17 +6,19 @@ All of it lies inside its own square, so that equal squares with equal draws sta
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
+from garage2usd.config.look import Dirt
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, placed, to_world
+from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
-from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.drain import DrainSpec
+from garage2usd.objects.floor_stain import DirtSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import PanelSpec
@@ -100,6 +102,8 @@ def floor_stains(
     stalls: Iterable[Stall],
     fittings: FittingsConfig,
     draws: SquareDraws,
+    dirt: Dirt = Dirt.USUAL,
+    drains: Iterable[Placement] = (),
 ) -> Iterator[Placement]:
     """The stains of all squares.
 
@@ -115,6 +119,10 @@ def floor_stains(
         How worn the floor is.
     draws
         Random numbers for each square.
+    dirt
+        How dark wheels have made the lanes.
+    drains
+        All drains, which no crack, patch or damp lies over.
     """
     rate = fittings.floor_stain_rate
     if not rate:
@@ -124,13 +132,16 @@ def floor_stains(
         stalls_on.setdefault(stall.square, []).append(stall)
     most = max((len(row) for row in stalls_on.values()), default=0)
     numbers = draws.of_step(Step.FLOOR_STAINS, max(_LANE_SLOTS + most, 2 * most), _NUMBERS)
+    drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
         floor = _Floor(tile)
+        if tile.square in drain_on:
+            floor.boxes.append((_CONCRETE_LIFT_M, _drain_box(tile, *drain_on[tile.square])))
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
-        else:
-            _wear_lane(floor, drawn)
+        elif dirt is not Dirt.SWEPT:
+            _wear_lane(floor, drawn, dirt)
         if tile.cell is Cell.LANE:
             _stain_lane(floor, panel.spec, grid.setback_m, drawn, rate)
             mouths = [stall for edge in Edge for stall in _opening_on(tile, edge, stalls_on)]
@@ -164,7 +175,7 @@ def _on_tile(tile: Tile, stall: Stall, local: Point) -> Point:
     return x - tile.x_m, z - tile.z_m
 
 
-def _wear_lane(floor: _Floor, drawn: NDArray[np.float64]) -> None:
+def _wear_lane(floor: _Floor, drawn: NDArray[np.float64], dirt: Dirt) -> None:
     """The whole square darkened along the ways that cars take over it."""
     tile = floor.tile
     ways = [edge for edge in Edge if tile.drivable[edge]]
@@ -178,7 +189,8 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64]) -> None:
     kind = int(variant * _WEAR_VARIANTS) if mark is StainMark.WEAR_STRAIGHT else 0
     if mark is StainMark.WEAR_STRAIGHT and side < 1 / 2:
         yaw = edge_yaw_rad(towards.opposite)
-    floor.put("Wear", StainSpec(mark, kind, width, depth), (0.0, 0.0), yaw, _WEAR_LIFT_M)
+    spec = StainSpec(mark, kind, width, depth)
+    floor.put("Wear", spec if dirt is Dirt.USUAL else DirtSpec(*astuple(spec), dirt), (0.0, 0.0), yaw, _WEAR_LIFT_M)
 
 
 _RIGHT_OF = {Edge.DOWN: Edge.RIGHT, Edge.RIGHT: Edge.UP, Edge.UP: Edge.LEFT, Edge.LEFT: Edge.DOWN}
@@ -219,6 +231,15 @@ def _stain_lane(floor: _Floor, panel: Spec, setback_m: float, drawn: NDArray[np.
 
 def _far(tile: Tile) -> Edge:
     return Edge.RIGHT if tile.axis_is_x else Edge.DOWN
+
+
+def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
+    """What a drain, which lies along an axis, covers of its square."""
+    x, z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
+    half_x, half_z = spec.width_m / 2, spec.length_m / 2
+    if drain.yaw_rad:
+        half_x, half_z = half_z, half_x
+    return x - half_x, z - half_z, x + half_x, z + half_z
 
 
 def _opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[Stall]]) -> Iterator[Stall]:

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from garage2usd.assets import GLOSSES, MATERIALS, Finish
-from garage2usd.config.look import NATURAL, FloorFinish, FloorLook, Gloss
+from garage2usd.config.look import NATURAL, Dirt, Drains, FloorFinish, FloorLook, Gloss
 from garage2usd.look.axes import Group
 from garage2usd.look.tint import tinted
 
@@ -73,11 +73,14 @@ _NATURAL = {
 """The natural colours of finishes whose textures are made to be tinted."""
 _ROUGHNESS = {Gloss.MATT: 0.88, Gloss.SATIN: 0.6, Gloss.POLISHED: 0.35, Gloss.MIRROR: 0.15}
 """Of finishes that have one roughness: rain and sealing make them smoother."""
+_DIRTS = {Dirt.SWEPT: 0.2, Dirt.FAINT: 0.3, Dirt.USUAL: 0.35, Dirt.FILTHY: 0.15}
+_WETS = {0.0: 0.8, 0.06: 0.08, 0.15: 0.07, 0.35: 0.05}
+_DRAINS = {Drains.NONE: 0.5, Drains.GRATINGS: 0.3, Drains.CHANNELS: 0.2}
 _COATED_STALLS = ("stall_green", "stall_blue")
 
 
 def drawn_floor(axes: Group) -> FloorLook:
-    """A floor: mostly grey, mostly one for aisles and bays, glossy where it is coated."""
+    """A floor: mostly grey, mostly one for aisles and bays, glossy where it is coated, and mostly dry."""
     finish = axes.one_of("finish", _FINISHES)
     return FloorLook(
         finish=finish,
@@ -89,12 +92,15 @@ def drawn_floor(axes: Group) -> FloorLook:
             tone=0.15,
             hue=0.04,
         ),
+        dirt=axes.one_of("dirt", _DIRTS),
+        wet=axes.one_of("wet", _WETS),
+        drains=axes.one_of("drains", _DRAINS),
     )
 
 
 def floor_finishes(floor: FloorLook) -> dict[str, Finish]:
     """What aisles and bays have in the place of their usual materials."""
-    if floor == FloorLook():
+    if FloorLook(finish=floor.finish, colour=floor.colour, gloss=floor.gloss, bays=floor.bays) == FloorLook():
         return {}
     natural = _NATURAL.get(floor.finish, NATURAL) if floor.colour == NATURAL else floor.colour
     aisle = _glossy(tinted(_KEYS[floor.finish], natural), floor.gloss)

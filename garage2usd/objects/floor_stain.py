@@ -1,4 +1,4 @@
-"""Wear of the floor as thin sheets with holes in their opacity: oil, damp, cracks, patches, tyre marks."""
+"""Wear of the floor as thin sheets: oil, damp, cracks, patches, tyre marks, dirt along the ways of wheels, puddles."""
 
 import math
 from collections.abc import Callable
@@ -9,11 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets.flat import flat_part
 from garage2usd.assets.mesh import Asset, Face, make_part
-from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
+from garage2usd.assets.puddle_outline import puddle_outline
+from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS, DIRT_CELLS, Cell
+from garage2usd.config.look import Dirt
 from garage2usd.objects.kind import Kind, Spec, TilePart
 
-__all__ = ["KIND", "StainMark", "StainSpec", "TyreMarkSpec"]
+__all__ = ["KIND", "DirtSpec", "PuddleSpec", "StainMark", "StainSpec", "TyreMarkSpec"]
 
 KIND = Kind("floor_stain", number=26, label="floor_stain", cityscapes="road", is_solid=False, part=TilePart.PARKING)
 
@@ -53,14 +56,52 @@ class StainSpec(Spec, kind=KIND):
     def asset(self) -> Asset:
         """A level sheet with the top of its cell to -Z."""
         x, z = self.width_m / 2, self.depth_m / 2
-        left, top, right, bottom = _bounds(self.mark, self.variant)
+        left, top, right, bottom = _bounds(self._cell())
 
         def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
             across, down = corners[:, 0] / self.width_m + 0.5, corners[:, 2] / self.depth_m + 0.5
             return np.stack([left + (right - left) * across, 1 - top - (bottom - top) * down], axis=1)
 
         face = np.array([(-x, 0, -z), (-x, 0, z), (x, 0, z), (x, 0, -z)])
-        return Asset((make_part("Mark", [face], _MATERIALS.get(self.mark, "stain_rubber"), project=project),))
+        return Asset((make_part("Mark", [face], self._material(), project=project),))
+
+    def _cell(self) -> Cell:
+        return CELLS[self.mark][self.variant]
+
+    def _material(self) -> str:
+        return _MATERIALS.get(self.mark, "stain_rubber")
+
+
+@dataclass(frozen=True)
+class DirtSpec(StainSpec):
+    """A square of a lane that wheels have made less or more dark than usual; its mark is one of wear."""
+
+    dirt: Dirt
+
+    def _cell(self) -> Cell:
+        return DIRT_CELLS[self.dirt][self.mark][self.variant]
+
+    def _material(self) -> str:
+        return "dirt"
+
+
+@dataclass(frozen=True)
+class PuddleSpec(Spec, kind=KIND):
+    """A puddle that fills a rectangle of the floor with its damp border; origin in its middle."""
+
+    variant: int
+    width_m: float
+    depth_m: float
+
+    def asset(self) -> Asset:
+        """Water that mirrors, and the wet floor around it; both let the floor be seen."""
+        outline = puddle_outline(self.variant, self.width_m, self.depth_m)
+        return Asset(
+            (
+                flat_part("Water", outline.water, "puddle_water", collider=None),
+                flat_part("Damp", outline.damp, "puddle_damp", collider=None),
+            )
+        )
 
 
 @dataclass(frozen=True)
@@ -81,7 +122,7 @@ class TyreMarkSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """The marks of two wheels."""
-        cell = _bounds("tyre", self.variant)
+        cell = _bounds(CELLS["tyre"][self.variant])
         parts = [
             make_part(name, faces, "stain_rubber", project=_along_strip(cell, faces))
             for name, side in (("Left", -1), ("Right", 1))
@@ -123,7 +164,7 @@ def _along_strip(cell: tuple[float, float, float, float], faces: list[Face]) -> 
     return project
 
 
-def _bounds(mark: str, variant: int) -> tuple[float, float, float, float]:
+def _bounds(cell: Cell) -> tuple[float, float, float, float]:
     """Left, top, right and bottom of a cell in shares of the texture."""
-    x, y, width, height = (value / CELLS_ACROSS for value in CELLS[mark][variant])
+    x, y, width, height = (value / CELLS_ACROSS for value in cell)
     return x + _EDGE, y + _EDGE, x + width - _EDGE, y + height - _EDGE
