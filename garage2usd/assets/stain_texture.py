@@ -57,7 +57,7 @@ def bake_stains(rng: np.random.Generator) -> NDArray[np.uint8]:
         for cell in cells:
             window = _window(pixels, cell)
             window[:, :, :3] = _INK_RGB.get(mark, _RUBBER_RGB)
-            window[:, :, 3] = _alpha(_DRAWERS[mark](rng, window.shape[:2]))
+            window[:, :, 3] = _alpha(_DRAWERS[mark](rng, _shape(window)))
     return pixels
 
 
@@ -68,9 +68,8 @@ def bake_dirt(rng: np.random.Generator) -> NDArray[np.uint8]:
         for mark, cells in marks.items():
             for cell in cells:
                 window = _window(pixels, cell)
-                shape = window.shape[:2]
-                worn = _DRAWERS[mark](rng, shape)
-                window[:, :, 3] = _alpha(_FAINT * worn if dirt is Dirt.FAINT else _filthy(rng, shape, worn))
+                worn = _DRAWERS[mark](rng, _shape(window))
+                window[:, :, 3] = _alpha(_FAINT * worn if dirt is Dirt.FAINT else _filthy(rng, worn))
     return pixels
 
 
@@ -86,14 +85,21 @@ def _window(pixels: NDArray[np.uint8], cell: Cell) -> NDArray[np.uint8]:
     return pixels[top : top + height, left : left + width]
 
 
+def _shape(window: NDArray[np.uint8]) -> tuple[int, int]:
+    rows, columns, _ = window.shape
+    return rows, columns
+
+
 def _alpha(share: Field) -> NDArray[np.uint8]:
-    return np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
+    levels: NDArray[np.uint8] = np.clip(np.rint(share * 255), 0, 255).astype(np.uint8)
+    return levels
 
 
-def _filthy(rng: np.random.Generator, shape: tuple[int, int], worn: Field) -> Field:
+def _filthy(rng: np.random.Generator, worn: Field) -> Field:
     """Much more of the same, with spills between the tracks that end before the border."""
-    spilt = ramp(clouds(rng, shape, (4, 4), 5), 0.5, 0.68) * _inside(shape, 0.2)
-    filth: Field = np.minimum(1.75 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
+    rows, columns = worn.shape
+    spilt = ramp(clouds(rng, (rows, columns), (4, 4), 5), 0.5, 0.68) * _inside((rows, columns), 0.2)
+    filth: Field = np.minimum(1.5 * worn + 0.22 * spilt * ramp(worn, 0.0, 0.1), 0.82)
     return filth
 
 

@@ -6,7 +6,7 @@ All of it lies inside its own square, so that equal squares with equal draws sta
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -83,15 +83,18 @@ class _Floor:
     """The stains of one square, in its coordinates."""
 
     tile: Tile
+    drain: Box | None = None
     placed: list[Placement] = field(default_factory=list)
     boxes: list[tuple[float, Box]] = field(default_factory=list)
 
     def put(self, name: str, spec: StainSpec | TyreMarkSpec, place: Point, yaw_rad: float, lift_m: float) -> None:
-        """Lay a stain down, unless it would touch another one at its height."""
+        """Lay a stain down, unless it would touch another one at its height, or is one of the concrete on a drain."""
         box = _box(spec, place, yaw_rad)
         if any(lift_m == height and _overlap(box, other) for height, other in self.boxes):
             return
         self.boxes.append((lift_m, box))
+        if lift_m == _CONCRETE_LIFT_M and self.drain is not None and _overlap(box, self.drain):
+            return
         point = self.tile.x_m + place[0], self.tile.z_m + place[1]
         self.placed.append(placed(name, spec, point, height_m=lift_m, yaw_rad=yaw_rad, square=self.tile.square))
 
@@ -135,8 +138,7 @@ def floor_stains(
     drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
     for tile, panel in zip(grid, floors, strict=True):
         floor = _Floor(tile)
-        if tile.square in drain_on:
-            floor.boxes.append((_CONCRETE_LIFT_M, _drain_box(tile, *drain_on[tile.square])))
+        floor = _Floor(tile, _drain_box(tile, *drain_on[tile.square]) if tile.square in drain_on else None)
         drawn = numbers[tile.square]
         if tile.cell is Cell.FREE:
             _stain_stalls(floor, stalls_on.get(tile.square, []), drawn, rate)
@@ -189,8 +191,9 @@ def _wear_lane(floor: _Floor, drawn: NDArray[np.float64], dirt: Dirt) -> None:
     kind = int(variant * _WEAR_VARIANTS) if mark is StainMark.WEAR_STRAIGHT else 0
     if mark is StainMark.WEAR_STRAIGHT and side < 1 / 2:
         yaw = edge_yaw_rad(towards.opposite)
-    spec = StainSpec(mark, kind, width, depth)
-    floor.put("Wear", spec if dirt is Dirt.USUAL else DirtSpec(*astuple(spec), dirt), (0.0, 0.0), yaw, _WEAR_LIFT_M)
+    is_usual = dirt is Dirt.USUAL
+    spec = StainSpec(mark, kind, width, depth) if is_usual else DirtSpec(mark, kind, width, depth, dirt)
+    floor.put("Wear", spec, (0.0, 0.0), yaw, _WEAR_LIFT_M)
 
 
 _RIGHT_OF = {Edge.DOWN: Edge.RIGHT, Edge.RIGHT: Edge.UP, Edge.UP: Edge.LEFT, Edge.LEFT: Edge.DOWN}

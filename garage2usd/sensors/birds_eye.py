@@ -17,6 +17,7 @@ __all__ = ["FLOOR_CLASSES", "FREE_CLASSES", "BirdsEye", "Orthographic", "free_sp
 FLOOR_CLASSES = frozenset(
     {
         "crossing",
+        "drain",
         "floor",
         "floor_stain",
         "hatching",

@@ -94,6 +94,8 @@ _OF_KEY = {
     "ceiling_insulation": MaterialClass.OTHER,
     "glass": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
+    "puddle_water": MaterialClass.GLASS,
+    "drain_shaft": MaterialClass.OTHER,
     "mirror": MaterialClass.MIRROR,
     **{key: MaterialClass.RETROREFLECTOR for key in MATERIALS if key.startswith("number_plate")},
     "sign_blue": MaterialClass.RETROREFLECTOR,

@@ -36,6 +36,7 @@ _HARMLESS = {
     "zone_plate",
     "number_plate",
     "floor_stain",
+    "drain",
 }
 _OWN = {"car", "wheel_stop", "cone"}
 _OVERHEAD_M = 2.0

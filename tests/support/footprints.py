@@ -14,10 +14,11 @@ from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.cone import ConeSpec
+from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
-from garage2usd.objects.floor_stain import StainSpec, TyreMarkSpec
+from garage2usd.objects.floor_stain import PuddleSpec, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
@@ -104,8 +105,10 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
             return shapely.box(-0.2, 0, 0.2, 0.18)
         case ConeSpec():
             return _centred(0.38, 0.38)
-        case StainSpec():
+        case StainSpec() | PuddleSpec():
             return _centred(spec.width_m, spec.depth_m)
+        case DrainSpec():
+            return _centred(spec.width_m, spec.length_m)
         case TyreMarkSpec():
             return _centred(1.8, 2 * spec.length_m)
         case NoParkingSignSpec():

@@ -2,7 +2,7 @@
 
 import string
 
-from garage2usd.config.look import ColumnSection, Guard
+from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
@@ -12,11 +12,12 @@ from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.column import Board, ColumnSpec
 from garage2usd.objects.cone import ConeSpec
+from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.duct import DuctSpec
 from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.fire_extinguisher import FireExtinguisherSpec
 from garage2usd.objects.floor import FloorSpec
-from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
+from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
@@ -103,6 +104,10 @@ SPECS = {
     "fire_extinguisher": FireExtinguisherSpec(),
     "oil": StainSpec(StainMark.OIL, 2, 0.9, 0.7),
     "wear": StainSpec(StainMark.WEAR_T, 0, 8.1, 6.5),
+    **{f"dirt_{dirt}": DirtSpec(StainMark.WEAR_STRAIGHT, 1, 8.1, 6.5, dirt) for dirt in (Dirt.FAINT, Dirt.FILTHY)},
+    **{f"puddle_{variant}": PuddleSpec(variant, 2.2, 1.4) for variant in range(12)},
+    "gully": DrainSpec(0.3, 0.3),
+    "channel": DrainSpec(0.15, 8.1),
     **{f"tyres_{turn}": TyreMarkSpec(1, 4.6, turn) for turn in (-1.2, 0.0, 1.2)},
     **{f"number_{digits}": NumberSpec(digits, 0.45) for digits in [*"0123456789", "07", "88", "A1", "-"]},
     "number_frame": NumberFrameSpec(1.2, 0.7),

@@ -8,6 +8,7 @@ from PIL import Image
 
 FLOOR = {
     "crossing",
+    "drain",
     "floor",
     "floor_stain",
     "hatching",

@@ -5,8 +5,9 @@ import pytest
 from PIL import Image
 
 from garage2usd.assets import GLOSSES, MATERIALS, PaintedTexture
-from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS
+from garage2usd.assets.stain_texture import CELLS, CELLS_ACROSS, DIRT_CELLS
 from garage2usd.assets.textures import texture_folder
+from garage2usd.config.look import Dirt
 from garage2usd.config.stage import TextureQuality
 
 _USED = {texture for material in MATERIALS.values() for texture in material.textures()}
@@ -44,7 +45,7 @@ def test_every_texture_is_there_and_used(quality):
 def test_textures_repeat_without_a_seam(name, quality):
     picture = pixels(name, quality)
     for axis in (0, 1):
-        if name == "stains.png" or (axis == 0 and name in SPAN_ONE_HEIGHT | HUNG_FROM_THE_TOP):
+        if name in {"stains.png", "dirt.png"} or (axis == 0 and name in SPAN_ONE_HEIGHT | HUNG_FROM_THE_TOP):
             continue
         steps = np.abs(picture - np.roll(picture, 1, axis=axis)).mean(axis=1 - axis)
         # the step over the border is as large as over a joint at most
@@ -98,12 +99,14 @@ def test_stains_are_seen_through_and_end_within_their_cells(quality):
 
 
 @pytest.mark.parametrize("quality", TextureQuality)
-def test_wear_goes_on_over_the_border_of_squares(quality):
-    alpha = pixels("stains.png", quality)[:, :, 3]
+@pytest.mark.parametrize("dirt", [Dirt.FAINT, Dirt.USUAL, Dirt.FILTHY])
+def test_wear_goes_on_over_the_border_of_squares(quality, dirt):
+    alpha = pixels("stains.png" if dirt is Dirt.USUAL else "dirt.png", quality)[:, :, 3]
+    marks = DIRT_CELLS.get(dirt, CELLS)
     cell = len(alpha) // CELLS_ACROSS
 
     def window(mark, variant=0):
-        x, y, width, height = (int(value * cell) for value in CELLS[mark][variant])
+        x, y, width, height = (int(value * cell) for value in marks[mark][variant])
         return alpha[y : y + height, x : x + width]
 
     straight = window("wear_straight")[0]

@@ -29,6 +29,7 @@ LOW_M, HIGH_M = 0.1, 1.8
 APART_M = 0.1
 PAINTED = {"stall_line", "lane_line", "lane_arrow", "crossing", "hatching", "stall_symbol"}
 NOT_SOLID = {
+    "drain",
     "floor",
     "floor_stain",
     "parking_stall",

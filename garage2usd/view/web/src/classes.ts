@@ -28,6 +28,7 @@ const COLOURS: Record<string, string> = {
   exit_sign: "#00c9a7",
   mirror: "#e6e9ee",
   floor_stain: "#4b3f38",
+  drain: "#2f6f86",
   stall_line: "#ffffff",
   lane_line: "#ffe45c",
   lane_arrow: "#7dffb2",
