@@ -276,7 +276,7 @@ MATERIALS: dict[str, Material] = {
     "dirt": Material(colour_texture="dirt.png", has_alpha=True, roughness=0.75),
     "puddle_water": Material(colour_rgb=(0.012, 0.013, 0.013), roughness=0.03, opacity=0.62, ior=1.33),
     "puddle_damp": Material(colour_rgb=(0.02, 0.02, 0.02), roughness=0.3, opacity=0.34, ior=1.33),
-    "drain_shaft": Material(colour_rgb=(0.006, 0.006, 0.006), roughness=0.9),
+    "drain_gaps": Material(colour_rgb=(0.006, 0.006, 0.006), roughness=0.9),
     "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_white_worn": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
     "paint_stall": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),

@@ -54,7 +54,7 @@ class DrainSpec(Spec, kind=KIND):
         return Asset(
             (
                 flat_part("Grating", bars, metal, collider=None),
-                flat_part("Shaft", shapely.intersection(outline, seen, grid_size=GRID_M), "drain_shaft", collider=None),
+                flat_part("Gaps", shapely.intersection(outline, seen, grid_size=GRID_M), "drain_gaps", collider=None),
             )
         )
 

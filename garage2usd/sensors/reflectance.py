@@ -95,7 +95,7 @@ _OF_KEY = {
     "glass": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
     "puddle_water": MaterialClass.GLASS,
-    "drain_shaft": MaterialClass.OTHER,
+    "drain_gaps": MaterialClass.OTHER,
     "mirror": MaterialClass.MIRROR,
     **{key: MaterialClass.RETROREFLECTOR for key in MATERIALS if key.startswith("number_plate")},
     "sign_blue": MaterialClass.RETROREFLECTOR,

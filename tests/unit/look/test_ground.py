@@ -186,9 +186,9 @@ def test_drains_are_level_with_lanes_and_clear_of_columns_and_stalls(kind):
         assert place.spec.is_channel == (kind == "channels")
         assert place.spec.width_m == (0.15 if kind == "channels" else 0.3)
         assert footprint(place).intersection(avoided).area < 1e-6
-        bars, shaft = seen_polygon(place, "Grating"), seen_polygon(place, "Shaft")
-        assert shapely.union(bars, shaft).symmetric_difference(footprint(place)).area < 1e-5
-        assert 0.25 < shaft.area / footprint(place).area < 0.55
+        bars, gaps = seen_polygon(place, "Grating"), seen_polygon(place, "Gaps")
+        assert shapely.union(bars, gaps).symmetric_difference(footprint(place)).area < 1e-5
+        assert 0.25 < gaps.area / footprint(place).area < 0.55
 
 
 def test_gullies_lie_off_paint_on_each_third_square_along_a_lane():
@@ -245,12 +245,12 @@ def test_a_stage_has_water_that_mirrors_and_drains_of_their_class(tmp_path):
     assert check_file(built.stage)[0] == check_file(dry.stage)[0]
     stage = Usd.Stage.Open(str(built.stage))
     prims = list(stage.Traverse(Usd.TraverseInstanceProxies()))
-    meshes = {name: [prim for prim in prims if prim.GetName() == name] for name in ("Water", "Shaft", "Mark")}
+    meshes = {name: [prim for prim in prims if prim.GetName() == name] for name in ("Water", "Gaps", "Mark")}
     water, _ = UsdShade.MaterialBindingAPI(meshes["Water"][0]).ComputeBoundMaterial()
     surface, *_ = water.ComputeSurfaceSource()
     assert surface.GetInput("roughness").Get() == pytest.approx(0.03)
     assert surface.GetInput("opacity").Get() > 0.5
-    assert not any(prim.HasAPI(UsdPhysics.CollisionAPI) for each in ("Water", "Shaft") for prim in meshes[each])
+    assert not any(prim.HasAPI(UsdPhysics.CollisionAPI) for each in ("Water", "Gaps") for prim in meshes[each])
     bound = {UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPrim().GetName() for prim in meshes["Mark"]}
     assert "Dirt" in bound
     table = json.loads((tmp_path / "wet_labels.json").read_text())
