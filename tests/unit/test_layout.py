@@ -199,7 +199,7 @@ def test_settings_decide_what_is_there():
         "stall_number",
         "charger",
     }
-    empty |= {"sprinkler", "exit_sign", "mirror", "floor_stain"}
+    empty |= {"sprinkler", "exit_sign", "mirror", "floor_stain", "drain"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 
