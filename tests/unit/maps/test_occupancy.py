@@ -83,7 +83,7 @@ def judge(write, made, folder, *, side_m=0.05):
             inner = read.within((low[0] + SLACK_M, low[2] + SLACK_M), (high[0] - SLACK_M, high[2] - SLACK_M))
             if label == "column" and built.garage.layout.look.columns.section is ColumnSection.ROUND:
                 inner = inner[_within_round(inner.shape)]
-            assert inner.size
+                assert inner.size
             assert (inner == OCCUPIED).all(), (label, low)
         if label not in NOT_SOLID and low[1] <= HIGH_M and high[1] >= LOW_M:
             expected[
