@@ -11,6 +11,7 @@ from garage2usd.assets.materials import (
     Rgb,
     Texture,
     Touch,
+    finished,
 )
 from garage2usd.assets.mesh import AreaLight, Asset, Collider, Part, pascal_case
 from garage2usd.assets.non_visual import BASE_OF_TOUCH, NON_VISUAL, NonVisual
@@ -33,5 +34,6 @@ __all__ = [
     "Rgb",
     "Texture",
     "Touch",
+    "finished",
     "pascal_case",
 ]

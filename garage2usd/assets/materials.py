@@ -1,6 +1,7 @@
 """The materials of all parts, as values that any renderer's standard surface takes."""
 # Over 300 lines: one table of all materials, a line or a few for each.
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
@@ -20,6 +21,7 @@ __all__ = [
     "Rgb",
     "Texture",
     "Touch",
+    "finished",
 ]
 
 Rgb = tuple[float, float, float]
@@ -241,6 +243,20 @@ def _plate(sheet_rgb: Rgb, ink_rgb: Rgb) -> Material:
     return Material(colour_texture=texture, roughness=0.5, touch=Touch.PLASTIC)
 
 
+_WHITE_PAINT = Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING)
+_FORMED_CONCRETE = Material(
+    colour_texture="wall_colour.jpg",
+    packed_texture="wall_packed.png",
+    normal_texture="wall_normal.png",
+    repeat_m=8.1,
+    repeat_up_m=4.05,
+)
+_HAZARD = Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING)
+_ZINC = Material(colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL)
+_DARK_STEEL = Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL)
+_RED_LACQUER = Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL)
+"""What several materials are, which looks may tell apart."""
+
 MATERIALS: dict[str, Material] = {
     "floor_concrete": Material(
         colour_texture="floor_colour.jpg",
@@ -277,21 +293,15 @@ MATERIALS: dict[str, Material] = {
     "puddle_water": Material(colour_rgb=(0.012, 0.013, 0.013), roughness=0.03, opacity=0.62, ior=1.33),
     "puddle_damp": Material(colour_rgb=(0.02, 0.02, 0.02), roughness=0.3, opacity=0.34, ior=1.33),
     "drain_gaps": Material(colour_rgb=(0.006, 0.006, 0.006), roughness=0.9),
-    "paint_white": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_white_worn": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_stall": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_stall_worn": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_edge": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_number": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "paint_band": Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
+    "paint_white": _WHITE_PAINT,
+    "paint_white_worn": _WHITE_PAINT,
+    "paint_stall": _WHITE_PAINT,
+    "paint_stall_worn": _WHITE_PAINT,
+    "paint_edge": _WHITE_PAINT,
+    "paint_number": _WHITE_PAINT,
+    "paint_band": _WHITE_PAINT,
     "paint_yellow": Material(colour_texture="paint_yellow.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING),
-    "wall_concrete": Material(
-        colour_texture="wall_colour.jpg",
-        packed_texture="wall_packed.png",
-        normal_texture="wall_normal.png",
-        repeat_m=8.1,
-        repeat_up_m=4.05,
-    ),
+    "wall_concrete": _FORMED_CONCRETE,
     "wall_band": Material(
         colour_texture="band_colour.jpg",
         packed_texture="band_packed.png",
@@ -303,30 +313,20 @@ MATERIALS: dict[str, Material] = {
     "ceiling_concrete": Material(
         colour_texture="ceiling_colour.jpg", roughness=0.9, normal_texture="ceiling_normal.png", repeat_m=8.1
     ),
-    "column_concrete": Material(
-        colour_texture="wall_colour.jpg",
-        packed_texture="wall_packed.png",
-        normal_texture="wall_normal.png",
-        repeat_m=8.1,
-        repeat_up_m=4.05,
-    ),
-    "hazard": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING),
-    "guard_yellow_black": Material(colour_texture="hazard.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING),
+    "column_concrete": _FORMED_CONCRETE,
+    "hazard": _HAZARD,
+    "guard_yellow_black": _HAZARD,
     "guard_red_white": Material(
         colour_texture="guard_red_white.jpg", roughness=0.45, repeat_m=0.5, touch=Touch.COATING
     ),
     "guard_blue_yellow": Material(
         colour_texture="guard_blue_yellow.jpg", roughness=0.5, repeat_m=0.6, touch=Touch.COATING
     ),
-    "steel_galvanised": Material(
-        colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL
-    ),
-    "steel_dark": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL),
-    "service_steel": Material(
-        colour_texture="steel_colour.jpg", packed_texture="steel_packed.png", repeat_m=1.5, touch=Touch.STEEL
-    ),
-    "service_hanger": Material(colour_rgb=(0.06, 0.06, 0.065), roughness=0.5, metallic=0.6, touch=Touch.STEEL),
-    "service_pipe": Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL),
+    "steel_galvanised": _ZINC,
+    "steel_dark": _DARK_STEEL,
+    "service_steel": _ZINC,
+    "service_hanger": _DARK_STEEL,
+    "service_pipe": _RED_LACQUER,
     "door_steel": Material(colour_rgb=(0.24, 0.27, 0.29), roughness=0.45, metallic=0.3, touch=Touch.STEEL),
     "housing_white": Material(colour_rgb=(0.7, 0.7, 0.68), roughness=0.4, touch=Touch.STEEL),
     "tube_glow": Material(
@@ -354,7 +354,7 @@ MATERIALS: dict[str, Material] = {
     "screen_glow": Material(
         colour_rgb=(0.02, 0.05, 0.08), roughness=0.2, emissive_rgb=(0.15, 0.5, 0.8), touch=Touch.PLASTIC
     ),
-    "pipe_red": Material(colour_rgb=(0.38, 0.02, 0.015), roughness=0.4, touch=Touch.STEEL),
+    "pipe_red": _RED_LACQUER,
     "brass": Material(colour_rgb=(0.55, 0.38, 0.12), roughness=0.35, metallic=0.9, touch=Touch.STEEL),
     "sign_orange": Material(colour_rgb=(0.75, 0.18, 0.01), roughness=0.45, touch=Touch.PLASTIC),
     "mirror": Material(colour_rgb=(0.85, 0.87, 0.88), roughness=0.03, metallic=1.0, touch=Touch.PLASTIC),
@@ -397,3 +397,8 @@ MATERIALS: dict[str, Material] = {
     **_FINISHES,
 }
 """Every material by its key."""
+
+
+def finished(key: str, finishes: Mapping[str, Finish]) -> Finish:
+    """What a garage with some finishes has in the place of a material: a finish, or the material itself."""
+    return finishes.get(key) or Finish(key, MATERIALS[key])

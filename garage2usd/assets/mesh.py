@@ -120,6 +120,11 @@ class Asset:
     light: AreaLight | None = None
     paints: Mapping[str, str] = field(default_factory=dict)
 
+    @property
+    def materials(self) -> frozenset[str]:
+        """Keys of the materials of its meshes."""
+        return frozenset(part.material for part in self.parts)
+
 
 def pascal_case(key: str) -> str:
     """The name of a prim for a key: ``WheelStop`` for ``wheel_stop``."""

@@ -75,8 +75,8 @@ def _colour(value: str) -> str:
     return colour
 
 
-def _colour_or(word: str) -> AfterValidator:
-    return AfterValidator(lambda value: value if value == word else _colour(value))
+def _colour_or(*words: str) -> AfterValidator:
+    return AfterValidator(lambda value: value if value in words else _colour(value))
 
 
 Colour = Annotated[str, AfterValidator(_colour)]
@@ -144,9 +144,7 @@ class FloorLook(Settings):
     """Mean colour of the aisles' floor: #rrggbb in sRGB, a name such as 'green', or 'natural'."""
     gloss: Gloss = Gloss.SATIN
     """'matt', 'satin', 'polished' or 'mirror'."""
-    bays: Annotated[str, AfterValidator(lambda value: value if value in {"coated", AISLE} else _colour(value))] = (
-        "coated"
-    )
+    bays: Annotated[str, _colour_or("coated", AISLE)] = "coated"
     """Floor of the stalls: 'coated' with blue-grey epoxy, as the 'aisle' is, or a colour that fills them."""
     dirt: Dirt = Dirt.USUAL
     """'swept', 'faint', 'usual' or 'filthy': how dark wheels have made the lanes."""
@@ -329,9 +327,7 @@ class WallsLook(Settings):
     """'raw' concrete, 'painted', 'blockwork' or 'panels'."""
     colour: NaturalColour = NATURAL
     """Of the wall: a colour, or 'natural'."""
-    dado: Annotated[str, AfterValidator(lambda value: value if value in {NATURAL, NO_DADO} else _colour(value))] = (
-        NATURAL
-    )
+    dado: Annotated[str, _colour_or(NATURAL, NO_DADO)] = NATURAL
     """The painted band at its foot: 'natural' for blue-green under a yellow stripe, a colour, or 'none'."""
     dado_height_m: float = Field(1.1, ge=0.3, le=1.8)
     """How high it reaches."""

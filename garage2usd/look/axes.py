@@ -57,7 +57,7 @@ class Group:
             return str(self._given[axis])
         generator = self._generator(axis)
         colour = self._pick(generator, weights)
-        factors = np.exp(generator.normal(0.0, tone or 0.0) + generator.normal(0.0, hue or 0.0, 3))
+        factors = np.exp(generator.normal(0.0, tone) + generator.normal(0.0, hue, 3))
         if not colour.startswith("#"):
             return colour
         channels = np.array([int(colour[start : start + 2], 16) for start in (1, 3, 5)])

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from garage2usd.assets import GLOSSES, MATERIALS, Finish
-from garage2usd.config.look import NATURAL, Dirt, Drains, FloorFinish, FloorLook, Gloss
+from garage2usd.config.look import AISLE, NATURAL, Dirt, Drains, FloorFinish, FloorLook, Gloss
 from garage2usd.look.axes import Group
 from garage2usd.look.tint import tinted
 
@@ -88,7 +88,7 @@ def drawn_floor(axes: Group) -> FloorLook:
         gloss=axes.one_of("gloss", _GLOSSES[finish]),
         bays=axes.colour(
             "bays",
-            {"aisle": 0.7, "coated": 0.06, "#7d8284": 0.1, "#4f7f63": 0.05, "#56789c": 0.05, "#a89f8c": 0.04},
+            {AISLE: 0.7, "coated": 0.06, "#7d8284": 0.1, "#4f7f63": 0.05, "#56789c": 0.05, "#a89f8c": 0.04},
             tone=0.15,
             hue=0.04,
         ),
@@ -105,7 +105,7 @@ def floor_finishes(floor: FloorLook) -> dict[str, Finish]:
     natural = _NATURAL.get(floor.finish, NATURAL) if floor.colour == NATURAL else floor.colour
     aisle = _glossy(tinted(_KEYS[floor.finish], natural), floor.gloss)
     coated = {key: _glossy(Finish(key, MATERIALS[key]), floor.gloss) for key in ("stall_epoxy", *_COATED_STALLS)}
-    if floor.bays == "aisle":
+    if floor.bays == AISLE:
         coated["stall_epoxy"] = aisle
     elif floor.bays != "coated":
         coated["stall_epoxy"] = _glossy(tinted("floor_epoxy", floor.bays), floor.gloss)

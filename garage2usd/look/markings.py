@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from garage2usd.assets import MATERIALS, Finish, Material, PaintedTexture, Rgb
+from garage2usd.assets import MATERIALS, Finish, Material, PaintedTexture, Rgb, finished
 from garage2usd.assets.colours import linear_rgb, material_colour
 from garage2usd.config.look import BandForm, MarkingsLook, NumbersLook, Pictogram, StallPattern, Wear
 from garage2usd.look.axes import Group
@@ -131,4 +131,4 @@ def _mask(material: Material) -> str:
 
 
 def _colour_of(key: str, finishes: Mapping[str, Finish]) -> Rgb:
-    return material_colour(finishes[key].material if key in finishes else MATERIALS[key])
+    return material_colour(finished(key, finishes).material)

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from garage2usd.assets import MATERIALS, Finish, OwnTexture
+from garage2usd.assets import Finish, OwnTexture, finished
 from garage2usd.assets.own_textures import own_shape
-from garage2usd.config.look import FloorLook
+from garage2usd.config.look import AISLE, FloorLook
 from garage2usd.config.map_names import Channel
 from garage2usd.config.texture_sets import Role, TextureFolder, TextureSet, read_texture_sets
 
@@ -47,14 +47,9 @@ def own_finishes(folder: TextureFolder, floor: FloorLook, finishes: Mapping[str,
         If a file cannot be used, or the textures are not those that the settings were read with.
     """
     _, sets = read_texture_sets(folder)
-    if floor.bays == "aisle" and Role.FLOOR in sets:
+    if floor.bays == AISLE and Role.FLOOR in sets:
         sets = {Role.STALL: sets[Role.FLOOR], **sets}
-    return {
-        key: _finish(role, each, finishes.get(key, Finish(key, MATERIALS[key])))
-        for role, each in sets.items()
-        for key in _KEYS[role]
-        if key in MATERIALS
-    }
+    return {key: _finish(role, each, finished(key, finishes)) for role, each in sets.items() for key in _KEYS[role]}
 
 
 def _finish(role: Role, maps: TextureSet, usual: Finish) -> Finish:

@@ -25,9 +25,9 @@ from garage2usd.stage.flat import flatten_stage
 from garage2usd.stage.garage_layer import write_garage_layer
 from garage2usd.stage.labels import label_table
 from garage2usd.stage.looks import TEXTURE_FOLDER
-from garage2usd.stage.own_assets import OWN_ASSETS, own_shapes, own_textures, write_own_assets
-from garage2usd.stage.prototypes import name_prototypes
-from garage2usd.stage.texture_files import NamedFile
+from garage2usd.stage.own_assets import OWN_ASSETS, own_shapes, write_own_assets
+from garage2usd.stage.prototypes import asset_of, name_prototypes
+from garage2usd.stage.texture_files import NamedFile, textures_of
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneGraph
@@ -153,7 +153,8 @@ def write_stage(
     assets = _asset_files(of_store, finishes, config, progress)
     prototypes = name_prototypes(layout, {shape: made.layer.name for shape, made in assets.items()})
     contents = _contents(assets.values())
-    contents |= _textures(own_textures(grounds, finishes, config.texture_quality))
+    materials = {key for shape in grounds for key in asset_of(shape).materials}
+    contents |= _textures(textures_of(materials, finishes, config.texture_quality))
     is_flat = config.form is StageForm.FLAT
     is_compact = packed and not is_flat
     if shared is not None:

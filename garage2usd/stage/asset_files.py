@@ -7,13 +7,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.assets import MATERIALS, Finish, pascal_case
+from garage2usd.assets import Finish, pascal_case
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
 from garage2usd.output import HIDDEN_PREFIX
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import NamedFile, content_name, texture_file
+from garage2usd.stage.texture_files import NamedFile, content_name, textures_of
 
 __all__ = ["AssetFile", "asset_file"]
 
@@ -51,8 +51,8 @@ def asset_file(shape: Spec, quality: TextureQuality, finishes: Mapping[str, Fini
     7 x 9 squares need 346, which take 2.6 MB; the largest is a car of at most 150 KB. The bytes depend on the shape,
     the quality and the finishes that it has alone, so that a stage is the same whatever was built before it.
     """
-    materials = {part.material for part in asset_of(shape).parts}
-    return _asset_file(shape, quality, tuple((key, finishes[key]) for key in sorted(materials & finishes.keys())))
+    own = asset_of(shape).materials & finishes.keys()
+    return _asset_file(shape, quality, tuple((key, finishes[key]) for key in sorted(own)))
 
 
 @lru_cache(maxsize=4096)
@@ -65,10 +65,7 @@ def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Fini
         data = path.read_bytes()
     finally:
         path.unlink(missing_ok=True)
-    keys = dict.fromkeys(part.material for part in asset.parts)
-    materials = [finishes[key].material if key in finishes else MATERIALS[key] for key in keys]
-    textures = {texture_file(texture, quality) for material in materials for texture in material.textures()}
     return AssetFile(
         NamedFile(content_name(pascal_case(shape.kind.name), data, ".usdc"), data),
-        tuple(sorted(textures)),
+        textures_of(asset.materials, finishes, quality),
     )

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from garage2usd.assets import MATERIALS, Asset, Finish, Part, Rgb
+from garage2usd.assets import Asset, Finish, Part, Rgb, finished
 from garage2usd.assets.colours import material_colour
 
 __all__ = ["display_colour"]
@@ -17,7 +17,7 @@ def display_colour(asset: Asset, finishes: Mapping[str, Finish]) -> Rgb:
         for part in asset.parts:
             areas_m2[part.material] += _area_m2(part)
     most = max(areas_m2, key=areas_m2.__getitem__)
-    return material_colour(finishes[most].material if most in finishes else MATERIALS[most])
+    return material_colour(finished(most, finishes).material)
 
 
 def _area_m2(part: Part) -> float:

@@ -6,15 +6,14 @@ In a layer each asset takes a third of the bytes that a file of its own would, a
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
-from garage2usd.assets import MATERIALS, Finish
+from garage2usd.assets import Finish
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
 from garage2usd.stage.authoring import new_layer
 from garage2usd.stage.prototype_layer import define_prototype
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.stage.texture_files import NamedFile, texture_file
 
-__all__ = ["OWN_ASSETS", "own_shapes", "own_textures", "write_own_assets"]
+__all__ = ["OWN_ASSETS", "own_shapes", "write_own_assets"]
 
 OWN_ASSETS = "Grounds.usdc"
 """Name of the layer, after what the names of all layers of a garage begin with."""
@@ -25,17 +24,7 @@ _GROUNDS = ("floor_", "stall_", "paint_")
 def own_shapes(shapes: Collection[Spec], finishes: Mapping[str, Finish]) -> list[Spec]:
     """The shapes with a finish that belongs to this garage."""
     keys = {key for key in finishes if key.startswith(_GROUNDS)}
-    return [shape for shape in shapes if keys.intersection(_materials(shape))] if keys else []
-
-
-def own_textures(
-    shapes: Collection[Spec], finishes: Mapping[str, Finish], quality: TextureQuality
-) -> tuple[NamedFile, ...]:
-    """The textures of some shapes, by the names of their files."""
-    keys = {key for shape in shapes for key in _materials(shape)}
-    materials = [finishes[key].material if key in finishes else MATERIALS[key] for key in keys]
-    textures = {texture for material in materials for texture in material.textures()}
-    return tuple(sorted(texture_file(texture, quality) for texture in textures))
+    return [shape for shape in shapes if keys & asset_of(shape).materials] if keys else []
 
 
 def write_own_assets(
@@ -70,7 +59,3 @@ def write_own_assets(
                 finishes=finishes,
                 textures=textures,
             )
-
-
-def _materials(shape: Spec) -> set[str]:
-    return {part.material for part in asset_of(shape).parts}

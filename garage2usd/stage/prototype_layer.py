@@ -20,6 +20,7 @@ from garage2usd.assets import (
     Material,
     Part,
     Touch,
+    finished,
     pascal_case,
 )
 from garage2usd.assets.colours import material_colour
@@ -106,8 +107,7 @@ def define_prototype(
     textures: str = f"./{TEXTURE_FOLDER}",
 ) -> None:
     """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`."""
-    keys = sorted({part.material for part in asset.parts})
-    of = {key: finishes.get(key, Finish(key, MATERIALS[key])) for key in keys}
+    of = {key: finished(key, finishes) for key in sorted(asset.materials)}
     path = Sdf.Path.absoluteRootPath.AppendChild(name)
     root = define(layer, path, "Xform", kind=ModelKind.Tokens.component, label=kind.label)
     root.SetInfo("assetInfo", {"name": pascal_case(kind.name)})

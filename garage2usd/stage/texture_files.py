@@ -2,17 +2,18 @@
 
 import hashlib
 import posixpath
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from garage2usd.assets import Material, OwnTexture, PaintedTexture, Texture
+from garage2usd.assets import Finish, Material, OwnTexture, PaintedTexture, Texture, finished
 from garage2usd.assets.own_textures import own_file
 from garage2usd.assets.textures import texture_folder
 from garage2usd.assets.worn_paint import painted
 from garage2usd.config.stage import TextureQuality
 
-__all__ = ["NamedFile", "content_name", "named_textures", "texture_file"]
+__all__ = ["NamedFile", "content_name", "named_textures", "texture_file", "textures_of"]
 
 _DIGITS = 16
 """Hexadecimal digits of SHA-256 in a name: among a million files two share a name with a chance of 3e-8."""
@@ -47,6 +48,14 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
     if isinstance(texture, PaintedTexture):
         data = painted(data, texture.paint_rgb, texture.ground_rgb)
     return NamedFile(content_name(path.stem, data, path.suffix), data)
+
+
+def textures_of(
+    materials: Iterable[str], finishes: Mapping[str, Finish], quality: TextureQuality
+) -> tuple[NamedFile, ...]:
+    """The textures of some materials, by their keys, of a garage with some finishes; each once, by name."""
+    used = {texture for key in materials for texture in finished(key, finishes).material.textures()}
+    return tuple(sorted({texture_file(texture, quality) for texture in used}))
 
 
 def named_textures(material: Material, quality: TextureQuality, *, folder: str = "") -> Material:
