@@ -1,5 +1,7 @@
 """Settings of what stands, hangs and parks in the garage."""
 
+from typing import Literal
+
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from garage2usd.settings import Settings
@@ -60,8 +62,8 @@ class FittingsConfig(Settings):
     """Share of straight lane squares that carry a speed bump."""
     cone_rate: float = Field(0.04, ge=0, le=1)
     """Share of the standard stalls without a car that cones close, and of the hatched squares with cones."""
-    wheel_stops: bool = True
-    """A wheel stop in each stall."""
+    wheel_stops: bool | Literal["pairs"] = True
+    """A wheel stop in each stall: true for a bar across it, 'pairs' for a block behind each front wheel."""
     floor_stain_rate: float = Field(0.5, ge=0, le=1)
     """How much oil, damp, cracks, patches and tyre marks there are; 0 for a new floor."""
     no_parking_sign_rate: float = Field(0.5, ge=0, le=1)

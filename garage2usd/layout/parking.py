@@ -32,6 +32,8 @@ __all__ = ["parked_cars", "stall_panels", "stalls_of", "wheel_stops", "with_turn
 WHEEL_STOP_FROM_REAR_M = 0.55
 """Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
 _WHEEL_STOP_LENGTH_M, _LOWEST_WHEEL_STOP_M = 1.65, 0.05
+_WHEEL_STOP_GAP_M = 0.65
+"""Between the two blocks of a pair."""
 _LINE_CLEARANCE_M = 0.1
 _HATCH_MARGIN_M = 0.25
 _NEAR_STALLS = 12
@@ -137,10 +139,11 @@ def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig, profile: Pr
     height_m = min(WHEEL_STOP_HEIGHT_M, clause.amount if clause else math.inf)
     if not fittings.wheel_stops or height_m < _LOWEST_WHEEL_STOP_M:
         return []
+    gap_m = _WHEEL_STOP_GAP_M if fittings.wheel_stops == "pairs" else 0.0
     return [
         stall.placement(
             "WheelStop",
-            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)), height_m),
+            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)), height_m, gap_m),
             (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
         )
         for stall in stalls

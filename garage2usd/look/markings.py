@@ -19,12 +19,12 @@ def drawn_markings(axes: Group) -> MarkingsLook:
     colour = axes.colour(
         "colour",
         {
-            _WHITE: 0.5,
-            _YELLOW: 0.16,
-            _DULL_YELLOW: 0.1,
-            _CREAM: 0.07,
-            _GREY: 0.07,
-            _DARK_GREY: 0.03,
+            _WHITE: 0.44,
+            _YELLOW: 0.13,
+            _DULL_YELLOW: 0.15,
+            _CREAM: 0.09,
+            _GREY: 0.08,
+            _DARK_GREY: 0.04,
             _ORANGE: 0.04,
             _BLUE: 0.03,
         },
@@ -39,19 +39,19 @@ def drawn_markings(axes: Group) -> MarkingsLook:
         pattern=axes.one_of(
             "pattern",
             {
-                StallPattern.CLOSED: 0.6,
-                StallPattern.SIDES: 0.11,
-                StallPattern.T_MARKS: 0.05,
+                StallPattern.CLOSED: 0.68,
+                StallPattern.SIDES: 0.08,
+                StallPattern.T_MARKS: 0.04,
                 StallPattern.L_MARKS: 0.04,
                 StallPattern.DOUBLE: 0.08,
-                StallPattern.CORNERS: 0.04,
-                StallPattern.DASHED: 0.05,
-                StallPattern.NONE: 0.03,
+                StallPattern.CORNERS: 0.03,
+                StallPattern.DASHED: 0.04,
+                StallPattern.NONE: 0.01,
             },
         ),
         colour=colour,
         line_width_m=axes.one_of(
-            "line_width_m", {0.06: 0.08, 0.08: 0.22, 0.1: 0.3, 0.12: 0.2, 0.15: 0.15, 0.18: 0.03, 0.2: 0.02}
+            "line_width_m", {0.06: 0.14, 0.08: 0.26, 0.1: 0.27, 0.12: 0.17, 0.15: 0.12, 0.18: 0.02, 0.2: 0.02}
         ),
         wear=axes.one_of("wear", newer if band is BandForm.BAND else wear),
         band=band,

@@ -28,5 +28,5 @@ def drawn_numbers(axes: Group) -> NumbersLook:
         place=place,
         form=form,
         height_m=axes.one_of("height_m", heights),
-        colour=axes.colour("colour", {"#dedede": 0.58, "#d8a62e": 0.34, "#3c3d40": 0.08}),
+        colour=axes.colour("colour", {"#dedede": 0.5, "#d8a62e": 0.24, "#b0924a": 0.18, "#3c3d40": 0.08}),
     )

@@ -1,6 +1,6 @@
 """Wheel stops."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from garage2usd.assets.mesh import Asset
 from garage2usd.objects.kind import Kind, Spec, TilePart
@@ -12,6 +12,8 @@ __all__ = ["KIND", "WHEEL_STOP_HEIGHT_M", "WHEEL_STOP_WIDTH_M", "WheelStopSpec"]
 KIND = Kind("wheel_stop", number=13, label="wheel_stop", cityscapes="static", part=TilePart.PARKING)
 
 WHEEL_STOP_WIDTH_M, WHEEL_STOP_HEIGHT_M = 0.15, 0.10
+_SEGMENT_M = 0.33
+"""About how long its black and yellow pieces are, of which there are three at least."""
 
 
 @dataclass(frozen=True)
@@ -20,16 +22,30 @@ class WheelStopSpec(Spec, kind=KIND):
 
     length_m: float
     height_m: float = WHEEL_STOP_HEIGHT_M
+    gap_m: float = 0.0
+    """In its middle, where it is a pair of blocks."""
 
     def asset(self) -> Asset:
-        """A rubber bar 0.15 m wide."""
+        """A rubber bar 0.15 m wide, or two of them in line."""
         z, y = WHEEL_STOP_WIDTH_M / 2, self.height_m
         profile = [(-z, 0.0), (-z, 0.03), (-z * 0.62, y - 0.01), (-z * 0.45, y), (z * 0.45, y), (z * 0.62, y - 0.01)]
         profile += [(z, 0.03), (z, 0.0)]
-        count = max(3, round(self.length_m / 0.33))
-        return striped(profile, -self.length_m / 2, self.length_m / count, count)
+        bars = [
+            striped(profile, start, (end - start) / count, count)
+            for start, end in self._spans()
+            for count in [max(3, round((end - start) / _SEGMENT_M))]
+        ]
+        if len(bars) == 1:
+            return bars[0]
+        named = zip(("Left", "Right"), bars, strict=True)
+        return Asset(tuple(replace(part, name=f"{side}{part.name}") for side, bar in named for part in bar.parts))
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its foot."""
-        x, z = self.length_m / 2, WHEEL_STOP_WIDTH_M / 2
-        return (rectangle(-x, -z, x, z),)
+        """Its foot, or that of each block."""
+        z = WHEEL_STOP_WIDTH_M / 2
+        return tuple(rectangle(start, -z, end, z) for start, end in self._spans())
+
+    def _spans(self) -> tuple[tuple[float, float], ...]:
+        """From where to where each bar lies along X."""
+        end, inner = self.length_m / 2, self.gap_m / 2
+        return ((-end, -inner), (inner, end)) if self.gap_m else ((-end, end),)

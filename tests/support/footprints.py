@@ -74,7 +74,7 @@ def _local(spec):  # noqa: PLR0912 - a case for each kind of object
         case SpeedBumpSpec():
             return _centred(spec.length_m, 0.35)
         case WheelStopSpec():
-            return _centred(spec.length_m, 0.15)
+            return _centred(spec.length_m, 0.15) - _centred(spec.gap_m, 0.15)
         case CarSpec():
             body = next(body for body in CAR_BODIES if body.name == spec.body)
             return _centred(body.overall_width_m, body.length_m)

@@ -94,6 +94,7 @@ SPECS = {
     "cone": ConeSpec(),
     "bump": SpeedBumpSpec(7.2),
     "stop": WheelStopSpec(1.65),
+    "stops": WheelStopSpec(1.65, gap_m=0.65),
     "sign": NoParkingSignSpec(),
     "sprinkler": SprinklerSpec(8.1, 0.03, 0.075, rods_at_m=(-2.0, 1.0), heads_at_m=(-2.0, 2.0)),
     "pipe": SprinklerSpec(0.7, 0.03, 0.075, rods_at_m=(0.1,), heads_at_m=()),

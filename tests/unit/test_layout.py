@@ -354,3 +354,23 @@ def test_a_turning_stall_takes_no_car():
     turning = next(s.name for s in laid_out(text, GarageConfig()).stalls if s.use is StallUse.TURNING)
     with pytest.raises(ConfigError, match=turning):
         laid_out(text, GarageConfig(parking={"occupied_stalls": [turning]}))
+
+
+def test_wheel_stops_are_bars_pairs_or_none():
+    def stops(asked):
+        fittings = {} if asked is None else {"wheel_stops": asked}
+        return laid_out(IRREGULAR, GarageConfig(fittings=fittings)).of_kind("wheel_stop")
+
+    bars, pairs = stops(True), stops("pairs")
+    assert bars == stops(None)
+    assert not stops(False)
+    assert [stop.position_m for stop in bars] == [stop.position_m for stop in pairs]
+    for bar, pair in zip(bars, pairs, strict=True):
+        left, right = (shapely.Polygon(outline).bounds for outline in pair.spec.outlines())
+        (whole,) = (shapely.Polygon(outline).bounds for outline in bar.spec.outlines())
+        assert (left[0], right[2]) == (whole[0], whole[2])
+        assert right[0] - left[2] == pytest.approx(0.65)
+        meshes = pair.spec.asset().parts
+        assert not any(-0.32 < x < 0.32 for part in meshes for x in part.points[:, 0])
+    with pytest.raises(ValueError, match=r"wheel_stops"):
+        GarageConfig(fittings={"wheel_stops": "triple"})
