@@ -12,7 +12,6 @@ from garage2usd.config.vehicles import CarBody
 
 __all__ = ["SHAPES", "Contour", "Shell", "SideView", "both_sides", "grid_quads", "needed"]
 
-_GROUND_CLEARANCE_M = 0.18
 _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
 _HALF_PILLAR_M = 0.045
@@ -88,6 +87,14 @@ class SideView:
         Whether there is no grille.
     upright_tail
         Whether the tail is a tailgate between tall lamps, else the lamps lie wide under a boot lid or rear window.
+    rows
+        Rows of seats.
+    seats
+        Their covers: ``black``, ``grey`` or ``tan``.
+    clearance_m
+        Height of the sills.
+    glass_until
+        Share of length behind which there are no windows; None where they go all around.
     """
 
     shoulder: tuple[tuple[float, float], ...]
@@ -101,6 +108,10 @@ class SideView:
     bed: tuple[float, float] | None = None
     closed_nose: bool = False
     upright_tail: bool = False
+    rows: int = 2
+    seats: str = "black"
+    clearance_m: float = 0.18
+    glass_until: float | None = None
 
 
 SHAPES = {
@@ -421,7 +432,7 @@ class Shell:
         """Height of the sill and of the bumpers' lower edges."""
         length = self.body.length_m
         lift = 0.07 * np.clip(1 - s / (0.08 * length), 0, 1) + 0.11 * np.clip(1 - (length - s) / (0.07 * length), 0, 1)
-        height: NDArray[np.float64] = _GROUND_CLEARANCE_M + lift
+        height: NDArray[np.float64] = self.shape.clearance_m + lift
         return height
 
     def _bottom(self, s: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets.car_interior import interior
 from garage2usd.assets.car_shell import SHAPES, Contour, Shell, both_sides, grid_quads, needed
 from garage2usd.assets.faces import box_faces, lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
@@ -62,6 +63,7 @@ def car(body: CarBody) -> Asset:
         make_part("Seams", _flat(_seams(shell)), "trim_black"),
         make_part("Handles", _flat(_handles(shell)), "car_paint"),
         make_part("Mirrors", _flat(_mirrors(shell)), "car_paint", crease_deg=50),
+        *interior(shell),
         *_plate_holders(shell),
         *_wheels(body),
     ]

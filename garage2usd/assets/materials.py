@@ -364,7 +364,14 @@ MATERIALS: dict[str, Material] = {
     "exit_white": Material(colour_rgb=(0.8, 0.8, 0.8), roughness=0.4, emissive_rgb=(1.6, 1.7, 1.6), touch=Touch.STEEL),
     "rubber_black": Material(colour_rgb=(0.022, 0.022, 0.023), roughness=0.8, touch=Touch.RUBBER),
     "rubber_yellow": Material(colour_rgb=(0.62, 0.38, 0.015), roughness=0.65, touch=Touch.RUBBER),
-    "glass": Material(colour_rgb=(0.022, 0.028, 0.031), roughness=0.04, clearcoat=1.0, ior=1.52, touch=Touch.PLASTIC),
+    "glass": Material(colour_rgb=(0.010, 0.014, 0.014), roughness=0.03, opacity=0.52, ior=1.52, touch=Touch.PLASTIC),
+    "glass_dark": Material(
+        colour_rgb=(0.008, 0.009, 0.01), roughness=0.03, opacity=0.85, ior=1.52, touch=Touch.PLASTIC
+    ),
+    "interior_dark": Material(colour_rgb=(0.022, 0.022, 0.024), roughness=0.75, touch=Touch.PLASTIC),
+    "seat_black": Material(colour_rgb=(0.035, 0.035, 0.038), roughness=0.85, touch=Touch.PLASTIC),
+    "seat_grey": Material(colour_rgb=(0.16, 0.16, 0.165), roughness=0.9, touch=Touch.PLASTIC),
+    "seat_tan": Material(colour_rgb=(0.30, 0.17, 0.09), roughness=0.6, touch=Touch.PLASTIC),
     "cabinet_glass": Material(
         colour_rgb=(0.3, 0.34, 0.34), roughness=0.03, opacity=0.14, ior=1.52, touch=Touch.PLASTIC
     ),

@@ -44,6 +44,7 @@ _BASES = {
     "floor_asphalt": "asphalt",
     "floor_asphalt_patched": "asphalt",
     "glass": "clear_glass",
+    "glass_dark": "clear_glass",
     "hose": "fabric",
     "lamp_dead": "plexiglass",
     "lamp_front": "plexiglass",
@@ -51,12 +52,15 @@ _BASES = {
     "mirror": "mirror",
     "rim": "aluminum",
     "screen_glow": "clear_glass",
+    "seat_black": "leather",
+    "seat_grey": "fabric",
+    "seat_tan": "leather",
     "sign_blue": "aluminum",
     "sign_ring": "aluminum",
     "tube_glow": "plexiglass",
 }
 """What their touch does not tell; the sky behind doors is made of nothing."""
-_TRANSPARENT = frozenset({"cabinet_glass", "glass"})
+_TRANSPARENT = frozenset({"cabinet_glass", "glass", "glass_dark"})
 _PLATES = frozenset(key for key in MATERIALS if key.startswith("number_plate"))
 _RETROREFLECTIVE = _PLATES | {"sign_blue", "sign_ring"}
 _BARE = frozenset({"service_steel", "steel_galvanised"})

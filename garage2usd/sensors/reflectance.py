@@ -93,6 +93,7 @@ _OF_KEY = {
     "floor_asphalt_patched": MaterialClass.ASPHALT,
     "ceiling_insulation": MaterialClass.OTHER,
     "glass": MaterialClass.GLASS,
+    "glass_dark": MaterialClass.GLASS,
     "cabinet_glass": MaterialClass.GLASS,
     "puddle_water": MaterialClass.GLASS,
     "drain_gaps": MaterialClass.OTHER,
