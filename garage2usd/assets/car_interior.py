@@ -207,7 +207,7 @@ def _seat(row: _Row, x: tuple[float, float], half_length_m: float) -> list[Faces
 
 def _leant(faces: Faces, row: _Row, z: float) -> Faces:
     """Faces over the foot of a backrest, leant back with it."""
-    leant = faces + np.array((0.0, row.cushion_m - 0.03, z))
+    leant: Faces = faces + np.array((0.0, row.cushion_m - 0.03, z))
     leant[:, :, 2] += faces[:, :, 1] * (_BACK_LEAN_M / _BACK_M)
     return leant
 

@@ -1,16 +1,16 @@
 """The shell of a car body: rings of points lofted along the car, and places on its surface."""
 # Over 300 lines: the rings of a body are long rows of numbers, with the functions that read them.
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.assets.car_shapes import SideView
 from garage2usd.assets.monotone_curve import MonotoneCurve
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["SHAPES", "Contour", "Shell", "SideView", "both_sides", "grid_quads", "needed"]
+__all__ = ["Contour", "Shell", "both_sides", "grid_quads", "needed"]
 
 _ARCH_GAP_M = 0.045
 _ARCH_STEPS = 9
@@ -20,13 +20,14 @@ _MAX_STATION_STEP_M = 0.30
 _END_INSET_M = 0.010
 """Room for plates and lamps between the shell's ends and the footprint."""
 _END_STEPS_M = (0.012, 0.03, 0.06, 0.11, 0.17)
-_BONNET_CROWN_M = 0.045
 _END_RUN_M = 0.42
 _BED_FLOOR_M = 0.82
 _PAN_TOLERANCE_M = 0.025
 _SIDE_TOLERANCE_M = 0.002
 # points of a ring, see `Shell._make_rings`: faces below the sill are floor pan, one band is side window
 _SILL, _BELT, _ROOF_EDGE = 4, 10, 12
+_BEHIND = {"glass": "glass", "glass_dark": "rear_glass"}
+"""Kind of the windows behind the first pillar by their material."""
 _SIDE_HEIGHT = (0.0, 0.12, 0.35, 0.58, 0.80, 0.94, 1.0)
 _SIDE_WIDTH = (0.955, 0.978, 0.993, 1.0, 0.990, 0.962, 0.925)
 _CABIN = np.array([(0.985, 0.80), (0.945, 0.91), (0.84, 0.968), (0.62, 0.99), (0.32, 0.998), (0.0, 1.0)])
@@ -59,135 +60,6 @@ _TAIL_BUMPER_M = (0.34, 0.44, 0.55, 0.59)
 # how far each point of a ring lies behind the bumper: the floor pan, the seven points of the side, all above
 _NOSE_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.004, 0.026, 0.040, 0.055, *[0.06] * 6)
 _TAIL_SETBACK_M = (*[0.035] * 4, 0.035, 0.006, 0.0, 0.003, 0.038, 0.042, 0.048, *[0.05] * 6)
-
-
-@dataclass(frozen=True)
-class SideView:
-    """Side view of a body as shares of its length (from the nose) and height.
-
-    Attributes
-    ----------
-    shoulder
-        (share of length, share of height) of bonnet, belt line and boot lid.
-    roof
-        Shares of length and height of windscreen foot, roof front, roof rear, rear window foot.
-    pillars
-        Shares of length of the pillars between side windows.
-    tumblehome
-        How much narrower the roof is than the belt, as a share of the half width.
-    nose, tail
-        Half width at the ends as a share of the largest.
-    window_run_out_m
-        From the rear end of the side windows to the foot of the rear window.
-    bow_m
-        How far the middles of nose and tail stand out before their corners.
-    bed
-        Shares of length between which a pickup's bed is open.
-    closed_nose
-        Whether there is no grille.
-    upright_tail
-        Whether the tail is a tailgate between tall lamps, else the lamps lie wide under a boot lid or rear window.
-    rows
-        Rows of seats.
-    seats
-        Their covers: ``black``, ``grey`` or ``tan``.
-    clearance_m
-        Height of the sills.
-    glass_until
-        Share of length behind which there are no windows; None where they go all around.
-    """
-
-    shoulder: tuple[tuple[float, float], ...]
-    roof: tuple[tuple[float, float], ...]
-    pillars: tuple[float, ...]
-    tumblehome: float
-    nose: float
-    tail: float
-    window_run_out_m: float
-    bow_m: tuple[float, float] = (0.11, 0.07)
-    bed: tuple[float, float] | None = None
-    closed_nose: bool = False
-    upright_tail: bool = False
-    rows: int = 2
-    seats: str = "black"
-    clearance_m: float = 0.18
-    glass_until: float | None = None
-
-
-SHAPES = {
-    "hatchback": SideView(
-        shoulder=((0, 0.46), (0.02, 0.52), (0.12, 0.59), (0.27, 0.645), (0.6, 0.66), (0.9, 0.675), (1, 0.65)),
-        roof=((0.26, 0.0), (0.44, 1.0), (0.83, 0.965), (0.965, 0.0)),
-        pillars=(0.57,),
-        tumblehome=0.22,
-        nose=0.80,
-        tail=0.86,
-        window_run_out_m=0.34,
-    ),
-    "saloon": SideView(
-        shoulder=(
-            (0, 0.46),
-            (0.02, 0.52),
-            (0.12, 0.59),
-            (0.28, 0.645),
-            (0.6, 0.665),
-            (0.85, 0.705),
-            (0.97, 0.715),
-            (1, 0.67),
-        ),
-        roof=((0.275, 0.0), (0.43, 1.0), (0.66, 0.985), (0.85, 0.0)),
-        pillars=(0.555,),
-        tumblehome=0.25,
-        nose=0.80,
-        tail=0.84,
-        window_run_out_m=0.34,
-    ),
-    "suv": SideView(
-        shoulder=((0, 0.47), (0.015, 0.54), (0.1, 0.61), (0.25, 0.64), (0.6, 0.655), (0.9, 0.67), (1, 0.64)),
-        roof=((0.245, 0.0), (0.40, 1.0), (0.87, 0.975), (0.985, 0.0)),
-        pillars=(0.53, 0.76),
-        tumblehome=0.19,
-        nose=0.83,
-        tail=0.90,
-        window_run_out_m=0.34,
-        bow_m=(0.10, 0.06),
-        upright_tail=True,
-    ),
-    "van": SideView(
-        shoulder=((0, 0.42), (0.015, 0.48), (0.08, 0.54), (0.19, 0.585), (0.6, 0.60), (0.9, 0.60), (1, 0.58)),
-        roof=((0.17, 0.0), (0.35, 1.0), (0.935, 0.985), (0.99, 0.0)),
-        pillars=(0.45, 0.70),
-        tumblehome=0.14,
-        nose=0.84,
-        tail=0.94,
-        window_run_out_m=0.22,
-        bow_m=(0.12, 0.04),
-        upright_tail=True,
-    ),
-    "pickup": SideView(
-        shoulder=((0, 0.50), (0.012, 0.56), (0.09, 0.605), (0.25, 0.63), (0.6, 0.64), (0.9, 0.64), (1, 0.63)),
-        roof=((0.25, 0.0), (0.375, 1.0), (0.585, 0.985), (0.635, 0.0)),
-        pillars=(0.465,),
-        tumblehome=0.18,
-        nose=0.86,
-        tail=0.96,
-        window_run_out_m=0.22,
-        bow_m=(0.09, 0.02),
-        bed=(0.65, 0.975),
-        upright_tail=True,
-    ),
-    "compact_ev": SideView(
-        shoulder=((0, 0.46), (0.02, 0.52), (0.1, 0.575), (0.22, 0.61), (0.6, 0.63), (0.9, 0.65), (1, 0.62)),
-        roof=((0.19, 0.0), (0.40, 1.0), (0.80, 0.965), (0.965, 0.0)),
-        pillars=(0.55,),
-        tumblehome=0.22,
-        nose=0.80,
-        tail=0.84,
-        window_run_out_m=0.34,
-        bow_m=(0.13, 0.09),
-        closed_nose=True,
-    ),
-}
 
 
 class Contour:
@@ -255,14 +127,15 @@ class Shell:
         self._roof = MonotoneCurve(
             [self.cowl, self.roof_front - 0.12, self.roof_front + 0.12, middle, self.roof_rear, self.deck],
             [
-                self.shoulder(self.cowl) + _BONNET_CROWN_M,
+                self.shoulder(self.cowl) + shape.crown_m,
                 height - 0.085,
                 height - 0.025,
                 height,
                 shape.roof[2][1] * height - 0.01,
-                self.shoulder(self.deck) + _BONNET_CROWN_M,
+                self.shoulder(self.deck) + shape.crown_m,
             ],
         )
+        self._side_width = np.array(_SIDE_WIDTH) + (1 - np.array(_SIDE_WIDTH)) * 0.7 * shape.slab
         self._first = shape.bow_m[0] + _END_INSET_M
         self._last = length - shape.bow_m[1] - _END_INSET_M
         nose = [(self._first + away, shape.nose + way * (1 - shape.nose)) for away, way in _NOSE_WIDTH]
@@ -344,14 +217,14 @@ class Shell:
         return Contour(np.concatenate([front, side]), rear=rear)
 
     def regions(self) -> dict[str, NDArray[np.float64]]:
-        """The faces of the shell by what they are: body, cabin, glass, pillar or under; each (n, 4, 3)."""
+        """The faces of the shell by what they are, each (n, 4, 3): body, cabin, glass, rear_glass, pillar or under."""
         kinds, quads = self._kinds(), grid_quads(self.points)
         # doors need fewer stations than the windows over them
         middle = np.flatnonzero((self.stations >= self.cowl) & (self.stations <= self.deck))
         side = self.points[middle, _SILL : _BELT + 1]
         doors = side[needed(self.stations[middle], side.reshape(len(side), -1), _SIDE_TOLERANCE_M)]
         kinds[middle[0] : middle[-1], _SILL:_BELT] = ""
-        found = {kind: quads[kinds == kind] for kind in ("body", "cabin", "glass", "pillar")}
+        found = {kind: quads[kinds == kind] for kind in ("body", "cabin", "glass", "rear_glass", "pillar")}
         caps = [grid_quads(cap).reshape(-1, 4, 3) for cap in self._caps.values()]
         found["body"] = np.concatenate([found["body"], grid_quads(doors).reshape(-1, 4, 3), caps[0], caps[1][:, ::-1]])
         pan = self.points[:, : _SILL + 1]
@@ -371,7 +244,14 @@ class Shell:
         length, first, last = self.body.length_m, self._first, self._last
         fixed = [first, last, *(first + step for step in _END_STEPS_M), *(last - step for step in _END_STEPS_M)]
         fixed += [self.cowl, self.cowl + 0.03, self.roof_front - 0.12, self.roof_front, self.roof_front + 0.12]
-        fixed += [self.roof_rear - 0.1, self.roof_rear, self.roof_rear + 0.03, self.deck - 0.02, self.deck]
+        fixed += [
+            (self.roof_front + self.roof_rear) / 2,
+            self.roof_rear - 0.1,
+            self.roof_rear,
+            self.roof_rear + 0.03,
+            self.deck - 0.02,
+            self.deck,
+        ]
         fixed += self.side_window
         for pillar in self.shape.pillars:
             fixed += [pillar * length - _HALF_PILLAR_M, pillar * length + _HALF_PILLAR_M]
@@ -383,6 +263,7 @@ class Shell:
             fixed += [axle - reach - 0.012, axle + reach + 0.012]
         stations = np.unique(np.round(fixed, 4))
         stations = stations[(stations >= round(first, 4)) & (stations <= round(last, 4))]
+        stations = stations[(stations == stations[-1]) | (stations < stations[-1] - _MIN_STATION_STEP_M)]
         stations = stations[np.concatenate(([True], np.diff(stations) > _MIN_STATION_STEP_M))]
         filled = [
             np.linspace(low, high, int(np.ceil((high - low) / _MAX_STATION_STEP_M)), endpoint=False)
@@ -395,12 +276,13 @@ class Shell:
         s = self.stations
         width, shoulder, sill, bottom = self._half_width(s), self._shoulder(s), self._sill(s), self._bottom(s)
         heights = bottom[:, None] + np.array(_SIDE_HEIGHT) * (shoulder - bottom)[:, None]
-        for weight, bumper in zip(self._end_weights(s), (_NOSE_BUMPER_M, _TAIL_BUMPER_M), strict=True):
+        bumpers = np.array((_NOSE_BUMPER_M, _TAIL_BUMPER_M)) * self.shape.bumper
+        for weight, bumper in zip(self._end_weights(s), bumpers, strict=True):
             over = (bumper[-1] + shoulder) / 2
             end = np.column_stack([bottom, np.tile(bumper, (len(s), 1)), over, shoulder])
             heights += weight[:, None] * (end - heights)
         shares = (heights - sill[:, None]) / (shoulder - sill)[:, None]
-        side = np.stack([np.interp(shares, _SIDE_HEIGHT, _SIDE_WIDTH) * width[:, None], heights], axis=2)
+        side = np.stack([np.interp(shares, _SIDE_HEIGHT, self._side_width) * width[:, None], heights], axis=2)
         pan = np.stack(
             [np.outer(width, (0.0, 0.58, 0.60, 0.90)), np.stack([sill, sill, bottom, bottom], axis=1) + 0.02], axis=2
         )
@@ -450,13 +332,13 @@ class Shell:
         """The rings above the belt line: cabin, bonnet, boot lid or open bed; X and Y."""
         length, bed = self.body.length_m, self.shape.bed
         low = s >= self.cowl + 0.5 if bed else np.zeros(len(s), bool)
-        crown = np.where(low, 0.012, _BONNET_CROWN_M)
+        crown = np.where(low, 0.012, self.shape.crown_m)
         roof = np.where((self.cowl < s) & (s < self.deck), self._roof(np.clip(s, self.cowl, self.deck)), 0.0)
         rise = np.maximum(roof - shoulder, crown)
         share = np.clip((rise - crown) / (self.body.height_m * 0.2), 0.0, 1.0)
         narrow = np.clip(rise / (self.body.height_m * 0.34), 0.0, 1.0)
         points = _BONNET + (_CABIN - _BONNET) * share[:, None, None]
-        half = width * (0.925 - (self.shape.tumblehome - 0.03) * narrow)
+        half = width * (self._side_width[-1] - (self.shape.tumblehome - 0.03) * narrow)
         top: NDArray[np.float64] = np.stack(
             [points[:, :, 0] * half[:, None], shoulder[:, None] + points[:, :, 1] * rise[:, None]], axis=2
         )
@@ -479,14 +361,19 @@ class Shell:
     def _kinds(self) -> NDArray[np.str_]:
         """What the faces are made of, for each pair of stations and of ring points."""
         s = (self.stations[:-1] + self.stations[1:]) / 2
-        kinds = np.full((len(s), self.points.shape[1] - 1), "body", dtype="<U6")
+        kinds = np.full((len(s), self.points.shape[1] - 1), "body", dtype="<U10")
         kinds[:, :_SILL] = "under"
         kinds[(self.cowl < s) & (s < self.deck), _BELT:] = "cabin"
         windscreen = (self.cowl + 0.03 < s) & (s < self.roof_front)
         rear_window = (self.roof_rear + 0.03 < s) & (s < self.deck - 0.02)
-        kinds[windscreen | rear_window, _ROOF_EDGE:] = "glass"
         first, last = self.side_window
-        kinds[(first < s) & (s < last), _BELT] = "glass"
+        windows = (first < s) & (s < last)
+        behind = np.where(s > self.shape.pillars[0] * self.body.length_m, _BEHIND[self.shape.glass], "glass")
+        if self.shape.glass_until is not None:
+            behind = np.where(s > self.shape.glass_until * self.body.length_m, "cabin", behind)
+        kinds[windscreen, _ROOF_EDGE:] = "glass"
+        kinds[rear_window, _ROOF_EDGE:] = behind[rear_window, None]
+        kinds[windows, _BELT] = behind[windows]
         for pillar in self.shape.pillars:
             kinds[np.abs(s - pillar * self.body.length_m) < _HALF_PILLAR_M, _BELT] = "pillar"
         return kinds

@@ -368,6 +368,7 @@ MATERIALS: dict[str, Material] = {
     "glass_dark": Material(
         colour_rgb=(0.008, 0.009, 0.01), roughness=0.03, opacity=0.85, ior=1.52, touch=Touch.PLASTIC
     ),
+    "soft_top": Material(colour_rgb=(0.016, 0.016, 0.018), roughness=0.95, touch=Touch.PLASTIC),
     "interior_dark": Material(colour_rgb=(0.022, 0.022, 0.024), roughness=0.75, touch=Touch.PLASTIC),
     "seat_black": Material(colour_rgb=(0.035, 0.035, 0.038), roughness=0.85, touch=Touch.PLASTIC),
     "seat_grey": Material(colour_rgb=(0.16, 0.16, 0.165), roughness=0.9, touch=Touch.PLASTIC),

@@ -57,6 +57,7 @@ _BASES = {
     "seat_tan": "leather",
     "sign_blue": "aluminum",
     "sign_ring": "aluminum",
+    "soft_top": "fabric",
     "tube_glow": "plexiglass",
 }
 """What their touch does not tell; the sky behind doors is made of nothing."""

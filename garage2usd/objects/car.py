@@ -18,8 +18,8 @@ PAINT_SET = "paint"
 _BODIES = {body.name: body for body in CAR_BODIES}
 _ARCHES_M = 0.01
 """How far the wheel arches stand out of a car's body."""
-_MIRRORS_FROM_NOSE_M = (1.05, 1.75)
-"""Where the mirrors of all bodies are."""
+_HALF_MIRROR_M = 0.1
+"""Of a car's mirrors, along it."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +46,6 @@ class CarSpec(Spec, kind=KIND):
     def outlines(self) -> tuple[Polygon, ...]:
         """Its body with the wheel arches, and its mirrors."""
         body = _BODIES[self.body]
-        side, end, mirrors, (first, last) = (
-            body.width_m / 2 + _ARCHES_M,
-            body.length_m / 2,
-            body.overall_width_m / 2,
-            _MIRRORS_FROM_NOSE_M,
-        )
+        side, end, mirrors = body.width_m / 2 + _ARCHES_M, body.length_m / 2, body.overall_width_m / 2
+        first, last = body.mirrors_m - _HALF_MIRROR_M, body.mirrors_m + _HALF_MIRROR_M
         return rectangle(-side, -end, side, end), rectangle(-mirrors, first - end, mirrors, last - end)

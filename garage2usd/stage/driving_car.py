@@ -12,7 +12,7 @@ from pxr import Gf, Kind, Sdf
 
 from garage2usd.assets import MATERIALS, NON_VISUAL, Asset, Part, pascal_case
 from garage2usd.assets.number_plates import painted_plates
-from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_PAINT, DRIVEN_PLATE, CarBody
+from garage2usd.config.vehicles import DRIVEN_BODIES, DRIVEN_PAINT, DRIVEN_PLATE, CarBody
 from garage2usd.driving import DesignCar
 from garage2usd.driving.timing import Motion
 from garage2usd.driving.trajectory import Trajectory
@@ -32,12 +32,14 @@ _TYPES = Sdf.ValueTypeNames
 
 
 def body_within(car: DesignCar) -> CarBody:
-    """The longest body of the catalogue that lies within a car where both have their rear axles at one place.
+    """The longest of the bodies that drive that lies within a car where both have their rear axles at one place.
 
     The mirrors stand out of it, as they do of the design car. Where none fits, the shortest.
     """
-    fitting = [body for body in CAR_BODIES if _lies_within(body, car)]
-    return max(fitting, key=lambda body: body.length_m) if fitting else min(CAR_BODIES, key=lambda body: body.length_m)
+    fitting = [body for body in DRIVEN_BODIES if _lies_within(body, car)]
+    return (
+        max(fitting, key=lambda body: body.length_m) if fitting else min(DRIVEN_BODIES, key=lambda body: body.length_m)
+    )
 
 
 def _lies_within(body: CarBody, car: DesignCar) -> bool:

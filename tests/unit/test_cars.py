@@ -2,13 +2,16 @@ import numpy as np
 import pytest
 
 from garage2usd.assets import Collider
+from garage2usd.assets.car_shapes import SHAPES, TailLamp
+from garage2usd.assets.car_shell import Shell
 from garage2usd.assets.cars import car
 from garage2usd.config.stage import TextureQuality
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS
 from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype
 
 each_body = pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
+SEGMENTS = {"city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports"}
 NEEDED = {"Body", "Cabin", "Glass", "HeadLamps", "TailLamps", "PlateHolders", "Rims", "Mirrors", "Arches"}
 TYRES = {f"{end}{side}Tyre" for end in ("Front", "Rear") for side in ("Left", "Right")}
 
@@ -34,16 +37,28 @@ def open_edges(part):
     return [edge for edge, count in edges.items() if count != 2]
 
 
-def test_the_catalogue_has_six_kinds_and_nine_paints():
-    assert [b.name for b in CAR_BODIES] == ["hatchback", "saloon", "suv", "van", "pickup", "compact_ev"]
+def test_the_catalogue_has_more_than_thirty_bodies_of_all_segments_and_nine_paints():
+    assert [b.name for b in DRIVEN_BODIES] == ["hatchback", "saloon", "suv", "van", "pickup", "compact_ev"]
+    assert len({b.name for b in CAR_BODIES}) == len(CAR_BODIES) >= 30
+    assert SHAPES.keys() == {b.name for b in CAR_BODIES}
+    assert {b.segment for b in CAR_BODIES} == SEGMENTS
+    assert min(b.length_m for b in CAR_BODIES) == 2.7
+    assert max(b.length_m for b in CAR_BODIES) == 5.6
     assert len(set(PAINTS)) >= 9
 
 
+@pytest.mark.parametrize("body", DRIVEN_BODIES, ids=lambda body: body.name)
+def test_a_body_that_drives_parks_in_the_standard_stall(body):
+    assert body.fits(2.4 - 0.2, 5.3 - 0.22)
+
+
 @each_body
-def test_a_body_parks_in_the_standard_stall(body):
-    assert body.length_m <= 5.3 - 0.22
-    assert body.overall_width_m <= 2.4 - 0.2
+def test_a_body_fits_into_its_own_measures_and_into_nothing_smaller(body):
     assert body.width_m < body.overall_width_m
+    assert body.fits(body.overall_width_m, body.length_m, body.height_m)
+    assert not body.fits(body.overall_width_m - 0.01, body.length_m)
+    assert not body.fits(body.overall_width_m, body.length_m - 0.01)
+    assert not body.fits(body.overall_width_m, body.length_m, body.height_m - 0.01)
 
 
 @each_body
@@ -52,7 +67,8 @@ def test_a_car_has_all_its_parts_in_few_points(body):
     assert parts.keys() >= NEEDED | TYRES
     assert sum(len(part.points) for part in parts.values()) <= 12000
     painted = {name for name, part in parts.items() if part.material.startswith("car_paint")}
-    assert painted >= {"Body", "Cabin", "Mirrors"}
+    assert painted >= {"Body", "Mirrors"}
+    assert parts["Cabin"].material == ("soft_top" if body.name == "roadster" else "car_paint")
     assert {parts[name].material for name in painted} == {"car_paint"}
     assert tuple(car(body).paints) == PAINTS
 
@@ -100,28 +116,30 @@ def unit_normals(faces):
     return normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
-def first_hit(origin, direction, faces):
-    """Distance along a ray to the first face that it meets, and whether it meets its outside (Moeller-Trumbore)."""
+def first_hits(origins, directions, faces):
+    """Distances along rays to the first faces that they meet, and whether they meet outsides (Moeller-Trumbore)."""
     first, second = faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]
-    across = np.cross(direction, second)
-    size = (first * across).sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        away = origin - faces[:, 0]
-        u = (away * across).sum(axis=1) / size
-        turned = np.cross(away, first)
-        v = (turned @ direction) / size
-        distance = (second * turned).sum(axis=1) / size
-    meets = (u >= 0) & (v >= 0) & (u + v <= 1) & (distance > -1e-9)
-    if not meets.any():
-        return np.inf, False
-    nearest = np.flatnonzero(meets)[np.argmin(distance[meets])]
-    return distance[nearest], bool(size[nearest] > 0)
+    distances, outside = np.full(len(origins), np.inf), np.zeros(len(origins), bool)
+    for ray, (origin, direction) in enumerate(zip(origins, directions, strict=True)):
+        across = np.cross(direction, second)
+        size = (first * across).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            away = origin - faces[:, 0]
+            u = (away * across).sum(axis=1) / size
+            turned = np.cross(away, first)
+            v = (turned @ direction) / size
+            distance = (second * turned).sum(axis=1) / size
+        meets = np.flatnonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (distance > -1e-9))
+        if len(meets):
+            nearest = meets[np.argmin(distance[meets])]
+            distances[ray], outside[ray] = distance[nearest], size[nearest] > 0
+    return distances, outside
 
 
 @each_body
 def test_lamps_stand_out_of_the_body_on_both_sides(body):
     parts = parts_of(body)
-    shell = triangles(*(parts[name] for name in ("Body", "Cabin", "Glass")))
+    shell = triangles(*(part for name, part in parts.items() if name in {"Body", "Cabin", "Glass", "RearGlass"}))
     for name in ("HeadLamps", "TailLamps", "ReverseLamps", "LampHousings"):
         faces = triangles(parts[name])
         middles, normals = faces.mean(axis=1), unit_normals(faces)
@@ -130,23 +148,27 @@ def test_lamps_stand_out_of_the_body_on_both_sides(body):
         outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
         outer = (normals * outwards).sum(axis=1) > 0.8
         assert (middles[outer, 0] > 0).sum() == (middles[outer, 0] < 0).sum() > 0
-        for corners, normal in zip(faces[outer], normals[outer], strict=True):
-            for place in (corners.mean(axis=0), *(corners * 0.98 + corners.mean(axis=0) * 0.02)):
-                distance, from_outside = first_hit(place, -normal, shell)
-                assert from_outside, (name, place)
-                assert distance >= 0.002, (name, place)
+        near = shell[np.abs(shell[:, :, 2]).max(axis=1) > body.length_m / 2 - 0.9]
+        right = outer & (middles[:, 0] > 0)
+        places = np.concatenate([faces[right] * 0.98 + middles[right, None] * 0.02, middles[right, None]], axis=1)
+        towards = np.repeat(-normals[right], 4, axis=0)
+        distances, from_outside = first_hits(places.reshape(-1, 3), towards, near)
+        assert from_outside.all(), (name, places.reshape(-1, 3)[~from_outside])
+        assert distances.min() >= 0.002, (name, places.reshape(-1, 3)[np.argmin(distances)])
 
 
 @each_body
-def test_tail_lamps_are_tall_on_upright_tails_and_wide_under_boots(body):
+def test_tail_lamps_are_tall_or_wide_as_their_design_is(body):
     lamps = parts_of(body)["TailLamps"].points
-    right = lamps[(lamps[:, 0] > 0) & (lamps[:, 1] > 0.62)]
+    reflector = Shell(body, SHAPES[body.name]).bumper_top(rear=True)
+    right = lamps[(lamps[:, 0] > 0) & (lamps[:, 1] > reflector)]
     width, height = np.ptp(right[:, 0]), np.ptp(right[:, 1])
-    if body.name in {"suv", "van", "pickup"}:
-        assert height > 0.3
+    design = SHAPES[body.name].tail_lamps
+    if design is TailLamp.TALL:
+        assert height > 0.25
         assert width < 0.25
     else:
-        assert width > 0.3
+        assert width > (0.6 if design is TailLamp.BAR else 0.2)
         assert height < 0.2
 
 

@@ -1,0 +1,168 @@
+"""Wheels of cars: tyres, and rims in several designs; the front ones may be turned."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.car_patches import Faces
+from garage2usd.assets.car_shapes import Rim
+from garage2usd.assets.car_shell import both_sides
+from garage2usd.assets.faces import lathe_faces
+from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.config.vehicles import CarBody
+
+__all__ = ["MOST_STEER_DEG", "steered", "wheels"]
+
+_TYRE_WIDTH_M = 0.21
+_INSIDE_M = 0.012
+"""How far inside the body's width the outer sides of the wheels are."""
+_HALF_M = _TYRE_WIDTH_M / 2
+_FACE_M, _BACK_M = _HALF_M - 0.012, _HALF_M - 0.045
+"""Across the wheel from its middle: where spokes have their faces and where their edges behind are."""
+MOST_STEER_DEG = 20.0
+"""As much as the front wheels turn and still stand no farther out than the mirrors."""
+
+
+def wheels(body: CarBody, design: Rim) -> list[Part]:
+    """Four wheels that stand on the floor: tyre, and a dished rim of some design."""
+    radius, half = body.wheel_radius_m, _HALF_M
+    rim = radius * 0.69
+    tread = [(-half, radius), (half - 0.03, radius), (half, radius - 0.03), (half, rim)]
+    tyre = lathe_faces([(-half, 0.0), *tread, (half - 0.10, rim - 0.02), (half - 0.10, 0.0)], segments=26)
+    lip = lathe_faces(
+        [(half - 0.05, rim - 0.03), (half - 0.002, rim - 0.008), (half + 0.001, rim + 0.004)], segments=24
+    )
+    metal = np.concatenate([lip, *_DESIGNS[design](rim)])
+    hubs = [(body.width_m / 2 - half - _INSIDE_M, radius, z) for z in _axles_m(body)]
+    rims = make_part("Rims", both_sides(np.concatenate([metal + at for at in hubs])), "rim", crease_deg=38)
+    tyres = [
+        make_part(f"{end}{side}Tyre", faces, "tyre", collider=Collider.CONVEX_HULL, crease_deg=38)
+        for end, at in zip(("Front", "Rear"), hubs, strict=True)
+        for side, faces in zip(("Right", "Left"), np.split(both_sides(np.array(tyre) + at), 2), strict=True)
+    ]
+    return [rims, *tyres]
+
+
+def steered(asset: Asset, body: CarBody, steer_deg: float) -> Asset:
+    """A car whose front wheels are turned to the left by an angle of no more than `MOST_STEER_DEG` either way."""
+    if not steer_deg:
+        return asset
+    cos, sin = np.cos(np.radians(steer_deg)), np.sin(np.radians(steer_deg))
+    # about +Y, from a nose that looks to -Z
+    turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
+    axle_m, x_m = _axles_m(body)[0], body.width_m / 2 - _HALF_M - _INSIDE_M
+    return replace(asset, parts=tuple(_turned(part, turn, axle_m, x_m, body.wheelbase_m / 2) for part in asset.parts))
+
+
+def _turned(part: Part, turn: NDArray[np.float64], axle_m: float, x_m: float, near_m: float) -> Part:
+    if part.material not in {"tyre", "rim"}:
+        return part
+    points = part.points.astype(np.float64)
+    is_front = points[:, 2] < axle_m + near_m
+    if not is_front.any():
+        return part
+    hubs = np.stack([np.sign(points[:, 0]) * x_m, points[:, 1], np.full(len(points), axle_m)], axis=1)
+    moved = np.where(is_front[:, None], (points - hubs) @ turn + hubs, points)
+    # normals of front and rear wheels are told apart, as a rim's part holds those of all four
+    count = len(part.normals)
+    normals = np.concatenate([part.normals, (part.normals @ turn).astype(np.float32)])
+    indices = part.normal_indices + count * is_front[part.face_indices].astype(np.int32)
+    return replace(part, points=moved.astype(np.float32), normals=normals, normal_indices=indices)
+
+
+def _axles_m(body: CarBody) -> tuple[float, float]:
+    front = -body.length_m / 2 + body.front_overhang_m
+    return front, front + body.wheelbase_m
+
+
+def _around(faces: Faces, angle: float) -> Faces:
+    cos, sin = np.cos(angle), np.sin(angle)
+    turned: Faces = faces @ np.array([(1, 0, 0), (0, cos, sin), (0, -sin, cos)])
+    return turned
+
+
+def _spoke(
+    near: float, far: float, near_half: float, far_half: float, *, skew: float = 0.0, back_m: float = _BACK_M
+) -> Faces:
+    """A wedge between two radii: its face, and two sides to an edge behind; its outer end is moved by a skew."""
+    left, right = ([(_FACE_M, far, skew + sign * far_half), (_FACE_M, near, sign * near_half)] for sign in (-1.0, 1.0))
+    edge = [(back_m, far, skew), (back_m, near, 0.0)]
+    return np.array([[*a, *b[::-1]] for a, b in ((right, left), (left, edge), (edge, right))])
+
+
+def _sector(near: float, far: float, half_angle: float, *, steps: int, face_m: float = _FACE_M) -> Faces:
+    """A plate between two radii around +Y, seen from outside."""
+    angles = np.linspace(-half_angle, half_angle, steps + 1)
+    grid = np.array([[(face_m, r * np.cos(a), r * np.sin(a)) for r in (far, near)] for a in angles])
+    return np.stack([grid[:-1, 0], grid[1:, 0], grid[1:, 1], grid[:-1, 1]], axis=1)
+
+
+def _hub(radius_m: float = 0.066, *, out_m: float = 0.0) -> Faces:
+    """A cap in the middle."""
+    half = _HALF_M + out_m
+    profile = [(half - 0.08, radius_m * 1.14), (half - 0.016, radius_m), (half - 0.004, radius_m * 0.6)]
+    return np.array(lathe_faces([*profile, (half - 0.004, 0.0)], segments=12))
+
+
+def _ring(faces: Faces, count: int, first: float = 0.0) -> list[Faces]:
+    return [_around(faces, first + 2 * np.pi * number / count) for number in range(count)]
+
+
+def _twin_spoke(rim: float) -> list[Faces]:
+    spoke = _spoke(0.04, rim - 0.012, 0.02, 0.02)
+    return [_hub(), *_ring(spoke, 5, 0.09), *_ring(spoke, 5, -0.09)]
+
+
+def _five_spoke(rim: float) -> list[Faces]:
+    return [_hub(0.075), *_ring(_spoke(0.05, rim - 0.01, 0.052, 0.034), 5)]
+
+
+def _multi_spoke(rim: float) -> list[Faces]:
+    return [_hub(0.06), *_ring(_spoke(0.045, rim - 0.012, 0.010, 0.012), 16)]
+
+
+def _y_spoke(rim: float) -> list[Faces]:
+    fork = rim * 0.58
+    stem = _spoke(0.05, fork, 0.034, 0.030)
+    arms = [_spoke(fork - 0.01, rim - 0.01, 0.020, 0.015, skew=sign * 0.045) for sign in (-1.0, 1.0)]
+    return [_hub(), *_ring(np.concatenate([stem, *arms]), 5)]
+
+
+def _turbine(rim: float) -> list[Faces]:
+    return [_hub(0.07), *_ring(_spoke(0.05, rim - 0.01, 0.016, 0.028, skew=0.055), 9)]
+
+
+def _cover(rim: float) -> list[Faces]:
+    """A cover of plastic over a steel wheel: a disc with a wreath of slots."""
+    inner = np.array(
+        lathe_faces([(_FACE_M, rim * 0.66), (_FACE_M + 0.008, rim * 0.3), (_FACE_M + 0.008, 0.0)], segments=20)
+    )
+    return [inner, *_ring(_sector(rim * 0.66, rim - 0.006, 0.26, steps=2), 9)]
+
+
+def _aero(rim: float) -> list[Faces]:
+    """A closed disc with five narrow slots."""
+    inner = np.array(lathe_faces([(_FACE_M, rim * 0.42), (_FACE_M + 0.006, 0.0)], segments=20))
+    return [inner, *_ring(_sector(rim * 0.42, rim - 0.006, 0.52, steps=4), 5)]
+
+
+def _steel(rim: float) -> list[Faces]:
+    """A pressed steel wheel: a ring of holes around a deep bowl and a small cap."""
+    deep = _FACE_M - 0.03
+    bowl = np.array(lathe_faces([(deep, rim * 0.62), (deep - 0.012, rim * 0.4), (deep + 0.012, 0.075)], segments=20))
+    plates = _ring(_sector(rim * 0.62, rim - 0.006, 0.24, steps=2, face_m=deep), 10)
+    return [bowl, _hub(0.062, out_m=-0.012), *plates]
+
+
+_DESIGNS: dict[Rim, Callable[[float], list[Faces]]] = {
+    Rim.TWIN_SPOKE: _twin_spoke,
+    Rim.FIVE_SPOKE: _five_spoke,
+    Rim.MULTI_SPOKE: _multi_spoke,
+    Rim.Y_SPOKE: _y_spoke,
+    Rim.TURBINE: _turbine,
+    Rim.COVER: _cover,
+    Rim.AERO: _aero,
+    Rim.STEEL: _steel,
+}
