@@ -24,6 +24,8 @@ _ROOM_OVER_HEAD_M = 0.07
 _TRIM_M = 0.055
 """Between the shell and what lines it."""
 _BEVEL_M = 0.035
+_APART_M = 0.002
+"""Between sheets that would else touch in a point."""
 _HIGHEST_CUSHION_M, _LOWEST_CUSHION_M = 0.42, 0.16
 """Of a seat over the floor."""
 _SEAT_UNDER_ROOF_M = 0.88
@@ -124,7 +126,7 @@ def _steering_wheel(shell: Shell, front: _Row) -> list[NDArray[np.float64]]:
     """A ring with two spokes and a hub, turned to the driver."""
     radius, tube = 0.18, 0.016
     turn = np.arange(5) * (2 * np.pi / 4) + np.pi / 4
-    ring = level_lathe_faces([(tube * np.sin(a), radius + tube * np.cos(a)) for a in -turn], segments=16)
+    ring = level_lathe_faces([(tube * np.sin(a), radius + tube * np.cos(a)) for a in turn], segments=16)
     spokes = _pillow((-radius, -0.02, -0.012), (radius, 0.02, 0.012), 0.006)
     hub = _pillow((-0.06, -0.06, -0.02), (0.06, 0.045, 0.02), 0.015)
     lean = np.radians(24)
@@ -137,7 +139,7 @@ def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
     """Floor and door cards as far as the last row, and behind it a shelf up to the rear window, or a bulkhead."""
     half_length = shell.body.length_m / 2
     first, floor = shell.cowl + _DASH_FROM_COWL_M, _floor_m(shell)
-    last = rows[-1].s_m + _BACK_LEAN_M + 0.06
+    last = min(rows[-1].s_m + _BACK_LEAN_M + 0.06, shell.deck - 0.08)
     over_wheels = 2 * shell.body.wheel_radius_m + 0.07
     arch = shell.axles[1] - shell.arch_radius_m - 0.03
     front_arch = shell.axles[0] + shell.arch_radius_m + 0.03
@@ -146,7 +148,7 @@ def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
     for low, high in pairwise(cuts):
         is_over_wheel = low >= arch or high <= front_arch
         bottom = over_wheels if is_over_wheel else floor
-        span = np.linspace(low, high, max(2, int((high - low) / 0.45) + 1))
+        span = np.linspace(low + _APART_M, high, max(2, int((high - low) / 0.45) + 1))
         heights = [shell.shoulder(float(s)) - 0.03 for s in span]
         wall = np.array(
             [
@@ -157,7 +159,7 @@ def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
         right = grid_quads(wall).reshape(-1, 4, 3)[:, ::-1]
         faces += [right, (right * (-1.0, 1.0, 1.0))[:, ::-1]]
         if not is_over_wheel:
-            half = min(_inner_m(shell, low, floor), _inner_m(shell, high, floor))
+            half = min(_inner_m(shell, low, floor), _inner_m(shell, high, floor)) + _APART_M
             faces.append(_across(shell, [(low, floor), (high, floor)], half))
     belt = shell.shoulder(last) - 0.02
     if shell.shape.glass_until is not None:
@@ -190,7 +192,7 @@ def _pillow(low: Sequence[float], high: Sequence[float], bevel_m: float) -> Face
         ring = [(a + corner, b), (c - corner, b), (c, b + corner), (c, d - corner)]
         ring += [(c - corner, d), (a + corner, d), (a, d - corner), (a, b + corner)]
         rings.append([(x, y, z) for x, y in [*ring, ring[0]]])
-    sides = grid_quads(np.array(rings)).reshape(-1, 4, 3)[:, ::-1]
+    sides = grid_quads(np.array(rings)).reshape(-1, 4, 3)
     caps = [np.array(rings[0][:8])[::-1], np.array(rings[3][:8])]
     quads = [cap[list(quad)] for cap in caps for quad in ((0, 1, 2, 7), (7, 2, 3, 6), (6, 3, 4, 5))]
     return np.concatenate([sides, np.array(quads)])

@@ -10,9 +10,9 @@ from garage2usd.assets.car_shell import Shell, both_sides
 
 __all__ = ["HeadLamps", "TailLamps", "head_lamps", "tail_lamps"]
 
-_HOUSING_SKIN_M = 0.008
-_BEZEL_SKIN_M = 0.010
-_LENS_SKIN_M = 0.012
+_HOUSING_SKIN_M = 0.0115
+_BEZEL_SKIN_M = 0.0135
+_LENS_SKIN_M = 0.0155
 _BEZEL_M = 0.009
 """How much wider than its lens a reflector is."""
 _EDGE_M = 0.012

@@ -160,7 +160,7 @@ class Shell:
     @property
     def side_window(self) -> tuple[float, float]:
         """Metres from the nose between which the side is windows and pillars."""
-        return self.cowl + 0.36, self.deck - self.shape.window_run_out_m
+        return min(self.cowl + 0.36, self.roof_front + 0.04), self.deck - self.shape.window_run_out_m
 
     def shoulder(self, s: float) -> float:
         """Height of bonnet edge, belt line or boot lid edge, `s` metres from the nose."""
@@ -345,7 +345,8 @@ class Shell:
         if bed:
             inside = (bed[0] * length + 0.006 < s) & (s < bed[1] * length + 0.006)
             rim = shoulder[inside] + 0.008
-            heights = rim[:, None] + np.outer(_BED_FLOOR_M - rim, _BED[:, 1])
+            floor = max(_BED_FLOOR_M, self.body.wheel_radius_m + self.arch_radius_m + 0.03)
+            heights = rim[:, None] + np.outer(floor - rim, _BED[:, 1])
             top[inside] = np.stack([np.outer(width[inside], _BED[:, 0]), heights], axis=2)
         return top
 

@@ -126,7 +126,9 @@ def _multi_spoke(rim: float) -> list[Faces]:
 def _y_spoke(rim: float) -> list[Faces]:
     fork = rim * 0.58
     stem = _spoke(0.05, fork, 0.034, 0.030)
-    arms = [_spoke(fork - 0.01, rim - 0.01, 0.020, 0.015, skew=sign * 0.045) for sign in (-1.0, 1.0)]
+    arms = [
+        _around(_spoke(fork - 0.01, rim - 0.01, 0.020, 0.015, skew=sign * 0.035), sign * 0.08) for sign in (-1.0, 1.0)
+    ]
     return [_hub(), *_ring(np.concatenate([stem, *arms]), 5)]
 
 
@@ -137,21 +139,23 @@ def _turbine(rim: float) -> list[Faces]:
 def _cover(rim: float) -> list[Faces]:
     """A cover of plastic over a steel wheel: a disc with a wreath of slots."""
     inner = np.array(
-        lathe_faces([(_FACE_M, rim * 0.66), (_FACE_M + 0.008, rim * 0.3), (_FACE_M + 0.008, 0.0)], segments=20)
+        lathe_faces([(_FACE_M - 0.001, rim * 0.67), (_FACE_M + 0.008, rim * 0.3), (_FACE_M + 0.008, 0.0)], segments=20)
     )
     return [inner, *_ring(_sector(rim * 0.66, rim - 0.006, 0.26, steps=2), 9)]
 
 
 def _aero(rim: float) -> list[Faces]:
     """A closed disc with five narrow slots."""
-    inner = np.array(lathe_faces([(_FACE_M, rim * 0.42), (_FACE_M + 0.006, 0.0)], segments=20))
+    inner = np.array(lathe_faces([(_FACE_M - 0.001, rim * 0.43), (_FACE_M + 0.006, 0.0)], segments=20))
     return [inner, *_ring(_sector(rim * 0.42, rim - 0.006, 0.52, steps=4), 5)]
 
 
 def _steel(rim: float) -> list[Faces]:
     """A pressed steel wheel: a ring of holes around a deep bowl and a small cap."""
     deep = _FACE_M - 0.03
-    bowl = np.array(lathe_faces([(deep, rim * 0.62), (deep - 0.012, rim * 0.4), (deep + 0.012, 0.075)], segments=20))
+    bowl = np.array(
+        lathe_faces([(deep - 0.001, rim * 0.63), (deep - 0.012, rim * 0.4), (deep + 0.012, 0.075)], segments=20)
+    )
     plates = _ring(_sector(rim * 0.62, rim - 0.006, 0.24, steps=2, face_m=deep), 10)
     return [bowl, _hub(0.062, out_m=-0.012), *plates]
 

@@ -168,7 +168,7 @@ def test_tail_lamps_are_tall_or_wide_as_their_design_is(body):
         assert height > 0.25
         assert width < 0.25
     else:
-        assert width > (0.6 if design is TailLamp.BAR else 0.2)
+        assert width > (0.5 if design is TailLamp.BAR else 0.2)
         assert height < 0.2
 
 
