@@ -20,6 +20,8 @@ _CUSHION_LENGTH_M, _CUSHION_THICK_M = 0.50, 0.15
 _BACK_M, _BACK_LEAN_M, _BACK_THICK_M = 0.58, 0.20, 0.12
 _HEADREST_M = 0.19
 _ROW_PITCH_M = 0.86
+_LEGS_M = 1.05
+"""From the foot of the windscreen to the front backrests at least."""
 _ROOM_OVER_HEAD_M = 0.07
 _TRIM_M = 0.055
 """Between the shell and what lines it."""
@@ -32,6 +34,8 @@ _SEAT_UNDER_ROOF_M = 0.88
 """From a cushion's top to the roof where there is room for it."""
 _ROOF_POINT = 14.0
 """A point of a ring over the front passengers' heads."""
+_SILL_POINT, _MIDDLE_POINT = 4, 16
+"""The points of a ring from its sill to the middle of the roof, upwards."""
 
 Faces = NDArray[np.float64]
 """float64, shape (faces, 4, 3)."""
@@ -70,7 +74,7 @@ def _roof_m(shell: Shell, s: float) -> float:
 def _rows(shell: Shell) -> list[_Row]:
     """The rows of seats, the front one before the first pillar, the others as far behind as heads have room."""
     shape, length = shell.shape, shell.body.length_m
-    floor, s = _floor_m(shell), shape.pillars[0] * length - 0.20
+    floor, s = _floor_m(shell), max(shape.pillars[0] * length - 0.28, shell.cowl + _LEGS_M)
     rows: list[_Row] = []
     for number in range(shape.rows):
         under_roof = _roof_m(shell, s + _BACK_LEAN_M) - _SEAT_UNDER_ROOF_M
@@ -86,8 +90,9 @@ def _rows(shell: Shell) -> list[_Row]:
 
 
 def _inner_m(shell: Shell, s: float, y: float) -> float:
-    """Half the width between the door cards."""
-    return shell.side_place(s, y)[0] - _TRIM_M
+    """Half the width between the door cards, windows or edges of the roof at a height."""
+    ring = np.array([shell.surface(s, t) for t in range(_SILL_POINT, _MIDDLE_POINT + 1)])
+    return float(np.interp(y, ring[:, 1], ring[:, 0])) - _TRIM_M
 
 
 def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) -> Faces:
@@ -101,12 +106,12 @@ def _across(shell: Shell, line: Sequence[tuple[float, float]], half_m: float) ->
 def _dashboard(shell: Shell, front: _Row) -> Faces:
     """From below the windscreen to before the front seats, down to the floor, with a console between the seats."""
     first = shell.cowl + _DASH_FROM_COWL_M
-    last = max(first + 0.28, front.s_m - 0.92)
+    last = max(first + 0.20, front.s_m - 0.92)
     top, floor = shell.shoulder(first) + 0.012, _floor_m(shell)
     foot = max(first + 0.05, shell.axles[0] + shell.arch_radius_m + 0.04)
     edge = [(first, top - 0.05), (first, top), (last - 0.12, top + 0.012), (last, top - 0.05), (last - 0.02, top - 0.2)]
     line = [*edge, (min(last - 0.15, foot + 0.05) if foot < last - 0.15 else foot, top - 0.34), (foot, floor)]
-    half = min(_inner_m(shell, first, top - 0.05), _inner_m(shell, last, top - 0.05))
+    half = min(_inner_m(shell, first, top + 0.012), _inner_m(shell, last, top + 0.012))
     dash = [_across(shell, line, half)]
     # a hood over the instruments, a screen in the middle
     z = last - shell.body.length_m / 2
@@ -163,9 +168,11 @@ def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
             faces.append(_across(shell, [(low, floor), (high, floor)], half))
     belt = shell.shoulder(last) - 0.02
     if shell.shape.glass_until is not None:
-        top = _roof_m(shell, last)
-        half = min(_inner_m(shell, last, belt), float(shell.surface(last, 12.0)[0])) - 0.02
-        return np.concatenate([*faces, _across(shell, [(last, top), (last, floor)], half)])
+        levels = floor, belt, float(shell.surface(last, 12.0)[1]), _roof_m(shell, last)
+        bulkhead = np.array(
+            [[(x * _inner_m(shell, last, float(y)), y, last - half_length) for x in (1, -1)] for y in levels]
+        )
+        return np.concatenate([*faces, grid_quads(bulkhead).reshape(-1, 4, 3)[:, ::-1]])
     span = np.linspace(last - 0.1, shell.deck - 0.08, 5)
     shelf = np.array(
         [[(x * _inner_m(shell, float(s), belt), belt, s - half_length) for x in (1.0, -1.0)] for s in span]
@@ -233,7 +240,8 @@ def _front_seat(shell: Shell, row: _Row, side: float) -> Faces:
 
 def _bench(shell: Shell, row: _Row) -> Faces:
     """A seat for three, with a headrest for each."""
-    half = _inner_m(shell, row.s_m, row.cushion_m + 0.2) - 0.05
+    top = row.s_m + _BACK_LEAN_M + _BACK_THICK_M / 2, row.cushion_m + _BACK_M
+    half = min(_inner_m(shell, row.s_m, row.cushion_m + 0.2) - 0.05, _inner_m(shell, *top))
     seat = _seat(row, (-half, half), shell.body.length_m / 2)
     heads = [_headrest(shell, row, x) for x in (-0.62 * half, 0.0, 0.62 * half)]
     return np.concatenate([*seat, *heads])

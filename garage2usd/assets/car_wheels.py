@@ -12,8 +12,9 @@ from garage2usd.assets.car_shell import both_sides
 from garage2usd.assets.faces import lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 from garage2usd.config.vehicles import CarBody
+from garage2usd.errors import ConfigError
 
-__all__ = ["MOST_STEER_DEG", "steered", "wheels"]
+__all__ = ["MOST_STEER_DEG", "steered", "steered_box", "wheels"]
 
 _TYRE_WIDTH_M = 0.21
 _INSIDE_M = 0.012
@@ -46,14 +47,31 @@ def wheels(body: CarBody, design: Rim) -> list[Part]:
 
 
 def steered(asset: Asset, body: CarBody, steer_deg: float) -> Asset:
-    """A car whose front wheels are turned to the left by an angle of no more than `MOST_STEER_DEG` either way."""
+    """A car whose front wheels are turned to the left.
+
+    Raises
+    ------
+    ConfigError
+        If the angle is more than `MOST_STEER_DEG` either way.
+    """
     if not steer_deg:
         return asset
+    if not abs(steer_deg) <= MOST_STEER_DEG:
+        raise ConfigError("steer_deg", steer_deg, f"-{MOST_STEER_DEG:g} to {MOST_STEER_DEG:g} degrees")
     cos, sin = np.cos(np.radians(steer_deg)), np.sin(np.radians(steer_deg))
     # about +Y, from a nose that looks to -Z
     turn = np.array([(cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)])
     axle_m, x_m = _axles_m(body)[0], body.width_m / 2 - _HALF_M - _INSIDE_M
     return replace(asset, parts=tuple(_turned(part, turn, axle_m, x_m, body.wheelbase_m / 2) for part in asset.parts))
+
+
+def steered_box(body: CarBody, steer_deg: float) -> tuple[float, float, float]:
+    """What turned front wheels cover on the floor in metres: the farthest X on either side, the first and last Z."""
+    angle = np.radians(abs(steer_deg))
+    radius, (front, _) = body.wheel_radius_m, _axles_m(body)
+    x_m = body.width_m / 2 - _HALF_M - _INSIDE_M + radius * np.sin(angle) + _HALF_M * np.cos(angle)
+    along = radius * np.cos(angle) + _HALF_M * np.sin(angle)
+    return float(x_m), float(front - along), float(front + along)
 
 
 def _turned(part: Part, turn: NDArray[np.float64], axle_m: float, x_m: float, near_m: float) -> Part:

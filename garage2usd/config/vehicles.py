@@ -90,8 +90,8 @@ CAR_BODIES: tuple[CarBody, ...] = (
     CarBody("full_size_pickup", 5.60, 2.03, 1.94, 2.42, 3.50, 0.96, 0.41, 1.91, "pickup"),
     CarBody("roadster", 3.92, 1.74, 1.23, 1.93, 2.31, 0.82, 0.31, 1.77, "sports"),
     CarBody("coupe", 4.45, 1.79, 1.35, 2.02, 2.60, 0.86, 0.33, 1.76, "sports"),
-    CarBody("sports_car", 4.52, 1.86, 1.29, 2.03, 2.45, 1.02, 0.34, 1.57, "sports"),
-    CarBody("muscle_coupe", 4.80, 1.92, 1.39, 2.09, 2.72, 0.93, 0.35, 1.99, "sports"),
+    CarBody("sports_car", 4.52, 1.86, 1.29, 2.06, 2.45, 1.02, 0.34, 1.57, "sports"),
+    CarBody("muscle_coupe", 4.80, 1.92, 1.39, 2.12, 2.72, 0.93, 0.35, 1.99, "sports"),
 )
 
 DRIVEN_BODIES = CAR_BODIES[:6]

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
+from garage2usd.assets.car_wheels import steered, steered_box
 from garage2usd.assets.cars import car
 from garage2usd.assets.mesh import Asset
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
@@ -24,10 +25,20 @@ _HALF_MIRROR_M = 0.1
 
 @dataclass(frozen=True)
 class CarSpec(Spec, kind=KIND):
-    """A parked car; origin in the middle of its footprint, nose to -Z."""
+    """A parked car; origin in the middle of its footprint, nose to -Z.
+
+    Attributes
+    ----------
+    body, paint
+        Keys of the catalogue.
+    steer_deg
+        How far its front wheels are turned to the left, at most `garage2usd.assets.car_wheels.MOST_STEER_DEG` either
+        way.
+    """
 
     body: str
     paint: str
+    steer_deg: float = 0.0
 
     @property
     def shape(self) -> Self:
@@ -41,11 +52,16 @@ class CarSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """The body with its wheels, in every paint."""
-        return car(_BODIES[self.body])
+        body = _BODIES[self.body]
+        return steered(car(body), body, self.steer_deg)
 
     def outlines(self) -> tuple[Polygon, ...]:
-        """Its body with the wheel arches, and its mirrors."""
+        """Its body with the wheel arches, its mirrors, and its front wheels where they are turned."""
         body = _BODIES[self.body]
         side, end, mirrors = body.width_m / 2 + _ARCHES_M, body.length_m / 2, body.overall_width_m / 2
         first, last = body.mirrors_m - _HALF_MIRROR_M, body.mirrors_m + _HALF_MIRROR_M
-        return rectangle(-side, -end, side, end), rectangle(-mirrors, first - end, mirrors, last - end)
+        outlines = rectangle(-side, -end, side, end), rectangle(-mirrors, first - end, mirrors, last - end)
+        if not self.steer_deg:
+            return outlines
+        wheels, front, rear = steered_box(body, self.steer_deg)
+        return *outlines, rectangle(-wheels, front, wheels, rear)

@@ -122,5 +122,7 @@ SPECS = {
     "column_plates_near": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3, 0.21, 0.3, 0.21)),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
+    "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
+    "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),
 }
 """One shape at least of each class of `garage2usd.objects.Spec`."""

@@ -121,7 +121,7 @@ def test_cars_keep_their_measures_and_stand_on_their_wheels(body):
     tyres = np.concatenate([part.points for name, part in parts.items() if name.endswith("Tyre")])
     assert tyres[:, 1].min() == pytest.approx(0.0, abs=0.003)
     assert np.abs(tyres[:, 0]).max() <= body.width_m / 2
-    assert parts["Body"].points[:, 1].min() > 0.15
+    assert parts["Body"].points[:, 1].min() > 0.12
     # rims in all four wheels, as far apart as the wheelbase
     z = parts["Rims"].points[:, 2]
     front = -body.length_m / 2 + body.front_overhang_m

@@ -1,12 +1,17 @@
+from itertools import combinations
+
 import numpy as np
 import pytest
+import shapely
 
 from garage2usd.assets import Collider
-from garage2usd.assets.car_shapes import SHAPES, TailLamp
+from garage2usd.assets.car_shapes import SHAPES, Grille, Head, Rim, TailLamp
 from garage2usd.assets.car_shell import Shell
+from garage2usd.assets.car_wheels import MOST_STEER_DEG, steered_box
 from garage2usd.assets.cars import car
 from garage2usd.config.stage import TextureQuality
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS
+from garage2usd.errors import ConfigError
 from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype
 
@@ -129,7 +134,7 @@ def first_hits(origins, directions, faces):
             turned = np.cross(away, first)
             v = (turned @ direction) / size
             distance = (second * turned).sum(axis=1) / size
-        meets = np.flatnonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (distance > -1e-9))
+            meets = np.flatnonzero((u >= 0) & (v >= 0) & (u + v <= 1) & (distance > -1e-9))
         if len(meets):
             nearest = meets[np.argmin(distance[meets])]
             distances[ray], outside[ray] = distance[nearest], size[nearest] > 0
@@ -219,3 +224,90 @@ def test_convex_hulls_stand_for_the_body_the_cabin_and_each_tyre(body):
     hulls = {name for name, part in parts.items() if part.collider is Collider.CONVEX_HULL}
     assert hulls == {"Body", "Cabin", *TYRES}
     assert parts["Cabin"].points[:, 1].max() > parts["Body"].points[:, 1].max() + 0.2
+
+
+def silhouette(body, axes):
+    """What of a plane the triangles of a car cover, seen along the third axis."""
+    corners = triangles(*car(body).parts)[:, :, axes].round(4)
+    faces = shapely.polygons(corners)
+    return shapely.union_all(shapely.buffer(faces[shapely.area(faces) > 1e-6], 0.002)).simplify(0.002)
+
+
+def test_no_two_bodies_look_alike_from_the_side():
+    sides = {body.name: silhouette(body, [2, 1]) for body in CAR_BODIES}
+    for (first, one), (second, other) in combinations(sides.items(), 2):
+        common = one.intersection(other).area / one.union(other).area
+        assert common < 0.985, (first, second)
+
+
+def test_no_two_bodies_have_the_same_design_and_all_designs_are_used():
+    designs = [
+        (shape.head, shape.tail_lamps, shape.grille, shape.rim, shape.clad, shape.shoulder) for shape in SHAPES.values()
+    ]
+    assert len(set(designs)) == len(CAR_BODIES)
+    for number, design in enumerate((Head, TailLamp, Grille, Rim)):
+        assert {chosen[number] for chosen in designs} == set(design)
+
+
+@each_body
+def test_rays_through_the_windows_meet_seats_or_what_lines_the_inside(body):
+    parts = parts_of(body)
+    shell = Shell(body, SHAPES[body.name])
+    glass, inside, opaque = (
+        triangles(*(part for part in parts.values() if part.material in materials and len(part.points)))
+        for materials in (
+            {"glass", "glass_dark"},
+            {"interior_dark", "seat_black", "seat_grey", "seat_tan"},
+            {part.material for part in parts.values()} - {"glass", "glass_dark"},
+        )
+    )
+    along = shell.shape.pillars[0] * body.length_m + np.linspace(-0.4, 0.2, 49)
+    for sign in (-1.0, 1.0):
+        origins = np.array([(sign * 3.0, shell.shoulder(s) + 0.06, s - body.length_m / 2) for s in along.tolist()])
+        towards = np.tile((-sign, 0.0, 0.0), (len(along), 1))
+        through, _ = first_hits(origins, towards, glass)
+        within, from_outside = first_hits(origins, towards, inside)
+        first, _ = first_hits(origins, towards, opaque)
+        is_seen = from_outside & (through < within) & (within <= first + 1e-6) & (within < 3.0)
+        assert is_seen.sum() >= 2
+
+
+@each_body
+def test_what_is_inside_stays_inside(body):
+    parts = parts_of(body)
+    shell = Shell(body, SHAPES[body.name])
+    points = np.concatenate([parts["Interior"].points, parts["Seats"].points]).astype(float)
+    assert points[:, 2].max() < shell.deck - body.length_m / 2
+    assert points[:, 2].min() > shell.cowl - body.length_m / 2
+    for x, y, z in points:
+        ring = shell._ring_at(z + body.length_m / 2)[4:]
+        side = shapely.Polygon(np.concatenate([ring[:, :2], ring[::-1, :2] * (-1.0, 1.0)]))
+        assert side.buffer(0).contains(shapely.Point(abs(x), max(y, ring[0, 1] + 0.01))), (x, y, z)
+
+
+@each_body
+def test_turned_wheels_stand_where_they_did_and_within_their_outline(body):
+    straight, left = (CarSpec(body.name, "white", steer).asset() for steer in (0.0, MOST_STEER_DEG))
+    before, after = ({part.name: part for part in asset.parts} for asset in (straight, left))
+    (side, first, last) = steered_box(body, MOST_STEER_DEG)
+    assert side <= body.overall_width_m / 2 + 0.01
+    for name in ("FrontRightTyre", "FrontLeftTyre"):
+        middle, moved = (parts[name].points.min(axis=0) + parts[name].points.max(axis=0) for parts in (before, after))
+        assert moved == pytest.approx(middle, abs=0.02)
+        points = after[name].points
+        assert points[:, 1].min() == pytest.approx(0.0, abs=1e-6)
+        assert np.abs(points[:, 0]).max() <= side + 1e-6
+        assert first - 1e-6 <= points[:, 2].min()
+        assert points[:, 2].max() <= last + 1e-6
+    # the front of the right wheel goes to the left
+    right = after["FrontRightTyre"].points
+    ahead = right[right[:, 2] < np.median(right[:, 2])]
+    assert ahead[:, 0].mean() < before["FrontRightTyre"].points[:, 0].mean() - 0.02
+    for name in ("RearRightTyre", "RearLeftTyre"):
+        assert np.array_equal(after[name].points, before[name].points)
+
+
+@pytest.mark.parametrize("steer_deg", [20.1, -21.0, np.nan])
+def test_wheels_turn_no_farther_than_mirrors_stand_out(steer_deg):
+    with pytest.raises(ConfigError, match=r"steer_deg.*-20 to 20 degrees"):
+        CarSpec("saloon", "white", steer_deg).asset()
