@@ -170,7 +170,7 @@ def _tub(shell: Shell, rows: Sequence[_Row]) -> Faces:
     if shell.shape.glass_until is not None:
         levels = floor, belt, float(shell.surface(last, 12.0)[1]), _roof_m(shell, last)
         bulkhead = np.array(
-            [[(x * _inner_m(shell, last, float(y)), y, last - half_length) for x in (1, -1)] for y in levels]
+            [[(x * _inner_m(shell, last, y), y, last - half_length + _APART_M) for x in (1, -1)] for y in levels]
         )
         return np.concatenate([*faces, grid_quads(bulkhead).reshape(-1, 4, 3)[:, ::-1]])
     span = np.linspace(last - 0.1, shell.deck - 0.08, 5)

@@ -13,6 +13,7 @@ PLATE_M = (0.52, 0.11)
 _SEAM_M = 0.007
 _BORDER_M = 0.014
 """Of the bright frame around a grille."""
+_BESIDE_ARCH_M = 0.025
 _BARS = 9
 _HALF_BAR_M = 0.009
 
@@ -27,7 +28,9 @@ def end_trim(shell: Shell) -> Faces:
         faces.append(end_patch(shell, mouth, rear=False))
     elif grille is not Grille.FRAME:
         faces.append(end_patch(shell, across(0.275 * high, 0.375 * high, 0.60 * half, 0.52 * half), rear=False))
-    pocket = [(0.29 * high, at_x(0.70 * half), at_depth(0.17)), (0.40 * high, at_x(0.73 * half), at_depth(0.20))]
+    before, behind = shell.axles[0], shell.body.length_m - shell.axles[1]
+    reach = min(0.17, before - shell.arch_radius_m - _BESIDE_ARCH_M)
+    pocket = [(0.29 * high, at_x(0.70 * half), at_depth(reach)), (0.40 * high, at_x(0.73 * half), at_depth(reach))]
     faces.append(both_sides(end_patch(shell, pocket, rear=False)))
     bonnet = across(top - 0.014, top - 0.007, 0.66 * half, 0.66 * half)
     faces.append(end_patch(shell, bonnet, rear=False, skin_m=0.003))
@@ -36,7 +39,9 @@ def end_trim(shell: Shell) -> Faces:
     plate = rear_plate_m(shell)
     recess = across(plate - 0.03, plate + PLATE_M[1] + 0.03, 0.33 * half, 0.36 * half)
     faces.append(end_patch(shell, recess, rear=True))
-    valance = [(y * high, at_left_depth(depth), at_depth(depth)) for y, depth in ((0.30, 0.30), (0.385, 0.34))]
+    most = behind - shell.arch_radius_m - _BESIDE_ARCH_M
+    edges = ((0.30, min(0.30, most)), (0.385, min(0.34, most)))
+    valance = [(y * high, at_left_depth(depth), at_depth(depth)) for y, depth in edges]
     faces.append(end_patch(shell, valance, rear=True))
     gate = shell.bumper_top(rear=True) + 0.03
     faces.append(end_patch(shell, across(gate, gate + 0.012, 0.70 * half, 0.70 * half), rear=True, skin_m=0.003))

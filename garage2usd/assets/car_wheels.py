@@ -84,10 +84,10 @@ def _turned(part: Part, turn: NDArray[np.float64], axle_m: float, x_m: float, ne
     hubs = np.stack([np.sign(points[:, 0]) * x_m, points[:, 1], np.full(len(points), axle_m)], axis=1)
     moved = np.where(is_front[:, None], (points - hubs) @ turn + hubs, points)
     # normals of front and rear wheels are told apart, as a rim's part holds those of all four
-    count = len(part.normals)
-    normals = np.concatenate([part.normals, (part.normals @ turn).astype(np.float32)])
-    indices = part.normal_indices + count * is_front[part.face_indices].astype(np.int32)
-    return replace(part, points=moved.astype(np.float32), normals=normals, normal_indices=indices)
+    both = np.concatenate([part.normals, (part.normals @ turn).astype(np.float32)])
+    numbers = part.normal_indices + len(part.normals) * is_front[part.face_indices]
+    used, indices = np.unique(numbers, return_inverse=True)
+    return replace(part, points=moved.astype(np.float32), normals=both[used], normal_indices=indices.astype(np.int32))
 
 
 def _axles_m(body: CarBody) -> tuple[float, float]:

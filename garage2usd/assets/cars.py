@@ -1,21 +1,24 @@
 """Car bodies: a lofted shell with glass, lamps, trim and the holders of plates, on four wheels."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from garage2usd.assets.car_interior import interior
 from garage2usd.assets.car_lamps import head_lamps, tail_lamps
 from garage2usd.assets.car_patches import Faces, flat, ribbon, slab
 from garage2usd.assets.car_shapes import SHAPES
-from garage2usd.assets.car_shell import Shell, both_sides
+from garage2usd.assets.car_shell import Shell, both_sides, grid_quads, needed
 from garage2usd.assets.car_trim import PLATE_M, bright_trim, end_trim, front_plate_m, rear_plate_m
 from garage2usd.assets.car_wheels import wheels
 from garage2usd.assets.faces import box_faces, lathe_faces
+from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
-__all__ = ["PLATE_M", "car", "plate_places"]
+__all__ = ["PLATE_M", "car", "dusty", "plate_places"]
 
 _ARCH_LIP_M = 0.03
 _SEAM_M = 0.007
@@ -24,6 +27,11 @@ _PLATE_LIFT_M = 0.0012
 _HOLDER_RIM_M = 0.006
 _HATCH_FROM = 0.93
 """Share of length from which a rear window ends at the tail."""
+_DUST_POINTS = slice(4, 9)
+"""Of a ring: from the sill to the handles of doors."""
+_CLEAN_END_M = 0.34
+"""Length of nose and tail that dust leaves out."""
+_DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
 _RAIL_M = 0.034
 """Height of a rail over the edge of the roof."""
 
@@ -61,6 +69,22 @@ def car(body: CarBody) -> Asset:
     if shape.spoiler:
         parts.append(make_part("Spoiler", flat(_spoiler(shell)), "car_paint", crease_deg=50))
     return Asset(tuple(parts), paints={paint: f"car_paint_{paint}" for paint in PAINTS})
+
+
+def dusty(asset: Asset, body: CarBody) -> Asset:
+    """A car whose flanks are covered with the dust of roads, thick over the sills and none at the door handles."""
+    shell = Shell(body, SHAPES[body.name])
+    stations = np.flatnonzero((shell.stations > _CLEAN_END_M) & (shell.stations < body.length_m - _CLEAN_END_M))
+    side = shell.points[stations, _DUST_POINTS]
+    kept = needed(shell.stations[stations], side.reshape(len(side), -1), _DUST_TOLERANCE_M)
+    faces = grid_quads(side[kept] + np.array((_DUST_LIFT_M, 0.0, 0.0))).reshape(-1, 4, 3)
+
+    def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
+        high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.005, MATERIALS["road_dust"].repeat_up_m or 1.0)
+        return np.stack([corners[:, 2], high], axis=1)
+
+    part = make_part("Dust", flat(both_sides(faces)), "road_dust", crease_deg=50, project=project)
+    return replace(asset, parts=(*asset.parts, part))
 
 
 def plate_places(body: CarBody) -> list[tuple[float, float, float]]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from garage2usd.assets.fields import Field, clouds, grain, noise, ramp, spots
 from garage2usd.config.look import Dirt
 
-__all__ = ["CELLS", "CELLS_ACROSS", "DIRT_CELLS", "Cell", "bake_dirt", "bake_stains"]
+__all__ = ["CELLS", "CELLS_ACROSS", "DIRT_CELLS", "Cell", "bake_dirt", "bake_road_dust", "bake_stains"]
 
 Cell = tuple[float, float, float, float]
 CELLS_ACROSS = 8
@@ -42,6 +42,8 @@ _CELL_PIXELS = 128
 _INK_RGB = {"oil": (26, 23, 20), "drips": (26, 23, 20), "damp": (44, 43, 41), "patch": (138, 135, 128)}
 _RUBBER_RGB = (20, 20, 20)
 _DIRT_RGB = (24, 21, 18)
+_DUST_RGB = (112, 101, 86)
+_DUST_PIXELS = 128, 512
 _FAINT = 0.45
 """Of usual wear."""
 _LANE = 0.228
@@ -70,6 +72,17 @@ def bake_dirt(rng: np.random.Generator) -> NDArray[np.uint8]:
                 window = _window(pixels, cell)
                 worn = _DRAWERS[mark](rng, _shape(window))
                 window[:, :, 3] = _alpha(_FAINT * worn if dirt is Dirt.FAINT else _filthy(rng, worn))
+    return pixels
+
+
+def bake_road_dust(rng: np.random.Generator) -> NDArray[np.uint8]:
+    """The texture of dust on the flanks of cars, thick at the bottom, none at the top; uint8, (rows, columns, 4)."""
+    shape = _DUST_PIXELS
+    pixels = np.zeros((*shape, 4), dtype=np.uint8)
+    pixels[:, :, :3] = _DUST_RGB
+    down, _ = _places(shape)
+    pixels[:, :, 3] = _alpha(0.85 * ramp(down + 0.35 * (clouds(rng, shape, (2, 6), 4) - 0.5) * (1 - down), 0.08, 0.95))
+    pixels[0, :, 3] = 0
     return pixels
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 from garage2usd.assets.car_wheels import steered, steered_box
-from garage2usd.assets.cars import car
+from garage2usd.assets.cars import car, dusty
 from garage2usd.assets.mesh import Asset
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
@@ -34,11 +34,14 @@ class CarSpec(Spec, kind=KIND):
     steer_deg
         How far its front wheels are turned to the left, at most `garage2usd.assets.car_wheels.MOST_STEER_DEG` either
         way.
+    is_dusty
+        Whether its flanks are covered with dust.
     """
 
     body: str
     paint: str
     steer_deg: float = 0.0
+    is_dusty: bool = False
 
     @property
     def shape(self) -> Self:
@@ -51,9 +54,10 @@ class CarSpec(Spec, kind=KIND):
         return ((PAINT_SET, self.paint),)
 
     def asset(self) -> Asset:
-        """The body with its wheels, in every paint."""
+        """The body with its wheels and dust, in every paint."""
         body = _BODIES[self.body]
-        return steered(car(body), body, self.steer_deg)
+        asset = steered(car(body), body, self.steer_deg)
+        return dusty(asset, body) if self.is_dusty else asset
 
     def outlines(self) -> tuple[Polygon, ...]:
         """Its body with the wheel arches, its mirrors, and its front wheels where they are turned."""

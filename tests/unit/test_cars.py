@@ -311,3 +311,21 @@ def test_turned_wheels_stand_where_they_did_and_within_their_outline(body):
 def test_wheels_turn_no_farther_than_mirrors_stand_out(steer_deg):
     with pytest.raises(ConfigError, match=r"steer_deg.*-20 to 20 degrees"):
         CarSpec("saloon", "white", steer_deg).asset()
+
+
+@each_body
+def test_dust_lies_on_the_flanks_and_thins_out_upwards(body):
+    parts = {part.name: part for part in CarSpec(body.name, "white", is_dusty=True).asset().parts}
+    dust = parts.pop("Dust")
+    assert parts.keys() == parts_of(body).keys()
+    assert np.abs(dust.points[:, 0]).max() <= body.width_m / 2 + 0.002
+    assert dust.points[:, 1].max() < Shell(body, SHAPES[body.name]).shoulder(0.9 * body.length_m)
+    high = np.array([dust.points[point, 1] for point in dust.face_indices])
+    v = dust.st[dust.st_indices, 1]
+    assert v[high < high.min() + 0.02].max() < 0.1
+    assert v[high > high.min() + 0.6].min(initial=1.0) == pytest.approx(1.0)
+    order = np.argsort(high)
+    assert (np.diff(v[order]) >= -1e-5).all()
+    faces = triangles(dust)
+    across = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])[:, 0] * np.sign(faces[:, :, 0].mean(axis=1))
+    assert across[across > 0].sum() > 0.999 * np.abs(across).sum()

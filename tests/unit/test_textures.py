@@ -14,8 +14,14 @@ _USED = {texture for material in MATERIALS.values() for texture in material.text
 NAMES = sorted(
     {texture.mask if isinstance(texture, PaintedTexture) else texture for texture in _USED} | {*GLOSSES.values()}
 )
-# bands of walls and columns are as high as one repeat
-SPAN_ONE_HEIGHT = {"band_colour.jpg", "band_packed.png", "dado_colour.jpg", "column_painted_colour.jpg"}
+# bands of walls and columns and dust on cars are as high as one repeat
+SPAN_ONE_HEIGHT = {
+    "band_colour.jpg",
+    "band_packed.png",
+    "dado_colour.jpg",
+    "column_painted_colour.jpg",
+    "road_dust.png",
+}
 HUNG_FROM_THE_TOP = {"wall_colour.jpg", "wall_packed.png"}  # a wall is lower than one repeat
 BUDGET_BYTES = {TextureQuality.LOW: 260_000, TextureQuality.MEDIUM: 850_000, TextureQuality.HIGH: 3_200_000}
 TO_BE_TINTED = sorted(

@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image
 
 from garage2usd.assets.plate_texture import bake_plate_ink, bake_plates
-from garage2usd.assets.stain_texture import bake_dirt, bake_stains
+from garage2usd.assets.stain_texture import bake_dirt, bake_road_dust, bake_stains
 from garage2usd.assets.textures.ceilings import CEILING_FINISHES, CEILINGS
 from garage2usd.assets.textures.floor_finishes import FLOOR_FINISHES
 from garage2usd.assets.textures.floors import FLOORS
@@ -32,6 +32,7 @@ _BAKERS: Bakers = {
     **_FINISHES,
     "stains.png": bake_stains,
     "dirt.png": bake_dirt,
+    "road_dust.png": bake_road_dust,
     "plate_characters.png": bake_plates,
     "plate_ink.png": bake_plate_ink,
 }
