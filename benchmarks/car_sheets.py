@@ -1,6 +1,7 @@
 """Contact sheets of car bodies from the front quarter, the rear quarter and the side, drawn by Blender's Cycles.
 
-``python benchmarks/car_sheets.py FOLDER [NAME ...]`` draws the bodies named, or all, ten a sheet.
+``python benchmarks/car_sheets.py FOLDER [NAME ...]`` draws the bodies named, or all, ten a sheet; with ``--view front``
+all on one sheet, as the documentation shows them.
 """
 
 import argparse
@@ -18,7 +19,7 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody, body_named
 from garage2usd.objects.car import KIND, PAINT_SET
 from garage2usd.stage.prototype_layer import write_prototype
 
-_A_SHEET = 10
+_A_SHEET, _A_ROW = 10, 6
 _VIEWS_DEG = {"front": (215.0, 16.0), "rear": (35.0, 16.0), "side": (90.0, 3.0)}
 """Where the camera stands: the angle around the car from its tail, and over the floor."""
 _FOCAL_MM, _DISTANCE_LENGTHS = 60.0, 2.1
@@ -31,13 +32,32 @@ def main() -> None:
     parser.add_argument("names", nargs="*")
     parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--width", type=int, default=400)
+    parser.add_argument("--view", choices=_VIEWS_DEG)
     arguments = parser.parse_args()
     bodies = [body_named(name) for name in arguments.names] or list(CAR_BODIES)
     arguments.folder.mkdir(parents=True, exist_ok=True)
     size = arguments.width, arguments.width * 9 // 16
+    if arguments.view:
+        grid = draw_grid(bodies, size, arguments.samples, arguments.view)
+        grid.save(arguments.folder / f"cars_{arguments.view}.jpg", quality=88)
+        return
     for number, first in enumerate(range(0, len(bodies), _A_SHEET)):
         sheet = draw_sheet(bodies[first : first + _A_SHEET], size, arguments.samples, first)
         sheet.save(arguments.folder / f"cars_{number:02d}.png")
+
+
+def draw_grid(bodies: Sequence[CarBody], size_px: tuple[int, int], samples: int, view: str) -> Image.Image:
+    """One view of each body, in rows."""
+    width, height = size_px
+    grid = Image.new("RGB", (width * _A_ROW, height * -(-len(bodies) // _A_ROW)), "white")
+    draw = ImageDraw.Draw(grid)
+    with tempfile.TemporaryDirectory() as folder:
+        for place, body in enumerate(bodies):
+            x, y = place % _A_ROW * width, place // _A_ROW * height
+            paint = PAINTS[(place + place // _A_ROW) % len(PAINTS)]
+            grid.paste(_draw_views(body, Path(folder), size_px, samples, paint, [view])[0], (x, y))
+            draw.text((x + 6, y + 4), f"{body.name}  {body.length_m:g} m", fill=(240, 240, 240))
+    return grid
 
 
 def draw_sheet(bodies: Sequence[CarBody], size_px: tuple[int, int], samples: int, first: int = 0) -> Image.Image:
@@ -47,14 +67,18 @@ def draw_sheet(bodies: Sequence[CarBody], size_px: tuple[int, int], samples: int
     draw = ImageDraw.Draw(sheet)
     with tempfile.TemporaryDirectory() as folder:
         for row, body in enumerate(bodies):
-            for column, view in enumerate(_draw_views(body, Path(folder), size_px, samples, PAINTS[(first + row) % 9])):
+            paint = PAINTS[(first + row) % len(PAINTS)]
+            drawn = _draw_views(body, Path(folder), size_px, samples, paint, list(_VIEWS_DEG))
+            for column, view in enumerate(drawn):
                 sheet.paste(view, (column * width, row * height))
             said = f"{body.name}  {body.length_m} x {body.width_m} x {body.height_m} m"
             draw.text((6, row * height + 4), said, fill=(20, 20, 20))
     return sheet
 
 
-def _draw_views(body: CarBody, folder: Path, size_px: tuple[int, int], samples: int, paint: str) -> list[Image.Image]:
+def _draw_views(
+    body: CarBody, folder: Path, size_px: tuple[int, int], samples: int, paint: str, views: Sequence[str]
+) -> list[Image.Image]:
     asset = folder / f"{body.name}.usdc"
     write_prototype(car(body), asset, kind=KIND, quality=TextureQuality.LOW)
     shown = folder / f"{body.name}_shown.usda"
@@ -72,7 +96,8 @@ def _draw_views(body: CarBody, folder: Path, size_px: tuple[int, int], samples: 
     scene.render.resolution_x, scene.render.resolution_y = size_px
     scene.view_settings.view_transform = "AgX"
     pictures = []
-    for name, (around_deg, over_deg) in _VIEWS_DEG.items():
+    for name in views:
+        around_deg, over_deg = _VIEWS_DEG[name]
         camera = bpy.data.objects.new(name, bpy.data.cameras.new(name))
         camera.data.lens = _FOCAL_MM
         away, around, over = _DISTANCE_LENGTHS * body.length_m, math.radians(around_deg), math.radians(over_deg)

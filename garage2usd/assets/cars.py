@@ -36,7 +36,7 @@ _RAIL_M = 0.034
 """Height of a rail over the edge of the roof."""
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=64)
 def car(body: CarBody) -> Asset:
     """A parked car that takes every paint; origin in the middle of its footprint on the floor, nose to -Z."""
     shell = Shell(body, SHAPES[body.name])

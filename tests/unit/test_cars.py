@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from garage2usd.assets import Collider
+from garage2usd.assets import MATERIALS, Collider
 from garage2usd.assets.car_shapes import SHAPES, Grille, Head, Rim, TailLamp
 from garage2usd.assets.car_shell import Shell
 from garage2usd.assets.car_wheels import MOST_STEER_DEG, steered_box
@@ -50,6 +50,7 @@ def test_the_catalogue_has_more_than_thirty_bodies_of_all_segments_and_nine_pain
     assert min(b.length_m for b in CAR_BODIES) == 2.7
     assert max(b.length_m for b in CAR_BODIES) == 5.6
     assert len(set(PAINTS)) >= 9
+    assert {f"car_paint_{paint}" for paint in PAINTS} <= MATERIALS.keys()
 
 
 @pytest.mark.parametrize("body", DRIVEN_BODIES, ids=lambda body: body.name)
