@@ -11,7 +11,7 @@ from PIL import Image
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
-from garage2usd.driving import without_unreachable
+from garage2usd.driving import with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
@@ -296,14 +296,14 @@ def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClau
 
 
 def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
-    """The layout with what is asked of stalls that no car gets into."""
+    """The layout with what is asked of stalls that no car gets into, and the truth beside cars over lines."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:
-        return without_unreachable(layout, graph, config, progress=progress)
+        layout = without_unreachable(layout, graph, config, progress=progress)
     tight = tight_stalls(graph, layout.stalls) if choice is UnreachableStalls.REFUSE else ()
     if tight:
         refuse_undrivable(layout, graph, config, tight, progress=progress)
-    return layout
+    return with_truth_of_misparked(layout, graph, config, progress=progress)
 
 
 def _check_learnt(plan: Plan, *, learning_curve: bool, best_plans: int) -> None:

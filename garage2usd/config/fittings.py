@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from garage2usd.config.markets import PaintShares, SegmentShares
 from garage2usd.settings import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
@@ -119,10 +120,28 @@ class ParkingConfig(Settings):
     """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0. Left out,
     as many as the profile asks for, or a share of 0.02 where it asks for none. Each has a hatched access aisle beside
     it, that two of them share and that takes the place of a stall."""
-    reversed_share: float = Field(0.3, ge=0, le=1)
-    """Share of the parked cars that stand nose out."""
-    max_yaw_deg: float = Field(2.0, ge=0, le=5)
-    """Largest angle between a parked car and its stall."""
+    market: Literal["china", "germany", "uk", "usa", "world"] | None = None
+    """Whose cars park there; left out, those of the profile's country, or of the world where it names none."""
+    bodies: SegmentShares | None = None
+    """Shares of the classes of bodies, as ``{suv = 0.4, hatchback = 0.6}``, as parts of their sum; left out, the
+    market's. A class that is not named has none. A car is drawn among the bodies that fit into its stall."""
+    paints: PaintShares | None = None
+    """Shares of the paints likewise, as ``{white = 0.5, black = 0.5}``."""
+    reversed_share: float | None = Field(None, ge=0, le=1)
+    """Share of the parked cars that stand nose out; left out, the market's."""
+    lateral_spread_m: float = Field(0.12, ge=0, le=0.5)
+    """Standard deviation of how far a parked car stands beside the middle of its stall, as far as the lines leave
+    room."""
+    yaw_spread_deg: float = Field(1.2, ge=0, le=3)
+    """Standard deviation of the angle between a parked car and its stall, as far as the lines leave room."""
+    max_yaw_deg: float = Field(4.0, ge=0, le=5)
+    """Largest such angle."""
+    over_line: float = Field(0.02, ge=0, le=0.2)
+    """Share of the parked cars that stand a few centimetres over a line, only where the next stall's car, parked or to
+    come, has its room nevertheless."""
+    misparked: float = Field(0.0, ge=0, le=0.5)
+    """Share of the parked cars that stand far over a line, aslant or across two stalls, as far as there are free stalls
+    beside cars: that stall is told as blocked."""
 
     @model_validator(mode="after")
     def _no_stall_both_ways(self) -> "ParkingConfig":

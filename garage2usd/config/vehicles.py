@@ -3,7 +3,19 @@
 import math
 from dataclasses import dataclass
 
-__all__ = ["CAR_BODIES", "DRIVEN_BODIES", "DRIVEN_PAINT", "DRIVEN_PLATE", "PAINTS", "CarBody", "body_named"]
+__all__ = [
+    "CAR_BODIES",
+    "DRIVEN_BODIES",
+    "DRIVEN_PAINT",
+    "DRIVEN_PLATE",
+    "PAINTS",
+    "SEGMENTS",
+    "CarBody",
+    "body_named",
+]
+
+SEGMENTS = ("city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports")
+"""The classes of bodies, by which markets differ."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +37,7 @@ class CarBody:
     mirrors_m
         From the nose to the middle of the mirrors.
     segment
-        ``city``, ``hatchback``, ``saloon``, ``estate``, ``suv``, ``mpv``, ``van``, ``pickup`` or ``sports``.
+        Its class, one of `SEGMENTS`.
     """
 
     name: str

@@ -1,6 +1,7 @@
 """A layout and its lane graph as a garage that is driven in."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -15,7 +16,7 @@ from garage2usd.progress import Progress, silent
 from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["layout_garage", "object_name", "prove_stalls", "without_unreachable"]
+__all__ = ["layout_garage", "object_name", "prove_stalls", "with_truth_of_misparked", "without_unreachable"]
 
 
 def prove_stalls(
@@ -63,14 +64,58 @@ def without_unreachable(
         If none is left, or the configuration names a stall that is left out.
     """
     unreachable: set[str] = set()
+    asked, config = config, _with_cars_between_lines(config)
+    layout = layout if config is asked else lay_out(layout.structure, graph, config)
     while True:
         proofs = prove_stalls(layout, graph, progress=progress)
         found = {proof.stall for proof in proofs if not proof.is_proven}
         if not found:
-            return layout
+            return layout if config is asked else lay_out(layout.structure, graph, asked, unreachable=unreachable)
         # a charger, an access aisle or a car that went elsewhere may stand in another's way
         unreachable |= found
         layout = lay_out(layout.structure, graph, config, unreachable=unreachable)
+
+
+def with_truth_of_misparked(
+    layout: Layout, graph: LaneGraph, config: GarageConfig, *, progress: Progress = silent
+) -> Layout:
+    """The layout with what is proven of the stalls that cars reach into from the next stall.
+
+    Parameters
+    ----------
+    layout, graph, config
+        The garage.
+    progress
+        As for `garage2usd.driving.prove_garage`.
+
+    Returns
+    -------
+    Layout
+        Where the design car does not get in while all other stalls are taken, a car that stands a little over its line
+        stands between its lines instead; where it does not get in beside a misparked car, the stall is `blocked`.
+    """
+    held_back: set[str] = set()
+    while layout.reaching:
+        garage, reached = layout_garage(layout, graph), set(layout.reaching.values())
+        proofs = prove_garage(
+            garage, [at for at in garage.stalls if at.name in reached], most_explained=0, progress=progress
+        )
+        needed = {proof.stall for proof in proofs if not proof.is_full}
+        found = {car for car, stall in layout.reaching.items() if stall in needed and car not in layout.misparked}
+        if not found:
+            blocked = {proof.stall for proof in proofs if not proof.is_proven}
+            return replace(layout, blocked=frozenset(blocked))
+        held_back |= found
+        layout = lay_out(layout.structure, graph, config, unreachable=layout.unreachable, held_back=held_back)
+    return layout
+
+
+def _with_cars_between_lines(config: GarageConfig) -> GarageConfig:
+    """The same settings, but that no car stands over a line."""
+    parking = config.parking
+    if not (parking.over_line or parking.misparked):
+        return config
+    return config.model_copy(update={"parking": parking.model_copy(update={"over_line": 0.0, "misparked": 0.0})})
 
 
 def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:

@@ -3,7 +3,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -32,7 +32,8 @@ from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.number_plates import number_plates
 from garage2usd.layout.overhead import exit_signs, mirrors
-from garage2usd.layout.parking import parked_cars, stall_panels, stalls_of, wheel_stops, with_turning_stalls
+from garage2usd.layout.parked_cars import park_cars
+from garage2usd.layout.parking import stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Placement, Stall, StallUse
 from garage2usd.layout.puddles import puddles
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
@@ -41,6 +42,7 @@ from garage2usd.layout.stains import floor_stains
 from garage2usd.layout.stall_numbers import stall_numbers
 from garage2usd.layout.stall_table import STALL_USES, StallTable
 from garage2usd.layout.table import ObjectTable
+from garage2usd.layout.tight import tight_stalls
 from garage2usd.layout.tiles import TileGrid, ceiling_panel
 from garage2usd.layout.zone_plates import zone_plates
 from garage2usd.layout.zones import Zones, with_numbers
@@ -92,6 +94,13 @@ class Layout:
         How it looks, with what its seed draws of it.
     unreachable
         Names of the stalls that are marked or left out.
+    reaching
+        Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
+    misparked
+        Names of the stalls of those that are misparked, as far over that the next stall may be blocked.
+    blocked
+        Names of the stalls that the design car is proven not to get into, as a car that is misparked reaches there;
+        known of a garage that is generated (see `garage2usd.driving.with_truth_of_misparked`).
     """
 
     structure: Structure
@@ -103,6 +112,9 @@ class Layout:
     compartments: NDArray[np.int32]
     look: LookConfig = field(default_factory=LookConfig)
     unreachable: frozenset[str] = frozenset()
+    reaching: Mapping[str, str] = field(default_factory=dict)
+    misparked: frozenset[str] = frozenset()
+    blocked: frozenset[str] = frozenset()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
@@ -171,7 +183,12 @@ class Layout:
 
 
 def lay_out(
-    structure: Structure, graph: LaneGraph, config: GarageConfig, *, unreachable: Collection[str] = ()
+    structure: Structure,
+    graph: LaneGraph,
+    config: GarageConfig,
+    *,
+    unreachable: Collection[str] = (),
+    held_back: Collection[str] = (),
 ) -> Layout:
     """Place every object of a garage.
 
@@ -186,6 +203,8 @@ def lay_out(
     unreachable
         Names of stalls that cars do not get into: left out where ``plan.unreachable_stalls`` is ``drop``, else hatched
         and kept free.
+    held_back
+        Names of stalls whose cars do not stand over a line, as others would lack the room.
 
     Returns
     -------
@@ -216,6 +235,8 @@ def lay_out(
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
+    tight = {stall.name for stall in tight_stalls(graph, stalls)}
+    parked = park_cars(stalls, config, draws, tight=tight, held_back=held_back)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
@@ -229,8 +250,8 @@ def lay_out(
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
         yield wheel_stops(stalls, fittings, config.standard)
-        yield [*(cars := parked_cars(stalls, config.parking, draws)), *number_plates(stalls, cars, draws, country)]
-        yield (closing := cones(grid, stalls, cars, fittings, draws, built_on=core_on))
+        yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
+        yield (closing := cones(grid, stalls, parked.touched, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, grid, look, fittings)
         yield chargers(stalls)
         yield bumps
@@ -264,6 +285,8 @@ def lay_out(
         compartments,
         look,
         frozenset(unreachable),
+        parked.reaching,
+        parked.misparked,
     )
 
 

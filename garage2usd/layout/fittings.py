@@ -1,7 +1,7 @@
 """What hangs over single squares or stands on them: tube lights, speed bumps, cones."""
 
 import math
-from collections.abc import Collection, Container, Iterable, Mapping
+from collections.abc import Collection, Container, Mapping
 
 import numpy as np
 
@@ -110,14 +110,13 @@ def speed_bumps(
 def cones(
     grid: TileGrid,
     stalls: tuple[Stall, ...],
-    cars: Iterable[Placement],
+    taken: Container[str],
     fittings: FittingsConfig,
     draws: SquareDraws,
     *,
     built_on: Container[Square] = (),
 ) -> list[Placement]:
-    """Cones across the mouths of some standard stalls that hold no car, and on the corners of some hatched squares."""
-    taken = {car.stall for car in cars}
+    """Cones across the mouths of some standard stalls that are not taken, and on the corners of some hatched squares."""
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
     found: list[Placement] = []
