@@ -122,9 +122,10 @@ def make_report(
                 yaw_rad=round(stall.yaw_rad, _YAW_DECIMALS),
                 width_m=stall.width_m,
                 length_m=stall.length_m,
-                occupied=car >= 0,
+                occupied=is_occupied,
+                blocked_by=layout.blocked.get(stall.name),
             )
-            for stall, car in zip(layout.stalls, layout.cars_in_stalls().tolist(), strict=True)
+            for stall, is_occupied in zip(layout.stalls, layout.are_occupied().tolist(), strict=True)
         ),
         learning_curve=_mean_returns(plan),
         seconds={step: round(value, 4) for step, value in seconds.items()},

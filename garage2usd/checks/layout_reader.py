@@ -1,5 +1,6 @@
 """A layout, and a plan that could not be laid out, as a subject."""
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -28,7 +29,7 @@ def layout_subject(
     return Subject(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, graph) for stall in layout.stalls),
+        stalls=tuple(_outline(stall, graph, layout.blocked) for stall in layout.stalls),
         nodes=_nodes(graph),
         edges=graph.edges,
         things=_things(layout),
@@ -49,7 +50,7 @@ def unlaid_subject(
     return Subject(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, graph) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
+        stalls=tuple(_outline(stall, graph, {}) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
         nodes=_nodes(graph),
         edges=graph.edges,
         structure=structure,
@@ -57,10 +58,11 @@ def unlaid_subject(
     )
 
 
-def _outline(stall: Stall, graph: LaneGraph) -> StallOutline:
+def _outline(stall: Stall, graph: LaneGraph, blocked: Mapping[str, str]) -> StallOutline:
     left, right, rear_right, rear_left = stall.corners_m()
     corners = (left, right, rear_right, rear_left)
-    facts = (("number", stall.number),) if stall.number else ()
+    said = {"number": stall.number, "blocked_by": blocked.get(stall.name, "")}
+    facts = tuple((fact, value) for fact, value in said.items() if value)
     return StallOutline(stall.name, corners, StallUse(stall.use), graph.number_of[stall.access_square], facts)
 
 

@@ -9,6 +9,7 @@ import shapely
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Length, Profile
+from garage2usd.reading.ground import StallOutline
 
 if TYPE_CHECKING:
     from garage2usd.checks.solids import Solid
@@ -17,6 +18,8 @@ __all__ = ["BOOK"]
 
 BOOK = RuleBook()
 _TOUCH_M = 0.02
+_OVER_LINE_M = 0.1
+"""What the proofs of the next stall usually leave of it; what a car needs more than is left `swept-path` finds."""
 _BELONGS = {"car", "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
 """What may stand in a stall, or has a rule of its own."""
 
@@ -69,11 +72,19 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
                 break
 
 
-@BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall")
+@BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall, or 10 cm over one at most")
 def _outside(subject: Subject, _: Profile) -> Iterator[Miss]:
     for name, (ground, stall) in subject.cars.items():
-        if stall is not None and not stall.polygon.buffer(_TOUCH_M).covers(ground):
+        if stall is not None and not _with_lines(stall).covers(ground):
             yield Miss(name, _centre(ground), f"the car stands out of {stall.name}", things=(name,))
+
+
+def _with_lines(stall: StallOutline) -> shapely.Geometry:
+    """The ground of a stall with what a car may stand over its lines."""
+    x, z = stall.outwards
+    across = np.array([z, -x]) * (_OVER_LINE_M - _TOUCH_M)
+    corners = np.array(stall.corners)
+    return shapely.MultiPoint(np.concatenate([corners - across, corners + across])).convex_hull.buffer(_TOUCH_M)
 
 
 @BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")

@@ -120,8 +120,10 @@ class Subject:
 
     @cached_property
     def taken_stalls(self) -> frozenset[StallOutline]:
-        """The stalls that cars stand in."""
-        return frozenset(home for _, home in self.cars.values() if home is not None)
+        """The stalls that cars stand in, and those that misparked ones of them block."""
+        own = frozenset(home for _, home in self.cars.values() if home is not None)
+        names = {stall.name for stall in own}
+        return own.union(stall for stall in self.stalls if stall.blocked_by in names)
 
     @cached_property
     def onward(self) -> tuple[tuple[int, ...], ...]:

@@ -103,8 +103,9 @@ def with_truth_of_misparked(
         needed = {proof.stall for proof in proofs if not proof.is_full}
         found = {car for car, stall in layout.reaching.items() if stall in needed and car not in layout.misparked}
         if not found:
-            blocked = {proof.stall for proof in proofs if not proof.is_proven}
-            return replace(layout, blocked=frozenset(blocked))
+            blocking = {stall: car for car, stall in layout.reaching.items()}
+            blocked = {proof.stall: blocking[proof.stall] for proof in proofs if not proof.is_proven}
+            return replace(layout, blocked=blocked)
         held_back |= found
         layout = lay_out(layout.structure, graph, config, unreachable=layout.unreachable, held_back=held_back)
     return layout

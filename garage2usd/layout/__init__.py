@@ -99,8 +99,8 @@ class Layout:
     misparked
         Names of the stalls of those that are misparked, as far over that the next stall may be blocked.
     blocked
-        Names of the stalls that the design car is proven not to get into, as a car that is misparked reaches there;
-        known of a garage that is generated (see `garage2usd.driving.with_truth_of_misparked`).
+        Name of each stall that the design car is proven not to get into, as a car that is misparked reaches there, and
+        of the stall of that car; known of a garage that is generated.
     """
 
     structure: Structure
@@ -114,7 +114,7 @@ class Layout:
     unreachable: frozenset[str] = frozenset()
     reaching: Mapping[str, str] = field(default_factory=dict)
     misparked: frozenset[str] = frozenset()
-    blocked: frozenset[str] = frozenset()
+    blocked: Mapping[str, str] = field(default_factory=dict)
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""
@@ -136,6 +136,11 @@ class Layout:
     def cars_in_stalls(self) -> NDArray[np.intp]:
         """Row in `placements` of the car in each stall, -1 where none stands; shape (stalls,)."""
         return self._cars_at(self.stalls.square, self.stalls.ordinal)
+
+    def are_occupied(self) -> NDArray[np.bool_]:
+        """Whether a car stands in each stall: its own, or a misparked one that blocks it; bool, shape (stalls,)."""
+        occupied: NDArray[np.bool_] = self.cars_in_stalls() >= 0
+        return occupied | np.isin(self.stalls.names(), list(self.blocked)) if self.blocked else occupied
 
     def _cars_at(self, square: NDArray[np.integer[Any]], ordinal: NDArray[np.integer[Any]]) -> NDArray[np.intp]:
         """Row in `placements` of the car at each of some stalls, by their squares and numbers there; -1 without one."""
@@ -226,8 +231,7 @@ def lay_out(
     check_carriageways(grid)
     shell = outer_walls(grid, fittings, look.walls)
     pillars = columns(grid, bay, fittings, look.columns, levels.beam_depth_m)
-    arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
-    draws = SquareDraws(grid.tiles, seed=seed, arrangements=arrangements)
+    draws = _draws(grid, config)
 
     zones = Zones(structure) if fittings.zones else None
     stalls = with_numbers(_used_stalls(grid, graph, cores, config, unreachable), zones)
@@ -235,8 +239,7 @@ def lay_out(
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
-    tight = {stall.name for stall in tight_stalls(graph, stalls)}
-    parked = park_cars(stalls, config, draws, tight=tight, held_back=held_back)
+    parked = park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
@@ -288,6 +291,11 @@ def lay_out(
         parked.reaching,
         parked.misparked,
     )
+
+
+def _draws(grid: TileGrid, config: GarageConfig) -> SquareDraws:
+    arrangements = config.stage.arrangements if config.stage.is_nested(len(grid.tiles)) else None
+    return SquareDraws(grid.tiles, seed=config.seed, arrangements=arrangements)
 
 
 def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collection[str]) -> set[str]:

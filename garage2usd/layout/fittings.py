@@ -116,7 +116,7 @@ def cones(
     *,
     built_on: Container[Square] = (),
 ) -> list[Placement]:
-    """Cones across the mouths of some standard stalls that are not taken, and on the corners of some hatched squares."""
+    """Cones across the mouths of some standard stalls that are not taken, and on corners of some hatched squares."""
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CONES, most + 1)
     found: list[Placement] = []

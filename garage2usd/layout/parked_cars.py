@@ -62,9 +62,9 @@ class ParkedCars(NamedTuple):
     misparked: frozenset[str]
 
     @property
-    def touched(self) -> set[str | None]:
+    def touched(self) -> set[str]:
         """Names of the stalls that cars stand in or reach into."""
-        return {car.stall for car in self.cars}.union(self.reaching.values())
+        return {car.stall for car in self.cars if car.stall}.union(self.reaching.values())
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +183,7 @@ def park_cars(
     config: GarageConfig,
     draws: SquareDraws,
     *,
-    tight: Collection[str] = (),
+    tight: Iterable[Stall] = (),
     held_back: Collection[str] = (),
 ) -> ParkedCars:
     """Random cars, of which none touches another or leaves the length of its stall.
@@ -197,7 +197,7 @@ def park_cars(
     draws
         Random numbers.
     tight
-        Names of the stalls whose cars keep their mirrors between the lines, with those beside them.
+        Stalls whose cars keep their mirrors between the lines, with those beside them.
     held_back
         Names of the stalls whose cars do not stand over a line.
 
@@ -223,7 +223,8 @@ def park_cars(
             elif holds_car.get(stall.name):
                 least = min(body.length_m for body in CAR_BODIES)
                 raise ConfigError("parking.occupied_stalls", stall.name, f"stalls that a car of {least} m fits into")
-    rows = [_Row(row, cars, tight) for row in _rows(stalls) if any(stall.name in cars for stall in row)]
+    names = {stall.name for stall in tight}
+    rows = [_Row(row, cars, names) for row in _rows(stalls) if any(stall.name in cars for stall in row)]
     _lean_over(rows, parking, habits, held_back)
     placed = {
         row.stalls[number].name: row.cars[number].placement(side_m)

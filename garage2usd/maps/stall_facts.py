@@ -57,7 +57,10 @@ class StallFacts:
     def facts(self, stall: StallOutline) -> dict[str, Any]:
         """What is said of a stall wherever it is named."""
         named = {"id": stall.name} if stall.number is None else {"id": stall.name, "number": stall.number}
-        return {**named, "use": str(stall.use), "occupied": stall in self._car_of}
+        by = stall.blocked_by
+        is_blocked = by is not None and any(of.name == by for of in self._car_of)
+        blocked = {"blocked_by": by} if is_blocked else {}
+        return {**named, "use": str(stall.use), "occupied": is_blocked or stall in self._car_of, **blocked}
 
     def outline(self, stall: StallOutline) -> dict[str, Any]:
         """What is said of a stall besides: its corners (x, y, z) as `StallOutline` says, lane node, and car."""

@@ -51,7 +51,8 @@ class StallOutline:
         Number of the lane node that its mouth opens onto.
     facts
         What else is said of it, by name: its number, its type, its square, the edge of the square that it opens onto
-        and whether a car stands in it (`occupied`), as far as they are known.
+        whether a car stands in it (`occupied`), as far as they are known, and the id of the stall of the misparked
+        car that blocks it (`blocked_by`), if one does.
     """
 
     name: str
@@ -64,6 +65,12 @@ class StallOutline:
     def number(self) -> str | int | None:
         """What is painted in it, where that is known."""
         return dict(self.facts).get("number")
+
+    @property
+    def blocked_by(self) -> str | None:
+        """Id of the stall of the misparked car that blocks it, if one does."""
+        found = dict(self.facts).get("blocked_by")
+        return None if found is None else str(found)
 
     @property
     def takes_cars(self) -> bool:

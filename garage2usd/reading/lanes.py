@@ -181,6 +181,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
         _incomplete(curves, lanes, "id, use and accessNode")
         return
     columns = {name: curves.values(f"garage:stall:{name}") for name in ("number", "type", "row", "column", "entryEdge")}
+    columns["blocked_by"] = curves.values("garage:stall:blockedBy")
     columns["occupied"] = [value == 1 for value in curves.values("garage:stall:occupied")]
     known = {name: values for name, values in columns.items() if values}
     for index, (line, (name, use, access)) in enumerate(zip(curves.lines, rows, strict=True)):
@@ -193,7 +194,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             lanes.faults.append(Fault(_RULE, place, _middle_of(line), "a stall that opens onto no node"))
         else:
             left, right, rear_right, rear_left = (_point(corner) for corner in line)
-            said = ((fact, values[index]) for fact, values in known.items())
+            said = [(fact, values[index]) for fact, values in known.items() if fact != "blocked_by" or values[index]]
             facts = tuple((fact, value if isinstance(value, int) else str(value)) for fact, value in said)
             outline = (left, right, rear_right, rear_left)
             lanes.stalls.append(StallOutline(place, outline, StallUse(use), int(access), facts))

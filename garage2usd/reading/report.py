@@ -77,7 +77,10 @@ class FireCompartment(Record):
 
 
 class ReportedStall(Record):
-    """A stall; squares are (row, col), its centre is (x, z), and `occupied` says whether a car stands in it."""
+    """A stall; squares are (row, col), its centre is (x, z), and `occupied` says whether a car stands in it.
+
+    That may be a misparked car of the next stall, whose name `blocked_by` is.
+    """
 
     name: str
     number: str
@@ -90,6 +93,7 @@ class ReportedStall(Record):
     width_m: float
     length_m: float
     occupied: bool | None = None
+    blocked_by: str | None = None
 
 
 class UnmetClause(Record):

@@ -116,7 +116,11 @@ class SlotLabels:
 
     def _slots(self) -> Slots:
         found = read_slots(self.stage)
-        slots = [replace(slot, occupied=False) if slot.name in self.vacated else slot for slot in found.slots]
+        vacated = self.vacated
+        slots = [
+            replace(slot, occupied=False, blocked_by=None) if {slot.name, slot.blocked_by} & set(vacated) else slot
+            for slot in found.slots
+        ]
         return replace(found, slots=tuple(slots))
 
     def _frame(self, view: View) -> SlotFrame:

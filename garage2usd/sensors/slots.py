@@ -73,7 +73,9 @@ class Slot:
     angle_deg
         From its entry, left to right, to its left side; 90 where they are square.
     occupied
-        Whether a car stands in it; None where the stage does not say.
+        Whether a car stands in it, its own or one that blocks it; None where the stage does not say.
+    blocked_by
+        Id of the stall of the misparked car that blocks it; None where none does.
     corners_m
         Its `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
     """
@@ -85,6 +87,7 @@ class Slot:
     angle_deg: float
     occupied: bool | None
     corners_m: Points
+    blocked_by: str | None = None
 
     @property
     def facts(self) -> dict[str, object]:
@@ -96,6 +99,7 @@ class Slot:
             "type": str(self.slot_type),
             "angle_deg": self.angle_deg,
             "occupied": self.occupied,
+            "blocked_by": self.blocked_by,
         }
 
 
@@ -254,6 +258,7 @@ def _slot(stall: StallOutline, access: LaneNode, turn: Points) -> Slot:
         round(angle, 3),
         None if occupied is None else bool(occupied),
         np.round(corners @ turn.T, 6) + 0.0,
+        stall.blocked_by,
     )
 
 

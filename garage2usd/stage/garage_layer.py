@@ -131,7 +131,11 @@ def _frame(
 ) -> str:
     """The layer but for what stands in the garage, as USD writes it."""
     variants = variant_texts(
-        _CLASSES, outlines=STALL_OUTLINES, stalls=len(layout.stalls), selected=not arrangement.nested
+        _CLASSES,
+        outlines=STALL_OUTLINES,
+        stalls=len(layout.stalls),
+        are_blocked=bool(layout.blocked),
+        selected=not arrangement.nested,
     )
     names = dict.fromkeys(switch.class_name for switch in SWITCHES.values())
     classes = "".join(f'class "{name}"\n{{\n}}\n' for name in (*names, OCCUPIED_STALL))

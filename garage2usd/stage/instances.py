@@ -69,6 +69,7 @@ class InstanceWriter:
         self._car_of[stalls] = cars
         plates, wearers = layout.cars_with_plates()
         self._car_of[plates] = wearers
+        self._blocked = layout.blocked
         self._headers: dict[tuple[int, int, bool], str] = {}
 
     def texts(self, rows: NDArray[np.intp], origins_m: NDArray[np.float64] | float = 0.0) -> Iterator[str]:
@@ -88,7 +89,7 @@ class InstanceWriter:
             rows.tolist(), *(column.tolist() for column in columns), positions, yaws, strict=True
         ):
             stall, shape, has_car = self._stalls.get(row), objects.specs[spec], car >= 0
-            is_taken = stall is not None and has_car
+            is_taken = stall is not None and (has_car or stall.name in self._blocked)
             header = self._headers.get((kind, spec, is_taken)) or self._header(kind, spec, is_taken=is_taken)
             prim = names[name].decode("ascii")
             said = "" if stall is None else _stall_text(stall, is_taken=is_taken)

@@ -12,7 +12,7 @@ from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
-from garage2usd.stage.variants import OCCUPIED
+from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED
 from garage2usd.structure.lane_graph import LaneGraph
 
 __all__ = ["GUIDE_LIFT_M", "LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
@@ -42,8 +42,9 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
     ``:to`` (numbers of nodes), ``:length``, ``:width`` (metres) and ``:direction`` (``both``, or ``forward`` from an
     entrance and into an exit). ``Stalls`` has the outline of each stall, mouth left, mouth right, rear right, rear
     left, with ``garage:stall:id``, ``:number``, ``:type``, ``:use``, ``:row``, ``:column``, ``:accessNode`` (number of
-    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0). No attribute is ``bool[]``, ``int2[]`` or
-    ``string[]``, which three.js cannot read from a crate.
+    a node), ``:entryEdge`` and ``:occupied`` (1 where a car stands, else 0); where misparked cars block stalls,
+    ``:blockedBy`` is the id of the stall of the car, or empty. No attribute is ``bool[]``, ``int2[]`` or ``string[]``,
+    which three.js cannot read from a crate.
     """
     root = Sdf.Path.absoluteRootPath.AppendChild(_ROOT)
     with new_layer(path, default_prim=_ROOT) as layer:
@@ -89,7 +90,9 @@ def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     _author_squares(prim, "garage:stall", stalls.square)
     access = [graph.number_of[row, col] for row, col in zip(*stalls.access_square.T.tolist(), strict=True)]
     numbers(prim, "garage:stall:accessNode", np.array(access, dtype=np.int32))
-    numbers(prim, OCCUPIED, (layout.cars_in_stalls() >= 0).astype(np.int32))
+    numbers(prim, OCCUPIED, layout.are_occupied().astype(np.int32))
+    if layout.blocked:
+        words(prim, BLOCKED_BY, (layout.blocked.get(name, "") for name in stalls.names()))
 
 
 def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from garage2usd.objects import KINDS
 from garage2usd.objects.kind import VariantSet
 
 __all__ = [
+    "BLOCKED_BY",
     "OCCUPIED",
     "OCCUPIED_STALL",
     "POWER_SET",
@@ -21,6 +22,8 @@ POWER_SET = "power"
 """Variant set of every light's asset: ``on`` or ``off``."""
 OCCUPIED = "garage:stall:occupied"
 """Attribute of a stall: whether a car stands in it."""
+BLOCKED_BY = "garage:stall:blockedBy"
+"""Attribute of a stall: id of the stall of the misparked car that blocks it."""
 OCCUPIED_STALL = "OccupiedStall"
 """Name of the class of all stalls that a car stands in as long as cars are shown."""
 
@@ -66,7 +69,9 @@ class VariantTexts(NamedTuple):
     body: str
 
 
-def variant_texts(classes: str, *, outlines: tuple[str, ...], stalls: int, selected: bool) -> VariantTexts:
+def variant_texts(
+    classes: str, *, outlines: tuple[str, ...], stalls: int, are_blocked: bool, selected: bool
+) -> VariantTexts:
     """The variant sets ``occupancy`` (parked, empty), ``lights`` (on, off) and ``ceiling`` (shown, hidden).
 
     Parameters
@@ -75,6 +80,8 @@ def variant_texts(classes: str, *, outlines: tuple[str, ...], stalls: int, selec
         Name of the child that holds the class of each.
     outlines
         Names of the prims from the child on that lead to the outlines of all stalls, and how many these are.
+    are_blocked
+        Whether some stalls are blocked, which they are not without cars.
     selected
         Whether the first choice of each is selected. It says nothing of the objects, so that none is the same; but
         each prim below takes longer to compose, which of tens of thousands is a fifth of the time to open them.
@@ -87,6 +94,7 @@ def variant_texts(classes: str, *, outlines: tuple[str, ...], stalls: int, selec
             usual = _over(classes, "", _over(OCCUPIED_STALL, "", occupied_text(is_occupied=True)))
             other += _over(OCCUPIED_STALL, "", occupied_text(is_occupied=False))
             beside = f"custom int[] {OCCUPIED} = [{', '.join('0' * stalls)}]\n"
+            beside += f"custom token[] {BLOCKED_BY} = []\n" if are_blocked else ""
             for name in reversed(outlines):
                 beside = _over(name, "", beside)
         choices = f'"{switch.usual}" {{\n{usual}}}\n"{switch.other}" {{\n{_over(classes, "", other)}{beside}}}\n'
