@@ -26,10 +26,10 @@ from garage2usd.structure.lane_graph import Square
 __all__ = ["ParkedCars", "park_cars"]
 
 _END_CLEARANCE_M = 0.1
-"""Between a car and the mouth of its stall, or a wall beside the stall."""
+"""Between a car and the mouth of its stall."""
 _REAR_CLEARANCE_M = 0.12
 _LINE_M = 0.05
-"""Half the width of a line: bodies of cars between their lines keep off it, mirrors hang over it."""
+"""Half the width of a line: bodies of cars between their lines keep off it, and so do mirrors towards the ends of rows."""
 _GAP_M = 0.1
 """Between what stands out of two cars beside each other, mirrors included."""
 _OVER_M = (0.01, 0.08)
@@ -127,7 +127,7 @@ class _Row:
         """From where to where the middle of a car between its lines lies."""
         car = self.cars[number]
         free_m = max(self.width_m / 2 - _LINE_M - car.half_x(mirrors=False), 0.0)
-        walled_m = max(self.width_m / 2 - _END_CLEARANCE_M - car.half_x(), 0.0)
+        walled_m = max(self.width_m / 2 - _LINE_M - car.half_x(), 0.0)
         return -(free_m if self.is_lent(number - 1) else walled_m), free_m if self.is_lent(number + 1) else walled_m
 
     def _ranges(self) -> dict[int, tuple[float, float]] | None:

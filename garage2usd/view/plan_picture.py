@@ -121,11 +121,13 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     for stall in layout.stalls:
         corners = stall.corners_m()
         car = cars.get(stall.name)
-        kind = f"stall {stall.use} occupied" if car else f"stall {stall.use}"
+        said = " blocked" if stall.name in layout.blocked else " occupied" if car else ""
+        kind = f"stall {stall.use}{said}"
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
-        if car:
-            yield Region(_car_outline(car), _CAR, "car")
+    # some cars reach into the next stall
+    yield from (Region(_car_outline(car), _CAR, "car") for car in cars.values())
+    for stall in layout.stalls:
         if stall.number:
             yield _number(stall)
 

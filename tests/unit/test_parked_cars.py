@@ -1,0 +1,226 @@
+import math
+from collections import Counter
+
+import numpy as np
+import pytest
+import shapely
+from support.footprints import footprint
+from support.overlaps import Solids
+
+from garage2usd.config import GarageConfig, config_from_mapping
+from garage2usd.config.markets import MARKET_NAMES, load_market, market_of
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS, SEGMENTS, body_named
+from garage2usd.driving import prove_stalls
+from garage2usd.errors import ConfigError
+from garage2usd.layout import lay_out
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parked_cars import park_cars
+from garage2usd.layout.parking import stalls_of
+from garage2usd.layout.tiles import TileGrid
+from garage2usd.pipeline import generate
+from garage2usd.structure.grid import Structure, cells_from_text
+from garage2usd.structure.lane_graph import build_lane_graph
+
+PLAN = """
+..........
+.========.
+E=..==..=X
+.========.
+..........
+"""
+GARAGES = 500
+
+
+def plan(config):
+    structure = Structure.from_arrays(cells_from_text(PLAN, field="S"), *[3 * config.bay.stall_width_m + 0.9] * 2)
+    graph = build_lane_graph(structure, config.bay)
+    grid = TileGrid(structure, graph, config.bay)
+    return grid, stalls_of(grid, graph, config.bay)
+
+
+def parked(config, garages=GARAGES):
+    """The cars of many garages with one plan, and their stalls by name."""
+    grid, stalls = plan(config)
+    found = [park_cars(stalls, config, SquareDraws(grid.tiles, seed=seed)) for seed in range(garages)]
+    return found, {stall.name: stall for stall in stalls}
+
+
+def posture(car, stall):
+    """(metres to the side, degrees, whether it stands nose out) of a car in its stall, measured in the garage."""
+    (x, _, z), (cx, cz) = car.position_m, stall.centre_m
+    (ax, az), (bx, bz) = stall.corners_m()[:2]
+    across = np.array([bx - ax, bz - az]) / math.dist((ax, az), (bx, bz))
+    turn = math.remainder(car.yaw_rad - stall.yaw_rad, math.tau)
+    is_out = abs(turn) > math.pi / 2
+    yaw = math.remainder(turn - (math.pi if is_out else 0), math.tau)
+    return float(np.dot(across, (x - cx, z - cz))), math.degrees(yaw), is_out
+
+
+def body_ground(car):
+    """The (x, z) polygon of a car's body without its mirrors."""
+    body, (x, _, z) = body_named(car.spec.body), car.position_m
+    box = shapely.box(-body.width_m / 2, -body.length_m / 2, body.width_m / 2, body.length_m / 2)
+    turned = shapely.affinity.rotate(box, -math.degrees(car.yaw_rad), origin=(0, 0))
+    return shapely.affinity.translate(turned, x, z)
+
+
+@pytest.mark.parametrize(
+    ("profile", "market", "stall"),
+    [("de-garvo", "germany", (2.5, 5.5)), ("us-ada", "usa", (2.75, 5.6)), ("cn-jgj100", "china", (2.5, 5.5))],
+)
+def test_five_hundred_garages_have_the_shares_of_their_market(profile, market, stall):
+    """Bodies, paints, cars nose out and over a line, each to a point of the table."""
+    bay = {"stall_width_m": stall[0], "stall_length_m": stall[1], "square_side_m": 8.6}
+    garages, stalls = parked(GarageConfig(profile=profile, bay=bay))
+    cars = [car for each in garages for car in each.cars]
+    table = load_market(market)
+    segments = Counter(body_named(car.spec.body).segment for car in cars)
+    there = {body.segment for body in CAR_BODIES}
+    total = sum(share for segment, share in table.segments.shares.items() if segment in there)
+    for segment in SEGMENTS:
+        wanted = table.segments.shares.get(segment, 0) / total if segment in there else 0
+        assert segments[segment] / len(cars) == pytest.approx(wanted, abs=0.01), segment
+    paints = Counter(car.spec.paint for car in cars)
+    for paint in PAINTS:
+        assert paints[paint] / len(cars) == pytest.approx(table.paints.shares.get(paint, 0), abs=0.01), paint
+    noses_out = sum(posture(car, stalls[car.stall])[2] for car in cars)
+    assert noses_out / len(cars) == pytest.approx(table.reversed.share, abs=0.01)
+    over = sum(not shapely.Polygon(stalls[car.stall].corners_m()).covers(body_ground(car)) for car in cars)
+    assert over / len(cars) == pytest.approx(0.02, abs=0.01)
+    assert over == sum(len(each.reaching) for each in garages)
+
+
+def test_cars_stand_beside_and_aslant_as_people_leave_them():
+    """In wide stalls by the asked spreads; in narrow ones lines and neighbours cut the normal distribution."""
+    wide = GarageConfig(bay={"stall_width_m": 3.0, "square_side_m": 9.9}, parking={"over_line": 0})
+    narrow = GarageConfig(parking={"over_line": 0})
+    for config, least_m in ((wide, 0.11), (narrow, 0.085)):
+        garages, stalls = parked(config)
+        sides, yaws, _ = np.array([posture(car, stalls[car.stall]) for each in garages for car in each.cars]).T
+        assert least_m < sides.std() < 0.125
+        assert 1.0 < yaws.std() < 1.25
+        assert abs(sides.mean()) < 0.01
+        assert abs(yaws.mean()) < 0.03
+        assert np.abs(yaws).max() <= 4.0
+
+
+def test_no_spread_stands_cars_in_the_middle():
+    garages, stalls = parked(GarageConfig(parking={"lateral_spread_m": 0, "yaw_spread_deg": 0, "over_line": 0}), 5)
+    for car in (car for each in garages for car in each.cars):
+        side_m, yaw_deg, _ = posture(car, stalls[car.stall])
+        assert (side_m, yaw_deg) == pytest.approx((0, 0), abs=1e-4)
+
+
+@pytest.mark.parametrize("stall_width_m", [2.3, 2.4, 2.75])
+def test_no_car_touches_another_or_leaves_the_length_of_its_stall(stall_width_m):
+    """Not even in full garages with many over their lines; to the lane and the rear each keeps inside."""
+    bay = {"stall_width_m": stall_width_m, "square_side_m": 8.6}
+    parking = {"occupancy": 0.8, "over_line": 0.2, "misparked": 0.3, "yaw_spread_deg": 3, "max_yaw_deg": 5}
+    garages, stalls = parked(GarageConfig(bay=bay, parking=parking), 60)
+    far = 0
+    for each in garages:
+        grounds = [footprint(car) for car in each.cars]
+        one, other = shapely.STRtree(grounds).query(grounds, predicate="dwithin", distance=0.098)
+        assert (one == other).all()
+        for car, ground in zip(each.cars, grounds, strict=True):
+            stall = stalls[car.stall]
+            beside = stalls[each.reaching.get(car.stall, car.stall)]
+            own = shapely.Polygon(stall.corners_m())
+            row = shapely.union_all([own, shapely.Polygon(beside.corners_m())]).convex_hull.buffer(0.11)
+            assert row.covers(ground)
+            assert own.intersection(body_ground(car)).area > 0.5 * body_ground(car).area
+            mouth = shapely.LineString(stall.corners_m()[:2])
+            rear = shapely.LineString(stall.corners_m()[2:])
+            assert min(mouth.distance(ground), rear.distance(ground)) > 0.09
+        far += len(each.misparked)
+    assert far > 60
+
+
+def test_the_next_garage_is_the_same_but_for_what_was_asked():
+    """Shares, spreads and markets change neither which stalls are occupied nor one another."""
+    usual = parked(GarageConfig(), 3)[0]
+    taken = [[car.stall for car in each.cars] for each in usual]
+    for parking in ({"market": "usa"}, {"over_line": 0.2}, {"misparked": 0.4}, {"lateral_spread_m": 0.3}):
+        other = parked(GarageConfig(parking=parking), 3)[0]
+        assert [[car.stall for car in each.cars] for each in other] == taken
+    paints = [[car.spec.paint for car in each.cars] for each in usual]
+    bodies = parked(GarageConfig(parking={"bodies": {"suv": 1}}), 3)[0]
+    assert [[car.spec.paint for car in each.cars] for each in bodies] == paints
+    assert {car.spec.body for each in bodies for car in each.cars} == {"suv"}
+
+
+def test_given_shares_take_the_place_of_the_markets():
+    parking = {"bodies": {"suv": 0.6, "city": 0.2}, "paints": {"red": 1}, "reversed_share": 1.0}
+    garages, stalls = parked(GarageConfig(parking=parking), 100)
+    cars = [car for each in garages for car in each.cars]
+    segments = Counter(body_named(car.spec.body).segment for car in cars)
+    assert segments["suv"] / len(cars) == pytest.approx(0.75, abs=0.02)
+    assert {car.spec.paint for car in cars} == {"red"}
+    assert all(posture(car, stalls[car.stall])[2] for car in cars)
+
+
+@pytest.mark.parametrize(
+    ("parking", "message"),
+    [
+        ({"bodies": {"tank": 0.5}}, r"parking.bodies.*city, hatchback.*not of tank"),
+        ({"paints": {"white": 0}}, r"parking.paints.*more than 0"),
+        ({"market": "mars"}, r"parking.market.*'china'"),
+        ({"over_line": 0.9}, r"parking.over_line"),
+        ({"misparked": -1}, r"parking.misparked"),
+    ],
+)
+def test_wrong_shares_are_named(parking, message):
+    with pytest.raises(ConfigError, match=message):
+        config_from_mapping({"parking": parking})
+
+
+@pytest.mark.parametrize("name", MARKET_NAMES)
+def test_the_tables_of_a_market_add_up(name):
+    market = load_market(name)
+    for shares in (market.segments.shares, market.paints.shares):
+        assert sum(shares.values()) == pytest.approx(1)
+    grey = sum(market.paints.shares[paint] for paint in ("white", "black", "grey", "silver"))
+    assert 0.68 < grey < 0.85
+    assert all(market_of(country) is market_of(country) == market for country in market.countries)
+
+
+def test_cars_over_a_line_leave_every_stall_proven():
+    """Also with ten times as many as usual: who would be in the way stands between the lines instead."""
+    leaning = 0
+    for seed in range(6):
+        garage = generate(GarageConfig(seed=seed, parking={"over_line": 0.2, "occupancy": 0.8}))
+        leaning += len(garage.layout.reaching)
+        assert not garage.layout.blocked
+        assert all(proof.is_full for proof in prove_stalls(garage.layout, garage.graph))
+        assert not list(Solids(garage.layout, ("car", "wheel_stop", "column", "wall", "cone")).clashes())
+    assert leaning > 40
+
+
+def test_a_car_that_would_be_in_the_way_of_a_proof_is_held_back():
+    config = GarageConfig(seed=1, parking={"over_line": 0.2})
+    garage = generate(config)
+    name = next(iter(garage.layout.reaching))
+    held = lay_out(garage.layout.structure, garage.graph, config, held_back={name})
+    assert name not in held.reaching
+    car = next(car for car in held.of_kind("car") if car.stall == name)
+    stall = next(stall for stall in held.stalls if stall.name == name)
+    assert shapely.Polygon(stall.corners_m()).covers(body_ground(car))
+
+
+def test_stalls_that_misparked_cars_block_are_told():
+    """Exactly those are blocked that the design car does not get into, each by the car that reaches there."""
+    told = 0
+    for seed in range(5):
+        garage = generate(GarageConfig(seed=seed, parking={"misparked": 0.15, "occupancy": 0.6}))
+        layout = garage.layout
+        proofs = {proof.stall: proof for proof in prove_stalls(layout, garage.graph)}
+        assert {name for name, proof in proofs.items() if not proof.is_proven} == set(layout.blocked)
+        occupied = dict(zip(layout.stalls.names(), layout.are_occupied().tolist(), strict=True))
+        cars = {car.stall: car for car in layout.of_kind("car")}
+        for stall, by in layout.blocked.items():
+            assert occupied[stall]
+            assert stall not in cars
+            assert by in layout.misparked
+            assert any(cars[by].name in name for name in proofs[stall].touched)
+        told += len(layout.blocked)
+    assert told > 10
