@@ -129,7 +129,7 @@ class ParkingConfig(Settings):
     """Shares of the paints likewise, as ``{white = 0.5, black = 0.5}``."""
     reversed_share: float | None = Field(None, ge=0, le=1)
     """Share of the parked cars that stand nose out; left out, the market's."""
-    lateral_spread_m: float = Field(0.12, ge=0, le=0.5)
+    lateral_spread_m: float = Field(0.15, ge=0, le=0.5)
     """Standard deviation of how far a parked car stands beside the middle of its stall, as far as the lines leave
     room."""
     yaw_spread_deg: float = Field(1.2, ge=0, le=3)

@@ -29,7 +29,9 @@ _END_CLEARANCE_M = 0.1
 """Between a car and the mouth of its stall."""
 _REAR_CLEARANCE_M = 0.12
 _LINE_M = 0.05
-"""Half the width of a line: bodies of cars between their lines keep off it, and so do mirrors towards the ends of rows."""
+"""Half the width of a line: bodies of cars between their lines keep off it."""
+_ROW_END_M = 0.03
+"""What mirrors keep inside the line at the end of a row, where columns and walls stand."""
 _GAP_M = 0.1
 """Between what stands out of two cars beside each other, mirrors included."""
 _OVER_M = (0.01, 0.08)
@@ -127,7 +129,7 @@ class _Row:
         """From where to where the middle of a car between its lines lies."""
         car = self.cars[number]
         free_m = max(self.width_m / 2 - _LINE_M - car.half_x(mirrors=False), 0.0)
-        walled_m = max(self.width_m / 2 - _LINE_M - car.half_x(), 0.0)
+        walled_m = max(self.width_m / 2 - _ROW_END_M - car.half_x(), 0.0)
         return -(free_m if self.is_lent(number - 1) else walled_m), free_m if self.is_lent(number + 1) else walled_m
 
     def _ranges(self) -> dict[int, tuple[float, float]] | None:
@@ -148,11 +150,15 @@ class _Row:
         return ranges if all(low <= high + _ROUNDING_M for low, high in ranges.values()) else None
 
     def lean(self, number: int, beside: int, over_m: float, yaw: float | None = None) -> bool:
-        """Let the body of a car reach so far into the stall beside; whether there is room for that."""
+        """Let the body of a car reach so far into the stall beside; whether there is room for that.
+
+        One that stands aslant reaches farther, as it keeps off its other line.
+        """
         before, car, limits = self.cars[number], self.cars[number], self.limits[number]
         if yaw is not None:
             car = replace(car, yaw=yaw)
             self.cars[number] = car
+        over_m = max(over_m, car.half_x() + car.half_x(mirrors=False) - self.width_m + _ROW_END_M)
         side_m = (self.width_m / 2 + over_m - car.half_x(mirrors=False)) * (beside - number)
         self.limits[number] = side_m, side_m
         if self._ranges() is None:

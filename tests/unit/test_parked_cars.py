@@ -94,10 +94,10 @@ def test_cars_stand_beside_and_aslant_as_people_leave_them():
     """In wide stalls by the asked spreads; in narrow ones lines and neighbours cut the normal distribution."""
     wide = GarageConfig(bay={"stall_width_m": 3.0, "square_side_m": 9.9}, parking={"over_line": 0})
     narrow = GarageConfig(parking={"over_line": 0})
-    for config, least_m in ((wide, 0.11), (narrow, 0.085)):
+    for config, least_m in ((wide, 0.14), (narrow, 0.08)):
         garages, stalls = parked(config)
         sides, yaws, _ = np.array([posture(car, stalls[car.stall]) for each in garages for car in each.cars]).T
-        assert least_m < sides.std() < 0.125
+        assert least_m < sides.std() < 0.152
         assert 1.0 < yaws.std() < 1.25
         assert abs(sides.mean()) < 0.01
         assert abs(yaws.mean()) < 0.03
@@ -140,7 +140,7 @@ def test_the_next_garage_is_the_same_but_for_what_was_asked():
     """Shares, spreads and markets change neither which stalls are occupied nor one another."""
     usual = parked(GarageConfig(), 3)[0]
     taken = [[car.stall for car in each.cars] for each in usual]
-    for parking in ({"market": "usa"}, {"over_line": 0.2}, {"misparked": 0.4}, {"lateral_spread_m": 0.3}):
+    for parking in ({"market": "usa"}, {"over_line": 0.2}, {"misparked": 0.4}, {"lateral_spread_m": 0.05}):
         other = parked(GarageConfig(parking=parking), 3)[0]
         assert [[car.stall for car in each.cars] for each in other] == taken
     paints = [[car.spec.paint for car in each.cars] for each in usual]
