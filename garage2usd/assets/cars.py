@@ -96,7 +96,7 @@ def plate_places(body: CarBody) -> list[tuple[float, float, float]]:
         Of the front plate and of the rear one: the way along Z that it looks, -1 or 1, and Y and Z of its middle in
         metres.
     """
-    return _plate_places(Shell(body, SHAPES[body.name]))
+    return list(body.plates) or _plate_places(Shell(body, SHAPES[body.name]))
 
 
 def _arch_lips(shell: Shell) -> Faces:

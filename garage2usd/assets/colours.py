@@ -1,11 +1,12 @@
 """Colours of materials: from sRGB to linear light, and the mean of a texture."""
 
+import io
 from functools import lru_cache
 
 import numpy as np
 from PIL import Image
 
-from garage2usd.assets.materials import Material, OwnTexture, PaintedTexture, Rgb, Texture
+from garage2usd.assets.materials import Material, OwnTexture, PaintedTexture, Rgb, StoredTexture, Texture
 from garage2usd.assets.own_textures import own_pixels
 from garage2usd.assets.textures import texture_folder
 from garage2usd.config.stage import TextureQuality
@@ -49,7 +50,10 @@ def mean_colour(texture: Texture) -> Rgb:
     if isinstance(texture, OwnTexture):
         pixels = own_pixels(texture, TextureQuality.LOW).convert("RGBA")
     else:
-        with Image.open(texture_folder(TextureQuality.LOW) / texture) as picture:
+        is_stored = isinstance(texture, StoredTexture)
+        with Image.open(
+            io.BytesIO(texture.data) if is_stored else texture_folder(TextureQuality.LOW) / texture
+        ) as picture:
             pixels = picture.convert("RGBA")
     *channels, opacity = np.asarray(pixels).reshape(-1, 4).T
     weights = None if opacity.min() == _OPAQUE else opacity / _OPAQUE

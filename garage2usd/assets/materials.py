@@ -18,6 +18,7 @@ __all__ = [
     "OwnTexture",
     "PaintedTexture",
     "Rgb",
+    "StoredTexture",
     "Texture",
     "Touch",
     "finished",
@@ -67,7 +68,22 @@ class OwnTexture(NamedTuple):
         return str(channel) if channel in {Channel.COLOUR, Channel.NORMAL} else "packed"
 
 
-Texture = str | PaintedTexture | OwnTexture
+class StoredTexture(NamedTuple):
+    """A texture that a foreign model brings.
+
+    Attributes
+    ----------
+    stem
+        What the name of its file begins with.
+    data
+        It as PNG in red, green and blue.
+    """
+
+    stem: str
+    data: bytes
+
+
+Texture = str | PaintedTexture | OwnTexture | StoredTexture
 """A file name in the texture folder, or what a texture is made from."""
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
-from garage2usd.assets.materials import MATERIALS, Rgb
+from garage2usd.assets.materials import MATERIALS, Finish, Rgb
 
 __all__ = [
     "AreaLight",
@@ -114,11 +114,14 @@ class Asset:
         Its light, if it gives any.
     paints
         Materials of which one takes the place of ``car_paint``, by the names of the choices.
+    finishes
+        Materials that no other asset has, by their keys.
     """
 
     parts: tuple[Part, ...]
     light: AreaLight | None = None
     paints: Mapping[str, str] = field(default_factory=dict)
+    finishes: Mapping[str, Finish] = field(default_factory=dict)
 
     @property
     def materials(self) -> frozenset[str]:

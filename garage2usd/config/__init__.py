@@ -13,6 +13,7 @@ from garage2usd.config.files import with_files, with_textures, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
 from garage2usd.config.look import LookConfig
 from garage2usd.config.maps import MapsConfig
+from garage2usd.config.own_cars import VehiclesConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
@@ -31,6 +32,7 @@ __all__ = [
     "PlanConfig",
     "SiteConfig",
     "StageConfig",
+    "VehiclesConfig",
     "config_from_mapping",
     "config_schema",
     "load_config",
@@ -53,6 +55,8 @@ class GarageConfig(Settings):
     """Walls, lights, ducts, bumps, stops and signs."""
     parking: ParkingConfig = ParkingConfig()
     """Parked cars."""
+    vehicles: VehiclesConfig = VehiclesConfig()
+    """Cars of one's own."""
     look: LookConfig = LookConfig()
     """How it looks."""
     stage: StageConfig = StageConfig()
@@ -102,10 +106,13 @@ class GarageConfig(Settings):
     def digest(self) -> str:
         """SHA-256 of the canonical JSON of all settings that decide the garage.
 
-        These are all but ``maps`` and the place of its textures, of which counts what they hold.
+        These are all but ``maps`` and the places of its textures and models, of which counts what they hold.
         """
         of_look = {"textures": {"folder"}} if self.look.textures else {"textures"}
-        settings = self.model_dump(mode="json", exclude={"maps": True, "look": of_look})
+        # without models it is what it was before there were any
+        of_vehicles = {"models": {"folder"}} if self.vehicles.models else True
+        excluded = {"maps": True, "look": of_look, "vehicles": of_vehicles}
+        settings = self.model_dump(mode="json", exclude=excluded)
         canonical = json.dumps(settings, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
 
@@ -137,9 +144,9 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     Parameters
     ----------
     path
-        The file. Relative paths in it, of ``profile``, of the files with S, R and C or of textures, start at its
+        The file. Relative paths in it, of ``profile``, of the files with S, R and C, of textures or of models, start at its
         folder; they are read here, so that the configuration carries profile and matrices itself, and of the textures
-        what they hold as a digest.
+        and models what they hold as a digest.
     profile
         Name or file of a profile that takes the place of the file's own.
 

@@ -1,4 +1,4 @@
-"""Files beside a configuration: S, R and C as text or files of NumPy, and the folder of textures."""
+"""Files beside a configuration: S, R and C as text or files of NumPy, and the folders of textures and models."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -77,11 +77,13 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The settings, valid or not, with the whole path of the folder of textures if they name one by a relative path."""
-    match settings:
-        case {"look": {"textures": str(named)} as look} if named:
-            return {**settings, "look": {**look, "textures": str((folder / named).absolute())}}
-    return dict(settings)
+    """The settings, valid or not, with the whole paths of the folders of textures and models that have relative ones."""
+    result = dict(settings)
+    for section, key in (("look", "textures"), ("vehicles", "models")):
+        match result.get(section):
+            case {**given} if isinstance(named := given.get(key), str) and named:
+                result[section] = {**given, key: str((folder / named).absolute())}
+    return result
 
 
 def _put(matrix: Any, given: _Given, settings: dict[str, Any], path: Path) -> None:  # noqa: ANN401

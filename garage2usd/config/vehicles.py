@@ -37,7 +37,10 @@ class CarBody:
     mirrors_m
         From the nose to the middle of the mirrors.
     segment
-        Its class, one of `SEGMENTS`.
+        Its class, one of `SEGMENTS`; empty for models of one's own.
+    plates
+        Of the front plate and of the rear one, where they are given: the way along Z that it looks, -1 or 1, and Y and
+        Z of its middle in metres; else they follow from the shape.
     """
 
     name: str
@@ -50,6 +53,7 @@ class CarBody:
     wheel_radius_m: float
     mirrors_m: float
     segment: str
+    plates: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def ahead_m(self) -> float:

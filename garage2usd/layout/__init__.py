@@ -32,6 +32,7 @@ from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.number_plates import number_plates
 from garage2usd.layout.overhead import exit_signs, mirrors
+from garage2usd.layout.own_cars import with_own_cars
 from garage2usd.layout.parked_cars import park_cars
 from garage2usd.layout.parking import stall_panels, stalls_of, wheel_stops, with_turning_stalls
 from garage2usd.layout.placement import Placement, Stall, StallUse
@@ -240,6 +241,7 @@ def lay_out(
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
     parked = park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back)
+    parked = with_own_cars(parked, stalls, config.vehicles, draws)
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there

@@ -9,7 +9,7 @@ from garage2usd.config.vehicles import DRIVEN_PLATE
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.placement import Placement, Stall, of_spec, placed
 from garage2usd.objects.car import CarSpec
-from garage2usd.objects.number_plate import NumberPlateSpec
+from garage2usd.objects.number_plate import plates_on
 from garage2usd.randomness import Step
 
 __all__ = ["number_plates"]
@@ -55,7 +55,7 @@ def number_plates(
     return [
         placed(
             f"NumberPlate_{car.ordinal}",
-            NumberPlateSpec(spec.body, text_of[car.stall], country),
+            plates_on(spec, text_of[car.stall], country),
             (car.position_m[0], car.position_m[2]),
             yaw_rad=car.yaw_rad,
             square=car.square,

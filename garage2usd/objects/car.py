@@ -1,16 +1,18 @@
 """Parked cars."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 from garage2usd.assets.car_wheels import steered, steered_box
 from garage2usd.assets.cars import car, dusty
 from garage2usd.assets.mesh import Asset
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.assets.own_car import own_car
+from garage2usd.config.own_cars import OwnCar
+from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["KIND", "PAINT_SET", "CarSpec"]
+__all__ = ["KIND", "PAINT_SET", "CarSpec", "OwnCarSpec"]
 
 KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
 
@@ -44,6 +46,11 @@ class CarSpec(Spec, kind=KIND):
     is_dusty: bool = False
 
     @property
+    def measures(self) -> CarBody:
+        """Its measures, whether it is of the catalogue or a model of one's own."""
+        return _BODIES[self.body]
+
+    @property
     def shape(self) -> Self:
         """The same body in the first paint, as the paints are variants of one asset."""
         return replace(self, paint=PAINTS[0])
@@ -55,13 +62,13 @@ class CarSpec(Spec, kind=KIND):
 
     def asset(self) -> Asset:
         """The body with its wheels and dust, in every paint."""
-        body = _BODIES[self.body]
+        body = self.measures
         asset = steered(car(body), body, self.steer_deg)
         return dusty(asset, body) if self.is_dusty else asset
 
     def outlines(self) -> tuple[Polygon, ...]:
         """Its body with the wheel arches, its mirrors, and its front wheels where they are turned."""
-        body = _BODIES[self.body]
+        body = self.measures
         side, end, mirrors = body.width_m / 2 + _ARCHES_M, body.length_m / 2, body.overall_width_m / 2
         first, last = body.mirrors_m - _HALF_MIRROR_M, body.mirrors_m + _HALF_MIRROR_M
         outlines = rectangle(-side, -end, side, end), rectangle(-mirrors, first - end, mirrors, last - end)
@@ -69,3 +76,39 @@ class CarSpec(Spec, kind=KIND):
             return outlines
         wheels, front, rear = steered_box(body, self.steer_deg)
         return *outlines, rectangle(-wheels, front, wheels, rear)
+
+
+@dataclass(frozen=True)
+class OwnCarSpec(CarSpec):
+    """A parked car that is a model of one's own; origin and axes as those of all cars.
+
+    Attributes
+    ----------
+    model
+        The car; its paint is that of its file.
+    """
+
+    model: OwnCar = field(kw_only=True)
+
+    @property
+    def measures(self) -> CarBody:
+        """As they were found in its file, or given."""
+        return self.model.body
+
+    @property
+    def shape(self) -> Self:
+        """Itself."""
+        return self
+
+    @property
+    def look(self) -> Look:
+        """None: it has the colours of its file."""
+        return ()
+
+    def asset(self) -> Asset:
+        """Its meshes with their materials; raises ConfigError where the file has changed."""
+        return own_car(self.model)
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Its body, and its mirrors where they are known."""
+        return self.model.outlines

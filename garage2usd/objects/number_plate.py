@@ -6,10 +6,11 @@ from typing import Self
 from garage2usd.assets.countries import Country
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.number_plates import PLATE_STYLES, number_plates
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.objects.car import CarSpec, OwnCarSpec
 from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
-__all__ = ["KIND", "NumberPlateSpec"]
+__all__ = ["KIND", "NumberPlateSpec", "OwnPlateSpec", "plates_on"]
 
 KIND = Kind(
     "number_plate",
@@ -38,6 +39,36 @@ class NumberPlateSpec(Spec, kind=KIND):
         """The plates of the same body without text, as all are one asset: texture coordinates make the difference."""
         return replace(self, text=" " * PLATE_STYLES[self.country].characters)
 
+    @property
+    def measures(self) -> CarBody:
+        """Those of the car."""
+        return _BODIES[self.body]
+
     def asset(self) -> Asset:
         """Both plates with the text."""
-        return number_plates(_BODIES[self.body], self.text, self.country)
+        return number_plates(self.measures, self.text, self.country)
+
+
+@dataclass(frozen=True)
+class OwnPlateSpec(NumberPlateSpec):
+    """The plates of a car that is a model of one's own.
+
+    Attributes
+    ----------
+    car
+        Measures of the car, with the places of its plates.
+    """
+
+    car: CarBody | None = None
+
+    @property
+    def measures(self) -> CarBody:
+        """Those of the car."""
+        return self.car or super().measures
+
+
+def plates_on(car: CarSpec, text: str, country: Country) -> NumberPlateSpec:
+    """The plates of a car, whether it is of the catalogue or a model of one's own."""
+    if isinstance(car, OwnCarSpec):
+        return OwnPlateSpec(car.body, text, country, car.measures)
+    return NumberPlateSpec(car.body, text, country)

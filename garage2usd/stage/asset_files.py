@@ -57,7 +57,8 @@ def asset_file(shape: Spec, quality: TextureQuality, finishes: Mapping[str, Fini
 
 @lru_cache(maxsize=4096)
 def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Finish], ...]) -> AssetFile:
-    asset, finishes = asset_of(shape), dict(own)
+    asset = asset_of(shape)
+    finishes = {**dict(own), **asset.finishes}
     # of many small files a folder for each would take a third of the time
     path = Path(tempfile.gettempdir()) / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}.usdc"
     try:

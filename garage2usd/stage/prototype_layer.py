@@ -216,8 +216,8 @@ def define_mesh(
     layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path, *, finish: Material | None = None
 ) -> None:
     """Define one mesh with the material of its key, or what takes its place, and its collider if it has one."""
-    usual = MATERIALS[part.material]
-    finish = finish or usual
+    finish = finish or MATERIALS[part.material]
+    usual = MATERIALS.get(part.material, finish)
     mesh = define(layer, path, "Mesh")
     points = Vt.Vec3fArray.FromNumpy(part.points)
     attribute(mesh, "points", _TYPES.Point3fArray, points)

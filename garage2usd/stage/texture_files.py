@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from garage2usd.assets import Finish, Material, OwnTexture, PaintedTexture, Texture, finished
+from garage2usd.assets import Finish, Material, OwnTexture, PaintedTexture, StoredTexture, Texture, finished
 from garage2usd.assets.own_textures import own_file
 from garage2usd.assets.textures import texture_folder
 from garage2usd.assets.worn_paint import painted
@@ -43,6 +43,8 @@ def texture_file(texture: Texture, quality: TextureQuality) -> NamedFile:
     if isinstance(texture, OwnTexture):
         data, suffix = own_file(texture, quality)
         return NamedFile(content_name(f"own_{texture.role}_{texture.use}", data, suffix), data)
+    if isinstance(texture, StoredTexture):
+        return NamedFile(content_name(texture.stem, texture.data, ".png"), texture.data)
     path = texture_folder(quality) / (texture.mask if isinstance(texture, PaintedTexture) else texture)
     data = path.read_bytes()
     if isinstance(texture, PaintedTexture):

@@ -41,7 +41,6 @@ _DOOR_M = 1.2
 _CAR: Colour = (112, 146, 192)
 _IN: Colour = (16, 96, 208)
 _OUT: Colour = (226, 96, 16)
-_BODIES = {body.name: body for body in CAR_BODIES}
 _NUMBER_M, _NUMBER_WIDTH_M, _NUMBER_FROM_MOUTH_M = 0.75, 2.0, 0.75
 _DIGIT = re.compile(r"\d")
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
@@ -134,7 +133,7 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
 
 def _car_outline(car: Placement) -> list[Point]:
     """A body with a pointed nose, which tells where it looks."""
-    body = _BODIES[car.spec.body] if isinstance(car.spec, CarSpec) else CAR_BODIES[0]
+    body = car.spec.measures if isinstance(car.spec, CarSpec) else CAR_BODIES[0]
     half_x, half_z = body.width_m / 2, body.length_m / 2
     nose = 0.45 * half_x
     shape = [

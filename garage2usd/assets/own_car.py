@@ -1,0 +1,100 @@
+"""Cars of one's own as assets: the meshes of a foreign model with its materials, and convex hulls to touch."""
+
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.materials import Finish, Material, StoredTexture, Touch
+from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.config.own_cars import OwnCar, placed_parts
+from garage2usd.foreign_models import ForeignPart, ForeignSurface
+
+__all__ = ["own_car"]
+
+_CREASE_DEG = 40.0
+_SMALLEST_HULL_M = 0.5
+"""Parts that are smaller in all directions lie within the hulls of others, or are of no weight."""
+_WELD_DECIMALS, _LEAST_AREA_M2 = 5, 1.01e-9
+_OPAQUE = 0.9
+_WORDS = {
+    "glass": re.compile(r"(?i)glass|window|windscreen|windshield"),
+    "tyre": re.compile(r"(?i)tyre|tire|rubber"),
+    "rim": re.compile(r"(?i)rim|alloy"),
+    "lamp_front": re.compile(r"(?i)head_?(lamp|light)"),
+    "lamp_rear": re.compile(r"(?i)(tail|rear|brake)_?(lamp|light)"),
+}
+"""What a material is to touch and to sensors, by its name and the part's; else it is the paint."""
+
+
+def own_car(car: OwnCar) -> Asset:
+    """The asset of a car; origin in the middle of its footprint on the floor, nose to -Z.
+
+    Raises
+    ------
+    ConfigError
+        If its file cannot be read, or has changed since the settings were read.
+    """
+    keys: dict[tuple[str, ForeignSurface], str] = {}
+    finishes, parts = {}, []
+    for given in placed_parts(car):
+        kind = _kind(given)
+        if (kind, given.surface) not in keys:
+            key = keys[kind, given.surface] = f"{car.body.name}_{len(keys) + 1:02d}"
+            finishes[key] = Finish(kind, _material(given.surface, kind))
+        made = _part(f"Part_{len(parts) + 1:03d}", given, keys[kind, given.surface])
+        if made is not None:
+            parts.append(made)
+    return Asset(tuple(parts), finishes=finishes)
+
+
+def _kind(part: ForeignPart) -> str:
+    names = f"{part.surface.name} {part.name}"
+    return next((kind for kind, words in _WORDS.items() if words.search(names)), "car_paint_white")
+
+
+def _material(surface: ForeignSurface, kind: str) -> Material:
+    picture = surface.picture
+    return Material(
+        colour_rgb=surface.colour_rgb,
+        colour_texture=StoredTexture("own_car_colour", picture) if picture else None,
+        roughness=surface.roughness,
+        metallic=surface.metallic,
+        opacity=surface.opacity if surface.opacity < _OPAQUE else 1.0,
+        clearcoat=1.0 if kind == "car_paint_white" else 0.0,
+        touch={"glass": Touch.PLASTIC, "tyre": Touch.RUBBER}.get(kind, Touch.STEEL),
+    )
+
+
+def _part(name: str, given: ForeignPart, key: str) -> Part | None:
+    """A part with welded points; None where no triangle has an area."""
+    corners = np.round(given.triangles_m, _WELD_DECIMALS) + 0.0
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    is_kept = np.linalg.norm(across, axis=1) > _LEAST_AREA_M2
+    if not is_kept.any():
+        return None
+    corners = corners[is_kept]
+    spans = np.ptp(corners.reshape(-1, 3), axis=0)
+    collider = Collider.CONVEX_HULL if spans.max() >= _SMALLEST_HULL_M else None
+    made = make_part(name, corners, "car_paint", collider=collider, crease_deg=_CREASE_DEG)
+    st, st_indices = np.empty((0, 2), dtype=np.float32), np.empty(0, dtype=np.int32)
+    if given.surface.picture:
+        st, st_indices = _distinct(given.st[is_kept].reshape(-1, 2))
+    return Part(
+        name=name,
+        points=made.points,
+        face_counts=made.face_counts,
+        face_indices=made.face_indices,
+        normals=made.normals,
+        normal_indices=made.normal_indices,
+        st=st,
+        st_indices=st_indices,
+        material=key,
+        collider=collider,
+    )
+
+
+def _distinct(st: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """The distinct texture coordinates, and which of them each corner has."""
+    values, which = np.unique(np.round(st, _WELD_DECIMALS) + 0.0, axis=0, return_inverse=True)
+    return values.astype(np.float32), which.ravel().astype(np.int32)

@@ -1,0 +1,351 @@
+"""Cars of one's own: a folder of models, each measured, with its front, wheels and plates found or given."""
+# Over 300 lines: what is given of a model, how the rest is found, and what is refused stand together.
+
+import hashlib
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, field_validator
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull
+
+from garage2usd.config.vehicles import CarBody
+from garage2usd.documents import read_toml
+from garage2usd.errors import ConfigError
+from garage2usd.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
+from garage2usd.settings import Settings, validated
+
+__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "placed_parts", "read_own_cars"]
+
+FIELD = "vehicles.models"
+FACTS_FILE = "models.toml"
+_MOST_MODELS = 500
+_LENGTH_M, _WIDTH_M, _HEIGHT_M = (2.0, 7.0), (1.2, 2.6), (1.0, 3.0)
+"""Least and largest; the width without mirrors."""
+_RADIUS_M, _ON_FLOOR_M, _ROUND, _WIDEST_WHEEL_M = (0.2, 0.55), 0.08, 0.12, 0.6
+_PLATE_HALF_M = (0.26, 0.055)
+_PLATE_HEIGHTS_M = (0.5, 0.45, 0.55, 0.6, 0.4, 0.7, 0.8, 0.9)
+_PLATE_LIFT_M = 0.004
+_FRONT_WORDS = re.compile(r"(?i)front|head_?(lamp|light)|bonnet|hood|windscreen|windshield|grill|steering")
+_REAR_WORDS = re.compile(r"(?i)rear|back|tail|trunk|boot|exhaust|brake_?(lamp|light)|tow")
+_MIRROR_WORDS = re.compile(r"(?i)(wing|side|door|outer|outside|_|^|/)_?mirror")
+_MIRRORS_SHARE = 0.35
+"""Of the length of a car, how far its mirrors are from its nose, where none are found."""
+_AXES = {"+X": (1, 0, 0), "-X": (-1, 0, 0), "+Y": (0, 1, 0), "-Y": (0, -1, 0), "+Z": (0, 0, 1), "-Z": (0, 0, -1)}
+
+
+class ModelFolder(Settings):
+    """Models of cars of one's own."""
+
+    folder: str = Field(min_length=1)
+    """A folder with files of USD or GLB, a car each. A relative path starts at the configuration file."""
+    sha256: str = Field("", pattern=r"^([0-9a-f]{64})?$")
+    """Of what is used of it; found out when it is read."""
+
+
+class _Facts(Settings):
+    """What ``models.toml`` says of a model."""
+
+    front: Annotated[str, Field(pattern=r"^[+-][XYZ]$")] | None = None
+    """Where its nose looks, in the axes of its file."""
+    length_m: float | None = Field(None, ge=_LENGTH_M[0], le=_LENGTH_M[1])
+    """How long it is; it is made larger or smaller to that."""
+    wheelbase_m: float | None = Field(None, ge=1.2, le=5.0)
+    front_overhang_m: float | None = Field(None, ge=0.2, le=2.0)
+    wheel_radius_m: float | None = Field(None, ge=_RADIUS_M[0], le=_RADIUS_M[1])
+    """The three together, where no wheels are found."""
+    plate_heights_m: tuple[float, float] | None = None
+    """Of the middle of the front plate and of the rear one over the floor."""
+
+
+class OwnCar(NamedTuple):
+    """A car of one's own as a value: its measures, and where its meshes are.
+
+    Attributes
+    ----------
+    body
+        Measures, and places of the plates.
+    path, sha256
+        The file, and the digest of it and of all that it refers to when it was read.
+    to_car
+        Rows of the matrix by which points of the file, in metres and Y up, are multiplied, and an offset in metres that
+        is added then: to the axes of a parked car.
+    outlines
+        Convex outlines (x, z) of its body and, where they are known, of its mirrors.
+    """
+
+    body: CarBody
+    path: str
+    sha256: str
+    to_car: tuple[tuple[float, float, float], ...]
+    outlines: tuple[tuple[tuple[float, float], ...], ...]
+
+
+class VehiclesConfig(Settings):
+    """Cars of one's own."""
+
+    models: ModelFolder | None = None
+    """A folder of models as USD or GLB (see the guide of own cars)."""
+    share: float = Field(0.5, ge=0, le=1)
+    """Share of the parked cars that are models of one's own, where one fits."""
+
+    @field_validator("models", mode="before")
+    @classmethod
+    def _folder(cls, models: object) -> object:
+        return {"folder": models} if isinstance(models, str) else models
+
+    @field_validator("models")
+    @classmethod
+    def _read(cls, models: ModelFolder | None) -> ModelFolder | None:
+        """The folder with the digest of what it holds; one that has a digest is read when it is used."""
+        return read_own_cars(models)[0] if models is not None and not models.sha256 else models
+
+
+def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]:
+    """The cars of a folder in the order of their names, and the folder with the digest of what they hold.
+
+    Raises
+    ------
+    ConfigError
+        If a file cannot be read, is no car, or the files are not those of the digest.
+    """
+    place = Path(folder.folder)
+    try:
+        files = sorted(path for path in place.iterdir() if path.is_file())
+        stamps = tuple(
+            (str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in sorted(place.rglob("*"))[:20_000]
+        )
+    except (OSError, ValueError) as error:
+        raise ConfigError(FIELD, folder.folder, f"a folder that can be read ({error})") from None
+    models = tuple(str(path) for path in files if path.suffix.lower() in MODEL_SUFFIXES)
+    if not 0 < len(models) <= _MOST_MODELS:
+        allowed = f"1 to {_MOST_MODELS} files that end in {', '.join(MODEL_SUFFIXES)}"
+        raise ConfigError(FIELD, f"{folder.folder} with {len(models)}", allowed)
+    cars = _read(folder.folder, models, stamps)
+    told = [(car.body, car.sha256, car.to_car, car.outlines) for car in cars]
+    digest = hashlib.sha256(repr(told).encode()).hexdigest()
+    if folder.sha256 not in {"", digest}:
+        raise ConfigError(FIELD, folder.folder, f"the models that it was given with, of SHA-256 {folder.sha256[:16]}")
+    return ModelFolder(folder=folder.folder, sha256=digest), cars
+
+
+@lru_cache(maxsize=16)
+def _read(folder: str, models: tuple[str, ...], stamps: tuple[tuple[str, int, int], ...]) -> tuple[OwnCar, ...]:
+    """The cars of a folder, which is read once as long as no file in it changes."""
+    del stamps
+    facts = _facts(Path(folder), [Path(model).stem for model in models])
+    return tuple(_car(Path(model), facts.get(Path(model).stem, _Facts())) for model in models)
+
+
+def _facts(folder: Path, names: Sequence[str]) -> dict[str, _Facts]:
+    for name in names:
+        if names.count(name) > 1:
+            raise ConfigError(FIELD, name, "one file of each name")
+    path = folder / FACTS_FILE
+    if not path.is_file():
+        return {}
+    facts = {}
+    for name, given in read_toml(path, field=FIELD).items():
+        if name not in names or not isinstance(given, Mapping):
+            raise ConfigError(f"{FIELD}.{name}", str(path), f"tables named as the models are: {', '.join(names)}")
+        facts[name] = validated(_Facts, given, within=f"{FIELD}.{name}")
+    return facts
+
+
+def placed_parts(car: OwnCar) -> tuple[ForeignPart, ...]:
+    """The parts of a car in its axes: origin in the middle of its footprint on the floor, nose to -Z.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read, or has changed since the settings were read.
+    """
+    path = Path(car.path)
+    if model_digest(path, field=FIELD) != car.sha256:
+        raise ConfigError(FIELD, car.path, "a file that stays as it was when the settings were read")
+    *rows, offset = np.array(car.to_car)
+    return tuple(
+        replace(part, triangles_m=part.triangles_m @ np.array(rows) + offset) for part in read_model(path, field=FIELD)
+    )
+
+
+def _car(path: Path, facts: _Facts) -> OwnCar:
+    digest = model_digest(path, field=FIELD)
+    parts = read_model(path, field=FIELD)
+    turn = _turn(path, parts, facts)
+    turned = [part.triangles_m.reshape(-1, 3) @ turn for part in parts]
+    is_mirror = [bool(_MIRROR_WORDS.search(part.name)) for part in parts]
+    every = np.concatenate(turned)
+    shell = np.concatenate([points for points, mirror in zip(turned, is_mirror, strict=True) if not mirror] or turned)
+    low, high = shell.min(axis=0), shell.max(axis=0)
+    scale = facts.length_m / (high - low)[2] if facts.length_m else 1.0
+    middle = (low + high) / 2
+    offset = -scale * np.array([middle[0], every[:, 1].min(), middle[2]])
+    size = np.round(scale * (high - low), 4)
+    for name, found, (least, most) in zip(
+        ("wide", "high", "long"), size.tolist(), (_WIDTH_M, _HEIGHT_M, _LENGTH_M), strict=True
+    ):
+        if not least <= found <= most:
+            raise ConfigError(FIELD, f"{path} of {found:.2f} m", f"cars {least} to {most} m {name}, by length_m too")
+    placed = [points * scale + offset for points in turned]
+    wheelbase, overhang, radius = _axles(path, placed, facts, float(size[2]))
+    whole = np.concatenate(placed)
+    overall = max(2 * float(np.abs(whole[:, 0]).max()), float(size[0]))
+    if overall > _WIDTH_M[1] + 0.4:
+        raise ConfigError(FIELD, f"{path} of {overall:.2f} m over its mirrors", f"at most {_WIDTH_M[1] + 0.4:.1f} m")
+    triangles = whole.reshape(-1, 3, 3)
+    heights = facts.plate_heights_m or (None, None)
+    plates = tuple(_plate(triangles, toward, height) for toward, height in zip((-1, 1), heights, strict=True))
+    body = CarBody(
+        name=f"own_{re.sub(r'[^a-z0-9]+', '_', path.stem.lower()).strip('_') or 'car'}_{digest[:8]}",
+        length_m=float(size[2]),
+        width_m=float(size[0]),
+        height_m=float(size[1]),
+        overall_width_m=round(overall, 4),
+        wheelbase_m=wheelbase,
+        front_overhang_m=overhang,
+        wheel_radius_m=radius,
+        mirrors_m=_mirrors(placed, is_mirror, float(size[2])),
+        segment="",
+        plates=plates,
+    )
+    groups = [[p for p, m in zip(placed, is_mirror, strict=True) if m is wanted] for wanted in (False, True)]
+    outlines = tuple(_hull(np.concatenate(group)) for group in groups if group)
+    rows = tuple(tuple(float(value) for value in row) for row in (*np.round(turn * scale, 9), np.round(offset, 6)))
+    return OwnCar(body, str(path), digest, rows, outlines)
+
+
+def _mirrors(placed: Sequence[NDArray[np.float64]], is_mirror: Sequence[bool], length_m: float) -> float:
+    """From the nose to the middle of the mirrors, or to where most cars have them."""
+    mirrors = [points for points, is_one in zip(placed, is_mirror, strict=True) if is_one]
+    if not mirrors:
+        return round(_MIRRORS_SHARE * length_m, 4)
+    every = np.concatenate(mirrors)[:, 2]
+    return round(length_m / 2 + float(every.min() + every.max()) / 2, 4)
+
+
+def _turn(path: Path, parts: Sequence[ForeignPart], facts: _Facts) -> NDArray[np.float64]:
+    """The matrix for row vectors, of metres and Y up, after which the nose looks to -Z."""
+    points = np.concatenate([part.triangles_m.reshape(-1, 3) for part in parts])
+    spans = points.max(axis=0) - points.min(axis=0)
+    along = 0 if spans[0] > spans[2] else 2
+    nose = np.zeros(3)
+    if facts.front:
+        nose = np.array(_AXES[facts.front], dtype=np.float64)
+        if parts[0].is_z_up:
+            nose = nose[[0, 2, 1]] * (1, 1, -1)
+        if not nose[along]:
+            raise ConfigError(f"{FIELD}.{path.stem}.front", facts.front, "an axis along the length of the model")
+    else:
+        middle = (points.max(axis=0) + points.min(axis=0))[along] / 2
+        told = 0.0
+        for part in parts:
+            sign = bool(_FRONT_WORDS.search(part.name)) - bool(_REAR_WORDS.search(part.name))
+            told += sign * float(np.sign(round(float(part.triangles_m[..., along].mean() - middle), 3)))
+        if not told:
+            allowed = f"names of parts that tell front and rear, or front = '+X' and the like in {FACTS_FILE}"
+            raise ConfigError(FIELD, f"{path} without a front", allowed)
+        nose[along] = np.sign(told)
+    right = np.cross(nose, (0.0, 1.0, 0.0))
+    return np.stack([right, (0.0, 1.0, 0.0), -nose], axis=1)
+
+
+def _axles(path: Path, placed: Sequence[NDArray[np.float64]], facts: _Facts, length_m: float) -> tuple[float, ...]:
+    """Wheelbase, front overhang and radius of the wheels."""
+    given = facts.wheelbase_m, facts.front_overhang_m, facts.wheel_radius_m
+    known = [value for value in given if value is not None]
+    if len(known) == len(given):
+        if known[0] + known[1] >= length_m:
+            raise ConfigError(f"{FIELD}.{path.stem}.wheelbase_m", known[0], f"axles within {length_m:.2f} m")
+        return tuple(known)
+    # a part may be one wheel, or all of them
+    boxes = [box for points in placed for box in (_box(points), *_pieces(points))]
+    wheels: dict[tuple[int, int], _Box] = {}
+    for box in sorted(filter(_is_wheel, boxes), key=lambda box: box.high[1] - box.low[1]):
+        x, _, z = (box.low + box.high) / 2
+        wheels[int(np.sign(x)), int(np.sign(z))] = box  # the largest: a rim is within its tyre
+    found = [corner for corner in wheels if all(corner)]
+    if len(found) < 4:  # noqa: PLR2004 - wheels of a car
+        allowed = f"four wheels on the floor, or wheelbase_m, front_overhang_m and wheel_radius_m in {FACTS_FILE}"
+        raise ConfigError(FIELD, f"{path} with {len(found)} wheels", allowed)
+    middles = {corner: float((wheels[corner].low + wheels[corner].high)[2] / 2) for corner in found}
+    front, rear = (round((middles[-1, end] + middles[1, end]) / 2, 4) for end in (-1, 1))
+    radius = round(float(wheels[-1, -1].high[1] - wheels[-1, -1].low[1]) / 2, 4)
+    return round(rear - front, 4), round(front + length_m / 2, 4), radius
+
+
+class _Box(NamedTuple):
+    """Corners of a box, shape (3,) each."""
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+
+
+def _box(points: NDArray[np.float64]) -> _Box:
+    return _Box(points.min(axis=0), points.max(axis=0))
+
+
+def _is_wheel(box: _Box) -> bool:
+    wide, high, long = box.high - box.low
+    is_round = abs(high - long) <= _ROUND * high and 2 * _RADIUS_M[0] <= high <= 2 * _RADIUS_M[1]
+    return bool(is_round and wide <= _WIDEST_WHEEL_M and box.low[1] <= _ON_FLOOR_M)
+
+
+def _pieces(points: NDArray[np.float64]) -> list[_Box]:
+    """The boxes of what hangs together by common points, of corners of triangles, shape (3 n, 3)."""
+    _, which = np.unique(np.round(points, 4), axis=0, return_inverse=True)
+    corners = which.reshape(-1, 3)
+    pairs = np.concatenate([corners[:, :2], corners[:, 1:]])
+    count = int(corners.max()) + 1
+    links = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    number, label = connected_components(links, directed=False)
+    low, high = np.full((number, 3), np.inf), np.full((number, 3), -np.inf)
+    of_corner = label[which.ravel()]
+    np.minimum.at(low, of_corner, points)
+    np.maximum.at(high, of_corner, points)
+    return [_Box(*pair) for pair in zip(low, high, strict=True)]
+
+
+def _plate(triangles: NDArray[np.float64], toward: int, height_m: float | None) -> tuple[float, float, float]:
+    """The place of a plate where nose or tail is flattest: the way that it looks, and Y and Z of its middle."""
+    best = (np.inf, 0.0, 0.0)
+    for height in _PLATE_HEIGHTS_M if height_m is None else (height_m,):
+        half_x, half_y = _PLATE_HALF_M
+        places = [(x, height + y) for x in (-half_x, 0.0, half_x) for y in (-half_y, 0.0, half_y)]
+        hits = np.array([_outermost(triangles, place, toward) for place in places])
+        spread = float(np.ptp(hits)) if np.isfinite(hits).all() else 1.0
+        reach = float(np.max(toward * hits[np.isfinite(hits)], initial=-np.inf))
+        if not np.isfinite(reach):
+            reach = float(np.max(toward * triangles[..., 2]))
+            spread = 2.0
+        if spread < best[0] - 0.01:
+            best = (spread, height, toward * reach)
+    return float(toward), round(best[1], 4), round(best[2] + toward * _PLATE_LIFT_M, 4)
+
+
+def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], toward: int) -> float:
+    """The Z of the outermost surface that a line along Z at (x, y) meets; NaN for none."""
+    a, b, c = (triangles[:, corner] for corner in range(3))
+    x, y = place
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+    of_b = (x - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (y - a[:, 1])
+    of_c = (b[:, 0] - a[:, 0]) * (y - a[:, 1]) - (x - a[:, 0]) * (b[:, 1] - a[:, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        beta, gamma = of_b / area, of_c / area
+        is_met = (np.abs(area) > 1e-9) & (beta >= 0) & (gamma >= 0) & (beta + gamma <= 1)  # noqa: PLR2004
+        z = a[:, 2] + beta * (b[:, 2] - a[:, 2]) + gamma * (c[:, 2] - a[:, 2])
+    return float(toward * (toward * z[is_met]).max()) if is_met.any() else np.nan
+
+
+def _hull(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
+    """The convex outline (x, z) of points, in the order of `garage2usd.objects.outline.rectangle`."""
+    flat = points[:, [0, 2]]
+    corners = np.round(flat[ConvexHull(flat).vertices][::-1], 4)
+    return tuple((float(x), float(z)) for x, z in corners)
