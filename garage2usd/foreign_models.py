@@ -210,11 +210,9 @@ def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
         return surfaces[key]
 
     for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+        if not _is_drawn(prim, time):
+            continue
         mesh = UsdGeom.Mesh(prim)
-        if not mesh or UsdGeom.Imageable(prim).ComputeVisibility(time) == UsdGeom.Tokens.invisible:
-            continue
-        if UsdGeom.Imageable(prim).ComputePurpose() not in {UsdGeom.Tokens.default_, UsdGeom.Tokens.render}:
-            continue
         points = np.asarray(mesh.GetPointsAttr().Get(time) or (), dtype=np.float64).reshape(-1, 3)
         counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get(time) or (), dtype=np.int64)
         indices = np.asarray(mesh.GetFaceVertexIndicesAttr().Get(time) or (), dtype=np.int64)
@@ -236,6 +234,14 @@ def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
             kept = chosen[face_of]
             yield ForeignPart(str(subset.GetPath()), triangles[kept], st[kept], surface_of(subset.GetPrim()), is_z_up)
         yield ForeignPart(str(prim.GetPath()), triangles[left[face_of]], st[left[face_of]], surface_of(prim), is_z_up)
+
+
+def _is_drawn(prim: Any, time: Any) -> bool:  # noqa: ANN401 - of pxr
+    from pxr import UsdGeom  # noqa: PLC0415 - as above
+
+    if not prim.IsA(UsdGeom.Mesh) or UsdGeom.Imageable(prim).ComputeVisibility(time) == UsdGeom.Tokens.invisible:
+        return False
+    return UsdGeom.Imageable(prim).ComputePurpose() in {UsdGeom.Tokens.default_, UsdGeom.Tokens.render}
 
 
 def _fans(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

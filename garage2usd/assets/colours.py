@@ -2,6 +2,7 @@
 
 import io
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -50,16 +51,18 @@ def mean_colour(texture: Texture) -> Rgb:
     if isinstance(texture, OwnTexture):
         pixels = own_pixels(texture, TextureQuality.LOW).convert("RGBA")
     else:
-        is_stored = isinstance(texture, StoredTexture)
-        with Image.open(
-            io.BytesIO(texture.data) if is_stored else texture_folder(TextureQuality.LOW) / texture
-        ) as picture:
+        file = io.BytesIO(texture.data) if isinstance(texture, StoredTexture) else _shipped(texture)
+        with Image.open(file) as picture:
             pixels = picture.convert("RGBA")
     *channels, opacity = np.asarray(pixels).reshape(-1, 4).T
     weights = None if opacity.min() == _OPAQUE else opacity / _OPAQUE
     counts = (np.bincount(channel, weights, minlength=len(_LINEAR)) for channel in channels)
     red, green, blue = (round(float(count @ _LINEAR) / max(float(count.sum()), 1.0), _PLACES) for count in counts)
     return red, green, blue
+
+
+def _shipped(name: str) -> Path:
+    return texture_folder(TextureQuality.LOW) / name
 
 
 @lru_cache(maxsize=16)

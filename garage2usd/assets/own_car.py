@@ -36,7 +36,8 @@ def own_car(car: OwnCar) -> Asset:
         If its file cannot be read, or has changed since the settings were read.
     """
     keys: dict[tuple[str, ForeignSurface], str] = {}
-    finishes, parts = {}, []
+    finishes: dict[str, Finish] = {}
+    parts: list[Part] = []
     for given in placed_parts(car):
         kind = _kind(given)
         if (kind, given.surface) not in keys:

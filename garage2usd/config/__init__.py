@@ -144,7 +144,7 @@ def load_config(path: str | Path, *, profile: str | Path | None = None) -> Garag
     Parameters
     ----------
     path
-        The file. Relative paths in it, of ``profile``, of the files with S, R and C, of textures or of models, start at its
+        The file. Relative paths in it, of ``profile``, of files with S, R and C, of textures or of models, start at its
         folder; they are read here, so that the configuration carries profile and matrices itself, and of the textures
         and models what they hold as a digest.
     profile

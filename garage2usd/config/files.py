@@ -77,7 +77,7 @@ def with_files(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def with_textures(settings: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The settings, valid or not, with the whole paths of the folders of textures and models that have relative ones."""
+    """The settings, valid or not, with the whole paths of folders of textures and models that have relative ones."""
     result = dict(settings)
     for section, key in (("look", "textures"), ("vehicles", "models")):
         match result.get(section):

@@ -218,8 +218,13 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
     )
     groups = [[p for p, m in zip(placed, is_mirror, strict=True) if m is wanted] for wanted in (False, True)]
     outlines = tuple(_hull(np.concatenate(group)) for group in groups if group)
-    rows = tuple(tuple(float(value) for value in row) for row in (*np.round(turn * scale, 9), np.round(offset, 6)))
-    return OwnCar(body, str(path), digest, rows, outlines)
+    rows = [_row(row) for row in (*np.round(turn * scale, 9), np.round(offset, 6))]
+    return OwnCar(body, str(path), digest, tuple(rows), outlines)
+
+
+def _row(values: NDArray[np.float64]) -> tuple[float, float, float]:
+    x, y, z = (float(value) + 0.0 for value in values)
+    return x, y, z
 
 
 def _mirrors(placed: Sequence[NDArray[np.float64]], is_mirror: Sequence[bool], length_m: float) -> float:
@@ -334,7 +339,7 @@ def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], towar
     """The Z of the outermost surface that a line along Z at (x, y) meets; NaN for none."""
     a, b, c = (triangles[:, corner] for corner in range(3))
     x, y = place
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+    area: NDArray[np.float64] = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
     of_b = (x - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (y - a[:, 1])
     of_c = (b[:, 0] - a[:, 0]) * (y - a[:, 1]) - (x - a[:, 0]) * (b[:, 1] - a[:, 1])
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,4 +1,4 @@
-"""Models of cars as other programs write them: GLB, USD in centimetres with Z up, USD of several files and instances."""
+"""Models of cars as other programs write them: GLB, USD in centimetres with Z up, and USD of several files."""
 
 from pathlib import Path
 
