@@ -240,8 +240,12 @@ def lay_out(
     installed = installed_lamps(tube_lights(grid, fittings, levels, core_on), look.lights, draws, seed=seed)
     lamps, illuminance = light_up(installed, grid, stalls, fittings)
     country = country_of(look.signs, config.standard)
-    parked = park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back)
-    parked = with_own_cars(parked, stalls, config.vehicles, draws)
+    parked = with_own_cars(
+        park_cars(stalls, config, draws, tight=tight_stalls(graph, stalls), held_back=held_back),
+        stalls,
+        config.vehicles,
+        draws,
+    )
 
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
