@@ -12,9 +12,9 @@ from garage2usd.reading.ground import Point, StallOutline
 
 __all__ = ["column_to_y_up"]
 
-_COLUMN = "column"
+_CAR, _COLUMN = "car", "column"
 _HIDES_FROM_M = 1.9
-"""What is lower than that does not hide a stall from a column's camera."""
+"""What is lower than that does not hide a stall from a column's camera, nor do cars, which come and go."""
 _NEAREST_M = 2.5
 """A column that stands nearer to the middle of a stall sees only part of it."""
 
@@ -67,4 +67,7 @@ def _is_before(stall: StallOutline, place: Point) -> bool:
 
 def _is_hidden(subject: Subject, column: str, place: Point, middle: Point) -> bool:
     sight = shapely.LineString([place, middle])
-    return any(solid.name != column and solid.top_m >= _HIDES_FROM_M for solid in subject.solids.at(sight))
+    return any(
+        solid.name != column and solid.label != _CAR and solid.top_m >= _HIDES_FROM_M
+        for solid in subject.solids.at(sight)
+    )
