@@ -1,12 +1,15 @@
+import json
 import math
 from collections import Counter
 
 import numpy as np
 import pytest
 import shapely
+from pxr import Usd
 from support.footprints import footprint
 from support.overlaps import Solids
 
+from garage2usd.checks import check_layout
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.config.markets import MARKET_NAMES, load_market, market_of
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, SEGMENTS, body_named
@@ -17,7 +20,10 @@ from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parked_cars import park_cars
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
-from garage2usd.pipeline import generate
+from garage2usd.maps.stall_facts import StallFacts
+from garage2usd.pipeline import build, generate
+from garage2usd.reading.lanes import read_lanes
+from garage2usd.sensors.slots import read_slots
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph
 
@@ -224,3 +230,32 @@ def test_stalls_that_misparked_cars_block_are_told():
             assert any(cars[by].name in name for name in proofs[stall].touched)
         told += len(layout.blocked)
     assert told > 10
+
+
+def test_the_check_allows_cars_over_a_line_and_names_misparked_ones():
+    for parking, rules in (({"over_line": 0.2}, set()), ({"misparked": 0.2}, {"car-outside-stall"})):
+        garage = generate(GarageConfig(seed=2, parking=parking))
+        findings = check_layout(garage.layout, garage.graph, garage.config)
+        assert {finding.rule for finding in findings if finding.severity == "error"} == rules
+        assert len(findings) >= len(garage.layout.misparked)
+
+
+def test_files_tell_blocked_stalls(tmp_path):
+    """Report, slots and lane graph tell the same; without cars no stall is blocked."""
+    config = GarageConfig(
+        seed=3, site={"width_cells": 7, "height_cells": 6}, parking={"misparked": 0.25, "market": "germany"}
+    )
+    built = build(config, tmp_path / "garage.usda")
+    blocked = dict(built.garage.layout.blocked)
+    assert blocked
+    report = {stall["name"]: stall for stall in json.loads(built.report.read_text(encoding="utf-8"))["stalls"]}
+    assert {name: stall["blocked_by"] for name, stall in report.items() if stall["blocked_by"]} == blocked
+    assert all(report[name]["occupied"] for name in blocked)
+    stage = Usd.Stage.Open(str(built.stage))
+    slots = read_slots(stage).slots
+    assert {slot.name: slot.blocked_by for slot in slots if slot.blocked_by} == blocked
+    assert {slot.name: slot.occupied for slot in slots} == {name: stall["occupied"] for name, stall in report.items()}
+    facts = StallFacts(read_lanes(stage).stalls)
+    assert not any(facts.facts(stall)["occupied"] for stall in facts.stalls)  # no cars are parked in them yet
+    stage.GetDefaultPrim().GetVariantSet("occupancy").SetVariantSelection("empty")
+    assert not any(slot.occupied or slot.blocked_by for slot in read_slots(stage).slots)
