@@ -1,11 +1,15 @@
 """Models of cars as other programs write them: GLB, USD in centimetres with Z up, and USD of several files."""
 
+import tempfile
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 import trimesh
 from PIL import Image
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
+
+from garage2usd.config.own_cars import ModelFolder, read_own_cars
 
 LENGTH_M, WIDTH_M, HEIGHT_M, RADIUS_M, AXLE_M = 4.2, 1.7, 1.5, 0.32, 1.25
 """Of the body, with the axles as far before and behind its middle."""
@@ -103,3 +107,12 @@ def write_parts(folder, name="parts.usda"):
             prim.AddTranslateOp().Set(Gf.Vec3d(*map(float, mesh.bounds.mean(axis=0))))
             prim.GetPrim().SetInstanceable(True)
     stage.Save()
+
+
+@lru_cache(maxsize=1)
+def own_car():
+    """A car of one's own from a GLB, in a folder that stays until the machine cleans up."""
+    folder = Path(tempfile.mkdtemp())
+    write_glb(folder / "box.glb")
+    _, (car,) = read_own_cars(ModelFolder(folder=str(folder)))
+    return car

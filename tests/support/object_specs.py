@@ -7,7 +7,7 @@ from garage2usd.config.vehicles import CAR_BODIES, PAINTS
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
 from garage2usd.objects.cable_tray import CableTraySpec
-from garage2usd.objects.car import CarSpec
+from garage2usd.objects.car import CarSpec, OwnCarSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.column import Board, ColumnSpec
@@ -22,7 +22,7 @@ from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
-from garage2usd.objects.number_plate import NumberPlateSpec
+from garage2usd.objects.number_plate import NumberPlateSpec, OwnPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.objects.portal import PortalSpec
@@ -35,6 +35,7 @@ from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNum
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
+from support.foreign_cars import own_car
 
 MARKINGS = (
     Marking(((-4.05, -1.0), (-4.05, -0.88), (4.05, -0.88), (4.05, -1.0)), Surface.PAINT_YELLOW, Paint.LANE_LINE),
@@ -121,6 +122,8 @@ SPECS = {
     "column_plates_bent": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3,) * 4, is_round=True),
     "column_plates_near": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3, 0.21, 0.3, 0.21)),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
+    "own_car": OwnCarSpec(own_car().body.name, PAINTS[0], own_car()),
+    "own_plate": OwnPlateSpec(own_car().body.name, "K47 M92", car=own_car().body),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
     "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
     "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),

@@ -6,7 +6,7 @@ import pytest
 import shapely
 from support.object_specs import SPECS
 
-from garage2usd.assets import MATERIALS, Collider
+from garage2usd.assets import MATERIALS, Collider, finished
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
@@ -23,11 +23,15 @@ def loops(part):
     return np.split(part.face_indices, np.cumsum(part.face_counts)[:-1])
 
 
+def material_of(case, part):
+    return finished(part.material, CASES[case].finishes).material
+
+
 @each_part
 def test_arrays_fit_each_other(case, part):
     corners = part.face_counts.sum()
     assert part.face_indices.shape == (corners,) == part.normal_indices.shape
-    assert part.st_indices.shape == ((corners,) if MATERIALS[part.material].textures() else (0,))
+    assert part.st_indices.shape == ((corners,) if material_of(case, part).textures() else (0,))
     assert part.normals.shape[1:] == (3,)
     assert np.linalg.norm(part.normals, axis=1) == pytest.approx(1.0, abs=1e-4)
     assert len(np.unique(part.normals, axis=0)) == len(part.normals)
