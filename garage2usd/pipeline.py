@@ -9,9 +9,10 @@ from pathlib import Path
 from PIL import Image
 
 from garage2usd.checks import Finding, judged_layout
+from garage2usd.checks.swept_path import design_car
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
-from garage2usd.driving import with_truth_of_misparked, without_unreachable
+from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
@@ -256,6 +257,8 @@ def _generate(
     graph = _graph(plan, config)
     layout = lay_out(plan.structure, graph, config)
     layout = _driven(layout, graph, config, progress)
+    if config.clutter.is_any:
+        layout = with_clutter(layout, graph, config, cars=(DesignCar(), design_car(config.standard)), progress=progress)
     clock.append(time.perf_counter())
     steps = zip(("site", "plan", "layout"), pairwise(clock), strict=True)
     return Garage(config, site, plan, graph, layout), {step: end - start for step, (start, end) in steps}

@@ -26,6 +26,7 @@ class Step(IntEnum):
     PUDDLES = 18
     PUDDLE_SHAPES = 19
     ARRANGEMENTS = 20
+    CLUTTER = 21
     LIDAR = 30
     GARAGES = 40
     SETTINGS = 41

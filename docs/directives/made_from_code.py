@@ -20,7 +20,16 @@ from garage2usd.objects import CLASSES, CLASSES_VERSION, PieceClass
 from garage2usd.profiles import PROFILE_NAMES, Clause, Profile, load_profile
 from garage2usd.profiles.clauses import Amount, LengthRange, Steps
 
-SECTIONS = {"SiteConfig", "BayConfig", "PlanConfig", "FittingsConfig", "ParkingConfig", "StageConfig", "MapsConfig"}
+SECTIONS = {
+    "SiteConfig",
+    "BayConfig",
+    "PlanConfig",
+    "FittingsConfig",
+    "ParkingConfig",
+    "ClutterConfig",
+    "StageConfig",
+    "MapsConfig",
+}
 
 WORDS = {"integer": "whole number", "number": "number", "boolean": "`true`, `false`", "string": "text"}
 

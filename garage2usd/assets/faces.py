@@ -15,7 +15,9 @@ __all__ = [
     "frame_faces",
     "lathe_faces",
     "level_lathe_faces",
+    "loft_faces",
     "moved",
+    "rectangle_ring",
     "ring_faces",
     "tube_faces",
     "upright_lathe_faces",
@@ -186,3 +188,26 @@ def ring_faces(low: ArrayLike, high: ArrayLike, border_m: float) -> list[Face]:
         faces.append([(ax, ay, z0), (bx, by, z0), (bx, by, z1), (ax, ay, z1)])
         faces.append([(dx, dy, z1), (cx, cy, z1), (cx, cy, z0), (dx, dy, z0)])
     return [np.array(face) for face in faces]
+
+
+def rectangle_ring(half_x_m: float, half_z_m: float, *, y: float, z: float = 0.0) -> Face:
+    """A level rectangle with its corners cut, as a ring of a loft that goes up; 8 points."""
+    x, depth, cut = half_x_m, half_z_m, 0.18 * min(half_x_m, half_z_m)
+    points = [
+        (x, depth - cut), (x, cut - depth), (x - cut, -depth), (cut - x, -depth),
+        (-x, cut - depth), (-x, depth - cut), (cut - x, depth), (x - cut, depth),
+    ]  # fmt: skip
+    return np.array([(px, y, z + pz) for px, pz in points])
+
+
+def loft_faces(rings: Sequence[Face]) -> list[Face]:
+    """A closed solid between rings of as many points each, in order; counter-clockwise seen from the last one's side.
+
+    Sides are cut into triangles, as four corners of rings need not lie in a plane.
+    """
+    faces: list[Face] = []
+    for low, high in pairwise(rings):
+        low_next, high_next = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
+        faces += list(np.stack([low, low_next, high_next], axis=1))
+        faces += list(np.stack([low, high_next, high], axis=1))
+    return [rings[0][::-1], *faces, rings[-1]]

@@ -279,6 +279,31 @@ def _plate(sheet_rgb: Rgb, ink_rgb: Rgb) -> Material:
     return Material(colour_texture=texture, roughness=0.5, touch=Touch.PLASTIC)
 
 
+_CLOTHES_RGB: dict[str, Rgb] = {
+    "black": (0.014, 0.014, 0.016),
+    "navy": (0.014, 0.022, 0.06),
+    "grey": (0.16, 0.165, 0.17),
+    "denim": (0.05, 0.085, 0.16),
+    "beige": (0.42, 0.33, 0.22),
+    "white": (0.68, 0.68, 0.66),
+    "red": (0.32, 0.02, 0.025),
+    "green": (0.04, 0.09, 0.045),
+    "brown": (0.10, 0.055, 0.03),
+    "yellow": (0.60, 0.36, 0.04),
+}
+_SKIN_RGB: dict[str, Rgb] = {
+    "pale": (0.56, 0.34, 0.25),
+    "tan": (0.40, 0.22, 0.14),
+    "brown": (0.19, 0.09, 0.052),
+    "dark": (0.065, 0.032, 0.022),
+}
+_HAIR_RGB: dict[str, Rgb] = {
+    "black": (0.01, 0.009, 0.009),
+    "brown": (0.055, 0.028, 0.014),
+    "blond": (0.34, 0.22, 0.09),
+    "grey": (0.34, 0.34, 0.33),
+}
+
 _WHITE_PAINT = Material(colour_texture="paint_white.jpg", roughness=0.55, repeat_m=2.7, touch=Touch.COATING)
 _FORMED_CONCRETE = Material(
     colour_texture="wall_colour.jpg",
@@ -445,6 +470,26 @@ MATERIALS: dict[str, Material] = {
             touch=Touch.STEEL,
         )
         for paint, colour in _PAINT_RGB.items()
+    },
+    **{
+        f"cloth_{name}": Material(colour_rgb=rgb, roughness=0.9, touch=Touch.RUBBER)
+        for name, rgb in _CLOTHES_RGB.items()
+    },
+    **{f"skin_{name}": Material(colour_rgb=rgb, roughness=0.5, touch=Touch.RUBBER) for name, rgb in _SKIN_RGB.items()},
+    **{f"hair_{name}": Material(colour_rgb=rgb, roughness=0.6, touch=Touch.RUBBER) for name, rgb in _HAIR_RGB.items()},
+    "leather_black": Material(colour_rgb=(0.02, 0.018, 0.017), roughness=0.45, touch=Touch.RUBBER),
+    "leather_brown": Material(colour_rgb=(0.12, 0.05, 0.022), roughness=0.45, touch=Touch.RUBBER),
+    "cardboard": Material(colour_rgb=(0.36, 0.235, 0.125), roughness=0.85, touch=Touch.PLASTIC),
+    "cardboard_tape": Material(colour_rgb=(0.42, 0.30, 0.14), roughness=0.3, touch=Touch.PLASTIC),
+    "wood_pallet": Material(colour_rgb=(0.40, 0.27, 0.15), roughness=0.85, touch=Touch.PLASTIC),
+    **{
+        f"bin_{name}": Material(colour_rgb=rgb, roughness=0.5, touch=Touch.PLASTIC)
+        for name, rgb in {
+            "grey": (0.055, 0.058, 0.06),
+            "green": (0.015, 0.09, 0.04),
+            "blue": (0.015, 0.06, 0.22),
+            "yellow": (0.62, 0.42, 0.02),
+        }.items()
     },
     **_FINISHES,
 }

@@ -39,6 +39,7 @@ _PAINTED = frozenset({Touch.COATING, Touch.STEEL})
 _BASES = {
     "brass": "brass",
     "cabinet_glass": "clear_glass",
+    "cardboard": "cardboard",
     "ceiling_insulation": "fiberglass",
     "daylight": "none",
     "floor_asphalt": "asphalt",
@@ -59,6 +60,13 @@ _BASES = {
     "sign_ring": "aluminum",
     "soft_top": "fabric",
     "tube_glow": "plexiglass",
+    "wood_pallet": "wood",
+    **{
+        key: base
+        for prefix, base in {"cloth": "fabric", "skin": "skin", "hair": "fur_hair", "leather": "leather"}.items()
+        for key in MATERIALS
+        if key.startswith(f"{prefix}_")
+    },
 }
 """What their touch does not tell; the sky behind doors is made of nothing."""
 _TRANSPARENT = frozenset({"cabinet_glass", "glass", "glass_dark"})

@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import Field, ValidationError, field_validator
 
+from garage2usd.config.clutter import ClutterConfig
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, with_textures, without_files
 from garage2usd.config.fittings import FittingsConfig, ParkingConfig
@@ -24,6 +25,7 @@ from garage2usd.settings import Settings, config_error
 
 __all__ = [
     "BayConfig",
+    "ClutterConfig",
     "FittingsConfig",
     "GarageConfig",
     "LookConfig",
@@ -57,6 +59,8 @@ class GarageConfig(Settings):
     """Parked cars."""
     vehicles: VehiclesConfig = VehiclesConfig()
     """Cars of one's own."""
+    clutter: ClutterConfig = ClutterConfig()
+    """People and things that stand about."""
     look: LookConfig = LookConfig()
     """How it looks."""
     stage: StageConfig = StageConfig()

@@ -7,7 +7,12 @@ whole garage `prove_garage` takes a `DrivenGarage`, and `prove_stalls` a layout 
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import DrivenGarage, DrivenStall, Nose, StallProof, prove_garage
 from garage2usd.driving.lane_poses import LaneDirections, LaneSquare, SquareUse
-from garage2usd.driving.layout_garage import prove_stalls, with_truth_of_misparked, without_unreachable
+from garage2usd.driving.layout_garage import (
+    prove_stalls,
+    with_clutter,
+    with_truth_of_misparked,
+    without_unreachable,
+)
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Search, find_way, least_clearance_m
@@ -39,6 +44,7 @@ __all__ = [
     "least_clearance_m",
     "prove_garage",
     "prove_stalls",
+    "with_clutter",
     "with_truth_of_misparked",
     "without_unreachable",
 ]

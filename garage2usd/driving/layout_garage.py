@@ -1,6 +1,6 @@
 """A layout and its lane graph as a garage that is driven in."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -8,15 +8,28 @@ import shapely
 
 from garage2usd.config import GarageConfig
 from garage2usd.driving.assembly import StandingThing, assembled
-from garage2usd.driving.car import DesignCar
+from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
+from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits
 from garage2usd.layout import Layout, Placement, lay_out
+from garage2usd.layout.grounds import Grounds
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.dead_ends import dead_ends
 from garage2usd.structure.lane_graph import LaneGraph
 
-__all__ = ["layout_garage", "object_name", "prove_stalls", "with_truth_of_misparked", "without_unreachable"]
+__all__ = [
+    "layout_garage",
+    "object_name",
+    "prove_stalls",
+    "with_clutter",
+    "with_truth_of_misparked",
+    "without_unreachable",
+]
+
+_CLEAR_M = 0.1
+"""What clutter leaves beside proven ways: the margin of the proof and as much again."""
+_STEP_M = 0.25
 
 
 def prove_stalls(
@@ -117,6 +130,58 @@ def _with_cars_between_lines(config: GarageConfig) -> GarageConfig:
     if not (parking.over_line or parking.misparked):
         return config
     return config.model_copy(update={"parking": parking.model_copy(update={"over_line": 0.0, "misparked": 0.0})})
+
+
+def with_clutter(
+    layout: Layout,
+    graph: LaneGraph,
+    config: GarageConfig,
+    *,
+    cars: Iterable[DesignCar] = (DesignCar(),),
+    progress: Progress = silent,
+) -> Layout:
+    """The layout anew with the people and things that stand about, none of them on a proven way.
+
+    Parameters
+    ----------
+    layout, graph, config
+        The garage without them, and how many of them there are.
+    cars
+        The cars whose ways are kept clear.
+    progress
+        As for `garage2usd.driving.prove_garage`.
+
+    Notes
+    -----
+    What the ways of all proven stalls sweep is kept clear with a margin, so that these ways stay clear.
+    """
+    swept = [
+        hull
+        for car in dict.fromkeys(cars)
+        for proof in prove_stalls(layout, graph, car=car, progress=progress)
+        for way in (proof.way_in, proof.way_out)
+        if way is not None and way.moves
+        for hull in _swept(way, car)
+    ]
+    kept_clear = shapely.buffer(shapely.union_all(swept), _CLEAR_M)
+    cluttered = lay_out(
+        layout.structure,
+        graph,
+        config,
+        unreachable=layout.unreachable,
+        held_back=layout.held_back,
+        kept_clear=kept_clear,
+    )
+    return replace(cluttered, blocked=layout.blocked)
+
+
+def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
+    """What a car sweeps on a way, in convex pieces from each pose to the next."""
+    poses, _ = way.poses(_STEP_M)
+    corners = np.array([car.corners(Pose(*pose)) for pose in poses.tolist()])
+    pairs = np.concatenate([corners[:-1], corners[1:]], axis=1)
+    hulls: Grounds = shapely.convex_hull(shapely.multipoints(pairs))
+    return hulls
 
 
 def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from garage2usd.config import GarageConfig, LookConfig
@@ -19,6 +20,7 @@ from garage2usd.layout.boards import with_boards
 from garage2usd.layout.building import columns, ground_inside, outer_walls
 from garage2usd.layout.ceiling import beams, ceiling_levels
 from garage2usd.layout.clearance import check_carriageways
+from garage2usd.layout.clutter import clutter
 from garage2usd.layout.cores import Core, core_placements
 from garage2usd.layout.designation import chargers, with_designated_stalls
 from garage2usd.layout.drains import drains
@@ -99,6 +101,8 @@ class Layout:
         Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
     misparked
         Names of the stalls of those that are misparked, as far over that the next stall may be blocked.
+    held_back
+        Names of the stalls whose cars stand between their lines, as others would lack the room.
     blocked
         Name of each stall that the design car is proven not to get into, as a car that is misparked reaches there, and
         of the stall of that car; known of a garage that is generated.
@@ -115,6 +119,7 @@ class Layout:
     unreachable: frozenset[str] = frozenset()
     reaching: Mapping[str, str] = field(default_factory=dict)
     misparked: frozenset[str] = frozenset()
+    held_back: frozenset[str] = frozenset()
     blocked: Mapping[str, str] = field(default_factory=dict)
 
     def counts(self) -> dict[str, int]:
@@ -188,13 +193,14 @@ class Layout:
         return tuple(self.placements.at(self.placements.rows_of(kind)))
 
 
-def lay_out(
+def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     structure: Structure,
     graph: LaneGraph,
     config: GarageConfig,
     *,
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
+    kept_clear: shapely.Geometry | None = None,
 ) -> Layout:
     """Place every object of a garage.
 
@@ -211,6 +217,9 @@ def lay_out(
         and kept free.
     held_back
         Names of stalls whose cars do not stand over a line, as others would lack the room.
+    kept_clear
+        The ground (x, z) that cars need on their ways into stalls and out; without it nothing stands about, whatever
+        ``clutter`` says.
 
     Returns
     -------
@@ -262,7 +271,7 @@ def lay_out(
         yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
         yield (closing := cones(grid, stalls, parked.touched, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, grid, look, fittings)
-        yield chargers(stalls)
+        yield (charging := chargers(stalls))
         yield bumps
         yield (signs := no_parking_signs(grid, shell, cores, fittings, seed=seed))
 
@@ -276,13 +285,16 @@ def lay_out(
         yield mirrors(grid, pillars, fittings, levels)
 
         yield (walls := with_ramps(shell, ground_inside(structure), fittings, look.walls))
-        yield barriers(walls, fittings)
+        yield (gates := barriers(walls, fittings))
         yield ramp_lamps(ramp_lights(walls, fittings), look.lights, illuminance.luminance_nit, seed=seed)
         yield (blocks := core_placements(structure, cores, ceiling, look.walls))
         hung = mounted_objects(grid, pillars, walls, blocks, stalls, cores, [*closing, *signs], config)
         yield with_boards(pillars, hung)
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
         yield hung
+        if kept_clear is not None:
+            standing = [*pillars, *walls, *blocks, *cars, *closing, *charging, *signs, *gates]
+            yield clutter(grid, stalls, cores, standing, hung, config, kept_clear=kept_clear)
 
     return Layout(
         structure,
@@ -296,6 +308,7 @@ def lay_out(
         frozenset(unreachable),
         parked.reaching,
         parked.misparked,
+        frozenset(held_back),
     )
 
 

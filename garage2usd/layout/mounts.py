@@ -22,7 +22,7 @@ from garage2usd.objects.wall import WallSpec
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
 from garage2usd.structure.stalls import Edge
 
-__all__ = ["mounted_objects"]
+__all__ = ["carriageway", "core_and_landing", "mounted_objects"]
 
 _APPROACH_M = 0.6
 """What is kept free in front, so that people get there."""
@@ -84,9 +84,9 @@ def mounted_objects(
     """
     pillars, walls, blocks = tuple(pillars), tuple(walls), tuple(blocks)
     faces = [*_column_faces(pillars), *_wall_faces(walls), *_block_faces(blocks)]
-    driven = [_carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
+    driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
     parked = shapely.buffer(grounds_of([stall.corners_m() for stall in stalls]), -_TOUCH_M / 2, join_style="mitre")
-    taken = [_core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *blocks, *standing))
+    taken = [core_and_landing(core) for core in cores] + _outlines((*pillars, *walls, *blocks, *standing))
     used = np.concatenate([parked, grounds_of(taken)])
     lanes = [tile.middle_m for tile in grid if tile.cell is Cell.LANE]
     places = np.array([stall.centre_m for stall in stalls] + lanes)
@@ -230,7 +230,7 @@ def _extent_m(mounted: Mounted) -> tuple[float, float, float]:
     return min(xs), max(xs), max(zs)
 
 
-def _core_and_landing(core: Core) -> Polygon:
+def core_and_landing(core: Core) -> Polygon:
     """A core with the floor before its door."""
     x, z = core.width_m / 2, core.depth_m / 2
     outline = rectangle(-x, -z, x, z + core.recess_m)
@@ -251,7 +251,7 @@ def _before(faces: Sequence[_Face], outline: Polygon) -> Grounds:
     return grounds
 
 
-def _carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
+def carriageway(tile: Tile, setback_m: float) -> shapely.Polygon:
     """The ground of a lane between its margins; all of a portal's."""
     margin = 0.0 if tile.cell in {Cell.ENTRANCE, Cell.EXIT} else setback_m
     up, down, left, right = (0.0 if drivable else margin for drivable in tile.drivable)

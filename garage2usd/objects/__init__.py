@@ -51,7 +51,7 @@ KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")
 _ALL: list[Kind | PieceClass] = [*KINDS, *PIECES]
 CLASSES: tuple[Kind | PieceClass, ...] = tuple(sorted(_ALL, key=lambda each: each.number))
 """All semantic classes, of objects and of pieces of them, in the order of their numbers: the one table of them."""
-CLASSES_VERSION = 4
+CLASSES_VERSION = 5
 """Of the table: one more whenever a class is added, or covers something else than before."""
 PIECE_LABELS = frozenset(piece.label for piece in PIECES)
 """The classes of pieces, which belong to the object that they are part of."""

@@ -44,7 +44,20 @@ CATEGORIES = (
     "vehicle.ego",
 )
 """Of nuScenes-lidarseg; the place in the list is what files of classes hold."""
-BOXED = {"car": "vehicle.car", "traffic_cone": "movable_object.trafficcone", "barrier": "movable_object.barrier"}
+BOXED = {
+    "car": "vehicle.car",
+    "traffic_cone": "movable_object.trafficcone",
+    "barrier": "movable_object.barrier",
+    "waste_bin": "movable_object.pushable_pullable",
+    "cardboard_box": "movable_object.debris",
+    "pallet": "movable_object.debris",
+    "bag": "movable_object.debris",
+    "shopping_trolley": "movable_object.pushable_pullable",
+    "pram": "human.pedestrian.stroller",
+    "bicycle": "vehicle.bicycle",
+    "motorbike": "vehicle.motorcycle",
+    "person": "human.pedestrian.adult",
+}
 """Classes whose objects have boxes."""
 _PARTS = {"number_plate": "vehicle.car"}
 """Classes of what belongs to such an object."""

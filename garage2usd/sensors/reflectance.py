@@ -102,6 +102,10 @@ _OF_KEY = {
     "sign_blue": MaterialClass.RETROREFLECTOR,
     "sign_ring": MaterialClass.RETROREFLECTOR,
     "lamp_front": MaterialClass.PLASTIC,
+    **dict.fromkeys(
+        [key for key in MATERIALS if key.startswith(("cloth_", "skin_", "hair_", "leather_", "cardboard", "wood_"))],
+        MaterialClass.OTHER,
+    ),
 }
 """What its touch does not tell."""
 _METALLIC = 0.5

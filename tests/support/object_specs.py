@@ -8,6 +8,7 @@ from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.car import CarSpec, OwnCarSpec
+from garage2usd.objects.cardboard_box import BoxSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.column import Board, ColumnSpec
@@ -24,6 +25,7 @@ from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec, OwnPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
+from garage2usd.objects.pallet import PalletSpec
 from garage2usd.objects.panel import Marking, Paint, Surface
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
@@ -33,6 +35,7 @@ from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
+from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
 from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
 from support.foreign_cars import own_car
@@ -124,6 +127,10 @@ SPECS = {
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
     "own_car": OwnCarSpec(own_car().body.name, PAINTS[0], own_car()),
     "own_plate": OwnPlateSpec(own_car().body.name, "K47 M92", car=own_car().body),
+    **{f"bin_{colour}": BinSpec(colour) for colour in BIN_COLOURS},
+    "box": BoxSpec(0.6, 0.33, 0.4),
+    **{f"pallets_{count}": PalletSpec(count) for count in (1, 5)},
+    "pallets_upright": PalletSpec(2, is_upright=True),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
     "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
     "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),

@@ -1,0 +1,70 @@
+"""Settings of the people and the things that stand about."""
+
+from enum import StrEnum
+
+from pydantic import Field
+
+from garage2usd.settings import Settings
+
+__all__ = ["ClutterAmount", "ClutterConfig"]
+
+
+class ClutterAmount(StrEnum):
+    """How much stands about where no number is given."""
+
+    NONE = "none"
+    USUAL = "usual"
+
+
+_USUAL = {
+    "people": 6.0,
+    "bicycles": 3.0,
+    "motorbikes": 2.0,
+    "trolleys": 2.0,
+    "prams": 0.5,
+    "bins": 2.0,
+    "boxes": 2.0,
+    "pallets": 1.0,
+    "bags": 1.0,
+}
+"""Per hundred stalls; assumed, as nobody has published a count."""
+
+
+class ClutterConfig(Settings):
+    """People and things that stand where no car drives or parks.
+
+    Numbers are per hundred stalls, and the most there are: what finds no room is left out.
+    """
+
+    amount: ClutterAmount = ClutterAmount.NONE
+    """What the numbers are that are not given: none, or the usual ones."""
+    people: float | None = Field(None, ge=0, le=200)
+    """People who stand, wait, look at a phone or walk past; usually 6."""
+    bicycles: float | None = Field(None, ge=0, le=200)
+    """Bicycles; usually 3."""
+    motorbikes: float | None = Field(None, ge=0, le=200)
+    """Motorbikes; usually 2."""
+    trolleys: float | None = Field(None, ge=0, le=200)
+    """Shopping trolleys; usually 2."""
+    prams: float | None = Field(None, ge=0, le=200)
+    """Prams; usually 0.5."""
+    bins: float | None = Field(None, ge=0, le=200)
+    """Wheeled waste bins; usually 2."""
+    boxes: float | None = Field(None, ge=0, le=200)
+    """Cardboard boxes; usually 2."""
+    pallets: float | None = Field(None, ge=0, le=200)
+    """Pallets, bare or in stacks; usually 1."""
+    bags: float | None = Field(None, ge=0, le=200)
+    """Bags that are put down; usually 1."""
+
+    def per_hundred(self, what: str) -> float:
+        """How many of something, a name of a setting, there are for each hundred stalls."""
+        given: float | None = getattr(self, what)
+        if given is not None:
+            return given
+        return _USUAL[what] if self.amount is ClutterAmount.USUAL else 0.0
+
+    @property
+    def is_any(self) -> bool:
+        """Whether anything stands about."""
+        return any(self.per_hundred(what) > 0 for what in _USUAL)

@@ -1,0 +1,47 @@
+"""Cardboard boxes."""
+
+from dataclasses import dataclass
+
+from garage2usd.assets.faces import box_faces
+from garage2usd.assets.mesh import Asset, Collider, make_part
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["BOX_SIZES_M", "KIND", "BoxSpec"]
+
+KIND = Kind("cardboard_box", number=38, label="cardboard_box", cityscapes="dynamic", group="Clutter")
+
+BOX_SIZES_M = ((0.4, 0.3, 0.3), (0.6, 0.33, 0.4), (0.5, 0.6, 0.45), (0.75, 0.42, 0.55))
+"""Width, height and depth of usual removal and parcel boxes."""
+_TAPE_M = 0.025
+
+
+@dataclass(frozen=True)
+class BoxSpec(Spec, kind=KIND):
+    """A closed box; origin on the floor in its middle.
+
+    Attributes
+    ----------
+    width_m, height_m, depth_m
+        Its size along X, Y and Z.
+    """
+
+    width_m: float
+    height_m: float
+    depth_m: float
+
+    def asset(self) -> Asset:
+        """A box with a strip of tape along the seam of its lid and down both ends."""
+        x, y, z = self.width_m / 2, self.height_m, self.depth_m / 2
+        tape = box_faces((-x - 0.001, y - 0.08, -_TAPE_M), (x + 0.001, y + 0.001, _TAPE_M), without="b")
+        body = box_faces((-x, 0.0, -z), (x, y, z))
+        return Asset(
+            (
+                make_part("Body", body, "cardboard", collider=Collider.BOX),
+                make_part("Tape", tape, "cardboard_tape"),
+            )
+        )
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """The box."""
+        return (rectangle(-self.width_m / 2, -self.depth_m / 2, self.width_m / 2, self.depth_m / 2),)

@@ -1,0 +1,107 @@
+"""People and things that stand about: where they stand, how many, and that no car is in need of their ground."""
+
+import math
+from collections import Counter
+
+import numpy as np
+import pytest
+import shapely
+from shapely import affinity
+
+from garage2usd.checks import check_layout
+from garage2usd.config import GarageConfig
+from garage2usd.config.clutter import ClutterConfig
+from garage2usd.driving.layout_garage import prove_stalls
+from garage2usd.errors import ConfigError
+from garage2usd.layout.building import ground_inside
+from garage2usd.pipeline import generate
+from garage2usd.structure.grid import Cell
+
+MANY = dict.fromkeys(set(ClutterConfig.model_fields) - {"amount"}, 12.0)
+MANY_SEEDS = range(40)
+
+
+def garage(seed, clutter, **settings):
+    site = {"height_cells": 5 + seed % 4, "width_cells": 5 + seed // 4 % 5}
+    return generate(GarageConfig(seed=seed, site=site, clutter=clutter, **settings))
+
+
+def clutter_of(layout):
+    return [place for place in layout.placements if place.spec.kind.group == "Clutter"]
+
+
+def hull(place):
+    """All that it covers of the floor, by its mesh and shapely's own turns."""
+    points = np.concatenate([part.points[:, [0, 2]] for part in place.spec.asset().parts])
+    x, _, z = place.position_m
+    turned = affinity.rotate(shapely.MultiPoint(points).convex_hull, -math.degrees(place.yaw_rad), origin=(0, 0))
+    return affinity.translate(turned, x, z)
+
+
+def test_nothing_stands_about_where_nothing_is_asked_for_and_what_is_moves_nothing_else():
+    bare, full = garage(3, {}), garage(3, MANY)
+    assert not clutter_of(bare.layout)
+    added = clutter_of(full.layout)
+    assert added
+    assert [place for place in full.layout.placements if place not in set(added)] == list(bare.layout.placements)
+
+
+def test_sorts_are_drawn_by_themselves_and_names_differ():
+    alone, among = (clutter_of(garage(5, clutter).layout) for clutter in ({"pallets": 12.0}, MANY))
+    assert alone
+    assert [place for place in among if place.kind == "pallet"] == alone
+    assert max(Counter((place.kind, place.name) for place in among).values()) == 1
+
+
+def test_usual_amounts_fill_in_what_is_not_given():
+    assert ClutterConfig(amount="usual", bins=0).per_hundred("bins") == 0
+    assert ClutterConfig(amount="usual").per_hundred("people") == 6
+    assert ClutterConfig().per_hundred("people") == 0
+    with pytest.raises(ConfigError, match=r"clutter.people"):
+        GarageConfig(clutter={"people": -1})
+
+
+def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
+    found = Counter()
+    for seed in MANY_SEEDS:
+        layout = garage(seed, MANY).layout
+        clutter = clutter_of(layout)
+        found.update(place.kind for place in clutter)
+        inside = ground_inside(layout.structure)
+        others = [
+            shapely.Polygon(outline)
+            for place in layout.placements
+            if place.spec.kind.group != "Clutter"
+            for outline in place.outlines()
+        ]
+        stalls = [shapely.Polygon(stall.corners_m()) for stall in layout.stalls]
+        doors = [shapely.Point(core.door_m) for core in layout.cores]
+        shapes = [hull(place) for place in clutter]
+        taken = shapely.STRtree([*others, *stalls])
+        assert not len(taken.query(shapes, predicate="intersects")[0]), seed
+        assert all(shapely.distance(shape, door) > 0.9 for shape in shapes for door in doors), seed
+        assert shapely.contains_properly(inside, shapes).all(), seed
+        touching = shapely.STRtree(shapes).query(shapes, predicate="intersects")
+        assert (touching[0] == touching[1]).all(), seed
+        assert all(place.position_m[1] == 0 for place in clutter), seed
+        assert not any(shape.intersects(lane) for shape in shapes for lane in carriageways(layout)), seed
+    assert set(found) == {"pallet", "waste_bin", "cardboard_box"}, found
+    assert min(found.values()) > 20, found
+
+
+def carriageways(layout):
+    """The middle of every lane square, which is driven however narrow its margins are."""
+    structure = layout.structure
+    x, z = structure.column_edges_m, structure.row_edges_m
+    for row, col in structure.where(Cell.LANE):
+        yield shapely.box(x[col] + 0.8, z[row] + 0.8, x[col + 1] - 0.8, z[row + 1] - 0.8)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_every_stall_that_was_proven_stays_so_and_checks_find_no_more(seed):
+    bare, full = garage(seed, {}), garage(seed, MANY)
+    assert clutter_of(full.layout)
+    proven = [{proof.stall for proof in prove_stalls(g.layout, g.graph) if proof.is_proven} for g in (bare, full)]
+    assert proven[0] == proven[1]
+    findings = [Counter(finding.rule for finding in check_layout(g.layout, g.graph, g.config)) for g in (bare, full)]
+    assert findings[0] == findings[1]
