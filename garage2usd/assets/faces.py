@@ -15,6 +15,7 @@ __all__ = [
     "frame_faces",
     "lathe_faces",
     "level_lathe_faces",
+    "limb_faces",
     "loft_faces",
     "moved",
     "rectangle_ring",
@@ -211,3 +212,37 @@ def loft_faces(rings: Sequence[Face]) -> list[Face]:
         faces += list(np.stack([low, low_next, high_next], axis=1))
         faces += list(np.stack([low, high_next, high], axis=1))
     return [rings[0][::-1], *faces, rings[-1]]
+
+
+def limb_faces(
+    points: Sequence[ArrayLike],
+    widths_m: Sequence[float],
+    depths_m: Sequence[float] | None = None,
+    *,
+    side: tuple[float, float, float] = (1.0, 0.0, 0.0),
+    segments: int = 12,
+) -> list[Face]:
+    """A closed solid along a line of points, of ellipses across it.
+
+    Parameters
+    ----------
+    points
+        Middles of the ellipses (x, y, z), none twice in a row.
+    widths_m, depths_m
+        Half axes of each ellipse, towards `side` and across it; circles if the depths are left out.
+    side
+        A direction that the line never takes.
+    """
+    line = np.array(points, dtype=float)
+    ways = np.diff(line, axis=0)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    angles = np.arange(segments) * (2 * np.pi / segments)
+    rings = []
+    for index, (point, width, depth) in enumerate(zip(line, widths_m, depths_m or widths_m, strict=True)):
+        along = ways[max(index - 1, 0)] + ways[min(index, len(ways) - 1)]
+        along /= np.linalg.norm(along)
+        across = np.array(side) - along * (along @ np.array(side))
+        across /= np.linalg.norm(across)
+        other = np.cross(along, across)
+        rings.append(point + np.outer(np.cos(angles) * width, across) + np.outer(np.sin(angles) * depth, other))
+    return loft_faces(rings)

@@ -1,12 +1,13 @@
 """People and things on the ground that nobody drives or parks on, beside what they lean on or belong to."""
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import shapely
 
 from garage2usd.assets import pascal_case
+from garage2usd.assets.figures import POSES
 from garage2usd.config import GarageConfig
 from garage2usd.layout.building import ground_inside
 from garage2usd.layout.cores import Core
@@ -14,9 +15,15 @@ from garage2usd.layout.grounds import grounds_of
 from garage2usd.layout.mounts import carriageway, core_and_landing
 from garage2usd.layout.placement import Placement, Stall, placed
 from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects.bag import BagSort, BagSpec
+from garage2usd.objects.bicycle import BICYCLE_COLOURS, BicycleSpec
 from garage2usd.objects.cardboard_box import BOX_SIZES_M, BoxSpec
 from garage2usd.objects.kind import Spec
+from garage2usd.objects.motorbike import MOTORBIKE_COLOURS, MotorbikeSpec
 from garage2usd.objects.pallet import PalletSpec
+from garage2usd.objects.person import PEOPLE, PersonSpec
+from garage2usd.objects.pram import PRAM_COLOURS, PramSpec
+from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
 from garage2usd.randomness import Step, named_generator
 from garage2usd.structure.grid import Cell
@@ -24,8 +31,8 @@ from garage2usd.structure.grid import Cell
 __all__ = ["clutter"]
 
 _QUARTER_TURN = np.pi / 2
-_TRIES = 40
-"""Places that are looked at for each object."""
+_TRIES = 600
+"""Points that are drawn for each object."""
 _APART_M = 0.03
 """What is left around it."""
 _LINE_M = 0.01
@@ -38,6 +45,7 @@ _DOOR_M = 1.0
 """What is left around the door of a core."""
 
 
+_T = TypeVar("_T")
 _PALLETS = ((1, False), (3, False), (6, False), (1, True), (2, True))
 
 
@@ -49,9 +57,31 @@ class _Sort(NamedTuple):
     is_turned_freely: bool = False
 
 
+def _motorbike(rng: np.random.Generator) -> MotorbikeSpec:
+    return MotorbikeSpec(_one_of(rng, MOTORBIKE_COLOURS), is_scooter=bool(rng.integers(2)))
+
+
+def _person(rng: np.random.Generator) -> PersonSpec:
+    return PersonSpec(int(rng.integers(len(PEOPLE))), _one_of(rng, tuple(POSES)))
+
+
+def _one_of(rng: np.random.Generator, choices: Sequence[_T]) -> _T:
+    return choices[int(rng.integers(len(choices)))]
+
+
 _SORTS: tuple[_Sort, ...] = (
     _Sort("pallets", lambda rng: PalletSpec(*_PALLETS[int(rng.integers(len(_PALLETS)))])),
     _Sort("bins", lambda rng: BinSpec(_one_of(rng, BIN_COLOURS))),
+    _Sort("motorbikes", _motorbike),
+    _Sort("bicycles", lambda rng: BicycleSpec(_one_of(rng, BICYCLE_COLOURS))),
+    _Sort("trolleys", lambda rng: TrolleySpec((1, 1, 1, 3)[int(rng.integers(4))])),
+    _Sort("prams", lambda rng: PramSpec(_one_of(rng, PRAM_COLOURS))),
+    _Sort(
+        "people",
+        _person,
+        is_turned_freely=True,
+    ),
+    _Sort("bags", lambda rng: BagSpec(_one_of(rng, tuple(BagSort))), is_turned_freely=True),
     _Sort("boxes", lambda rng: BoxSpec(*BOX_SIZES_M[int(rng.integers(len(BOX_SIZES_M)))])),
 )
 """Large ones first, which find less room."""
@@ -146,18 +176,16 @@ def _place(
         return None
     chosen = rng.choice(len(free), size=_TRIES, p=areas / areas.sum())
     draws = rng.random((_TRIES, 3))
-    for index, (right, down, turn) in zip(chosen.tolist(), draws.tolist(), strict=True):
-        ground = free[index]
-        left, top, far, bottom = ground.bounds
-        point = left + right * (far - left), top + down * (bottom - top)
+    grounds = np.array(free, dtype=object)[chosen]
+    bounds = shapely.bounds(grounds)
+    points = bounds[:, :2] + draws[:, :2] * (bounds[:, 2:] - bounds[:, :2])
+    for candidate in np.flatnonzero(shapely.contains_xy(grounds, points)).tolist():
+        index, ground, turn = int(chosen[candidate]), grounds[candidate], float(draws[candidate, 2])
         yaw = turn * 4 * _QUARTER_TURN if is_free else int(turn * 4) * _QUARTER_TURN
+        point = float(points[candidate, 0]), float(points[candidate, 1])
         place = placed(name, spec, point, yaw_rad=round(float(np.remainder(yaw + np.pi, 2 * np.pi) - np.pi), 6))
         taken = shapely.union_all(grounds_of(place.outlines()))
         if shapely.contains_properly(ground, taken):
             free[index : index + 1] = _wide_pieces(ground.difference(taken.buffer(_APART_M)))
             return place
     return None
-
-
-def _one_of(rng: np.random.Generator, choices: Sequence[str]) -> str:
-    return choices[int(rng.integers(len(choices)))]

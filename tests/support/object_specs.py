@@ -2,10 +2,13 @@
 
 import string
 
+from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
+from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
+from garage2usd.objects.bicycle import BicycleSpec
 from garage2usd.objects.cable_tray import CableTraySpec
 from garage2usd.objects.car import CarSpec, OwnCarSpec
 from garage2usd.objects.cardboard_box import BoxSpec
@@ -22,18 +25,22 @@ from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, Stai
 from garage2usd.objects.hydrant_cabinet import HydrantCabinetSpec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
+from garage2usd.objects.motorbike import MotorbikeSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
 from garage2usd.objects.number_plate import NumberPlateSpec, OwnPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.pallet import PalletSpec
 from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.objects.person import PEOPLE, PersonSpec
 from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.pram import PramSpec
 from garage2usd.objects.ramp import RampSpec
 from garage2usd.objects.sky import SkySpec
 from garage2usd.objects.speed_bump import SpeedBumpSpec
 from garage2usd.objects.sprinkler import SprinklerSpec
 from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.stall_number import NumberFrameSpec, NumberSpec, WallNumberSpec
+from garage2usd.objects.trolley import TrolleySpec
 from garage2usd.objects.wall import WallPostSpec, WallSpec
 from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
 from garage2usd.objects.wheel_stop import WheelStopSpec
@@ -128,6 +135,14 @@ SPECS = {
     "own_car": OwnCarSpec(own_car().body.name, PAINTS[0], own_car()),
     "own_plate": OwnPlateSpec(own_car().body.name, "K47 M92", car=own_car().body),
     **{f"bin_{colour}": BinSpec(colour) for colour in BIN_COLOURS},
+    "bicycle": BicycleSpec("red"),
+    "motorbike": MotorbikeSpec("blue"),
+    "scooter": MotorbikeSpec("white", is_scooter=True),
+    **{f"trolleys_{count}": TrolleySpec(count) for count in (1, 3)},
+    "pram": PramSpec("grey"),
+    **{f"bag_{sort}": BagSpec(sort) for sort in BagSort},
+    **{f"person_{number}": PersonSpec(number) for number in range(len(PEOPLE))},
+    **{f"person_{pose}": PersonSpec(number, pose) for number, pose in enumerate(POSES, start=4)},
     "box": BoxSpec(0.6, 0.33, 0.4),
     **{f"pallets_{count}": PalletSpec(count) for count in (1, 5)},
     "pallets_upright": PalletSpec(2, is_upright=True),

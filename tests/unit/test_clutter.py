@@ -85,7 +85,7 @@ def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
         assert (touching[0] == touching[1]).all(), seed
         assert all(place.position_m[1] == 0 for place in clutter), seed
         assert not any(shape.intersects(lane) for shape in shapes for lane in carriageways(layout)), seed
-    assert set(found) == {"pallet", "waste_bin", "cardboard_box"}, found
+    assert len(found) == len(MANY), found
     assert min(found.values()) > 20, found
 
 

@@ -1,0 +1,81 @@
+"""People who stand."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from garage2usd.assets.figures import POSES, Figure, Outfit, figure_asset
+from garage2usd.assets.mesh import Asset
+from garage2usd.objects.kind import Kind, Spec
+from garage2usd.objects.outline import Polygon, rectangle
+
+__all__ = ["KIND", "PEOPLE", "PersonSpec"]
+
+KIND = Kind("person", number=45, label="person", cityscapes="person", group="Clutter")
+
+_COAT, _JACKET, _SHIRT, _DRESS = Outfit.COAT, Outfit.JACKET, Outfit.SHIRT, Outfit.DRESS
+PEOPLE: tuple[Figure, ...] = tuple(
+    Figure(
+        height,
+        build,
+        is_woman,
+        outfit,
+        f"cloth_{top}",
+        f"cloth_{bottom}",
+        f"leather_{shoes}",
+        f"skin_{skin}",
+        f"hair_{hair}",
+        is_long,
+    )
+    for height, build, is_woman, outfit, top, bottom, shoes, skin, hair, is_long in (
+        (1.80, 1.00, False, _JACKET, "navy", "denim", "brown", "pale", "brown", False),
+        (1.74, 1.12, False, _JACKET, "grey", "black", "black", "tan", "black", False),
+        (1.86, 0.95, False, _SHIRT, "white", "beige", "brown", "brown", "black", False),
+        (1.70, 1.22, False, _SHIRT, "green", "denim", "black", "pale", "grey", False),
+        (1.77, 1.02, False, _COAT, "black", "grey", "black", "pale", "grey", False),
+        (1.83, 1.06, False, _JACKET, "red", "denim", "black", "dark", "black", False),
+        (1.76, 1.00, False, _JACKET, "yellow", "navy", "black", "tan", "brown", False),
+        (1.66, 0.98, True, _JACKET, "red", "black", "black", "pale", "blond", True),
+        (1.62, 1.05, True, _COAT, "beige", "black", "brown", "tan", "brown", True),
+        (1.71, 0.95, True, _DRESS, "navy", "navy", "black", "brown", "black", True),
+        (1.58, 1.15, True, _SHIRT, "white", "denim", "brown", "tan", "black", False),
+        (1.68, 1.00, True, _COAT, "grey", "denim", "black", "dark", "black", False),
+        (1.64, 1.02, True, _DRESS, "green", "brown", "brown", "pale", "brown", True),
+        (1.60, 1.10, True, _JACKET, "brown", "grey", "black", "pale", "grey", False),
+    )
+)
+"""Who there are, each in clothes of their own."""
+
+
+@dataclass(frozen=True)
+class PersonSpec(Spec, kind=KIND):
+    """Somebody; origin on the floor below the hips, looking to +Z.
+
+    Attributes
+    ----------
+    number
+        Place in `PEOPLE`.
+    pose
+        Name of a pose of `garage2usd.assets.figures.POSES`.
+    """
+
+    number: int
+    pose: str = "standing"
+
+    def asset(self) -> Asset:
+        """A dressed body, with what it holds."""
+        return figure_asset(PEOPLE[self.number], POSES[self.pose])
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """A rectangle around all of it."""
+        return _outlines(self)
+
+
+@lru_cache
+def _outlines(spec: PersonSpec) -> tuple[Polygon, ...]:
+    points = np.concatenate([part.points[:, [0, 2]] for part in spec.asset().parts]).astype(float)
+    (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return (
+        rectangle(round(left - 0.001, 4), round(top - 0.001, 4), round(right + 0.001, 4), round(bottom + 0.001, 4)),
+    )
