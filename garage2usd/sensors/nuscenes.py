@@ -65,7 +65,7 @@ def write_nuscenes(
     -----
     Each place of the drive is a sample, all of whose data are key frames. The global frame is the stage turned so that
     z is up, and moved so that all of it has positive coordinates, as nuScenes' maps have; the record of the map says
-    how (``stage_to_global``). Boxes go around cars, traffic cones and barriers of which a point was measured or
+    how (``stage_to_global``). Boxes go around what `nuscenes_classes.BOXED` names of which a point was measured or
     anything is in line of sight of a sensor; they have a margin of a centimetre, so that rounding puts no point
     outside. The visibility is the share of an object's directions in which nothing stands before it, whatever the
     sensor's field of view.

@@ -8,6 +8,7 @@ import shapely
 
 from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.layout import Layout, Placement, Stall, StallUse
+from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.lane_graph import LaneGraph, Square
@@ -39,6 +40,8 @@ SOLID: Colour = (120, 112, 108)
 _ON_FOOT: Colour = (20, 150, 70)
 _DOOR_M = 1.2
 _CAR: Colour = (112, 146, 192)
+_STANDING: Colour = (176, 58, 122)
+_CLUTTER = tuple(kind for kind in KINDS if kind.group == "Clutter")
 _IN: Colour = (16, 96, 208)
 _OUT: Colour = (226, 96, 16)
 _NUMBER_M, _NUMBER_WIDTH_M, _NUMBER_FROM_MOUTH_M = 0.75, 2.0, 0.75
@@ -68,6 +71,7 @@ def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, m
         yield from arrows(graph)
         yield from ramps(layout, sheet)
         yield from _building(layout)
+        yield from _clutter(layout)
         yield from portals(layout, sheet)
         if stall is not None:
             yield from _route(graph, stall)
@@ -107,6 +111,7 @@ def _legend(
     entries += [(RAMP, "ramp")] if counts["ramp"] else []
     entries += [(SOLID, "obstacle")] if counts["obstacle"] else []
     entries += [(_ON_FOOT, "door of a stair core")] if layout.cores else []
+    entries += [(_STANDING, "people and things")] if any(counts[kind.name] for kind in _CLUTTER) else []
     entries += [(INK, "column, wall")]
     return entries + ([(_IN, "way in"), (_OUT, "way out")] if with_route else [])
 
@@ -129,6 +134,13 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
     for stall in layout.stalls:
         if stall.number:
             yield _number(stall)
+
+
+def _clutter(layout: Layout) -> Iterator[Region]:
+    """People and things that stand about."""
+    for kind in _CLUTTER:
+        for place in layout.of_kind(kind.name):
+            yield from (Region(outline, _STANDING, kind.name, place.name) for outline in place.outlines())
 
 
 def _car_outline(car: Placement) -> list[Point]:
