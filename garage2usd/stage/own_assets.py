@@ -1,15 +1,17 @@
-"""The assets that a garage shares with no other: its floors as they are finished and painted, in one layer.
+"""The assets that a garage with a look of its own seldom shares with another: floors, columns, walls and lamps.
 
-In a layer each asset takes a third of the bytes that a file of its own would, as their materials are the same.
+In one layer each asset takes a third of the bytes that a file of its own would, as all refer to the same materials.
 """
 
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
+from pxr import Sdf
+
 from garage2usd.assets import Finish
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
-from garage2usd.stage.authoring import new_layer
+from garage2usd.stage.authoring import define, new_layer
 from garage2usd.stage.prototype_layer import define_prototype
 from garage2usd.stage.prototypes import asset_of
 
@@ -17,14 +19,20 @@ __all__ = ["OWN_ASSETS", "own_shapes", "write_own_assets"]
 
 OWN_ASSETS = "Grounds.usdc"
 """Name of the layer, after what the names of all layers of a garage begin with."""
-_GROUNDS = ("floor_", "stall_", "paint_")
-"""What the keys of materials begin with whose finishes seldom are those of another garage."""
+_OWN_MATERIALS = ("floor_", "stall_", "paint_", "column_", "wall_")
+"""What the keys of materials begin with whose finishes seldom are those of another garage, on shapes like these."""
+_OWN_KINDS = ("light",)
+"""Kinds whose shapes seldom are those of another garage where looks are drawn, though their materials are as usual."""
+_LOOKS = Sdf.Path("/Looks")
+"""The class that holds the materials of all assets of the layer."""
 
 
 def own_shapes(shapes: Collection[Spec], finishes: Mapping[str, Finish]) -> list[Spec]:
-    """The shapes with a finish that belongs to this garage."""
-    keys = {key for key in finishes if key.startswith(_GROUNDS)}
-    return [shape for shape in shapes if keys & asset_of(shape).materials] if keys else []
+    """The shapes with a finish that belongs to this garage, and with them those of some kinds."""
+    keys = {key for key in finishes if key.startswith(_OWN_MATERIALS)}
+    if not keys:
+        return []
+    return [shape for shape in shapes if shape.kind.name in _OWN_KINDS or keys & asset_of(shape).materials]
 
 
 def write_own_assets(
@@ -49,6 +57,7 @@ def write_own_assets(
         Of the textures, and their folder as the layer refers to it.
     """
     with new_layer(path, default_prim=next(iter(shapes))) as layer:
+        define(layer, _LOOKS, "Scope").specifier = Sdf.SpecifierClass
         for name, shape in shapes.items():
             define_prototype(
                 layer,
@@ -58,4 +67,5 @@ def write_own_assets(
                 quality=quality,
                 finishes=finishes,
                 textures=textures,
+                shared=_LOOKS,
             )

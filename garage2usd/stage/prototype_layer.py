@@ -105,8 +105,13 @@ def define_prototype(
     quality: TextureQuality,
     finishes: Mapping[str, Finish],
     textures: str = f"./{TEXTURE_FOLDER}",
+    shared: Sdf.Path | None = None,
 ) -> None:
-    """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`."""
+    """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`.
+
+    Its materials refer to those below the prim `shared`, where they are defined once for all assets of the layer,
+    but for those that its variants alter. Left out, it has all of its own.
+    """
     of = {key: finished(key, finishes) for key in sorted(asset.materials)}
     path = Sdf.Path.absoluteRootPath.AppendChild(name)
     root = define(layer, path, "Xform", kind=ModelKind.Tokens.component, label=kind.label)
@@ -116,18 +121,23 @@ def define_prototype(
     glowing = {key: finish.material for key, finish in of.items() if any(finish.material.emissive_rgb)}
     switched = glowing if asset.light is not None else {}
     for key, finish in of.items():
-        define_material(
-            layer,
-            _look(looks, key),
-            named_textures(finish.material, quality, folder=textures),
-            non_visual=NON_VISUAL[finish.key],
-            finish=finish.key if finish.key != key else "",
-            varies=key in VARYING,
-            is_switched=key in switched,
-        )
+        is_altered = key in VARYING or key in switched
+        place = _look(looks, key) if is_altered else _place_of_look(layer, _look(looks, key), shared)
+        if place is not None:
+            define_material(
+                layer,
+                place,
+                named_textures(finish.material, quality, folder=textures),
+                non_visual=NON_VISUAL[finish.key],
+                finish=finish.key if finish.key != key else "",
+                varies=key in VARYING,
+                is_switched=key in switched,
+            )
     touches = {part.material: of[part.material].material.touch for part in asset.parts if part.collider is not None}
     for touch in sorted(set(touches.values())):
-        _define_friction(layer, looks, touch)
+        place = _place_of_look(layer, _friction(looks, touch), shared)
+        if place is not None:
+            _define_friction(layer, place, touch)
     for label in pieces_of(asset):
         define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
     for part in asset.parts:
@@ -154,10 +164,20 @@ def _friction(looks: Sdf.Path, touch: Touch) -> Sdf.Path:
     return looks.AppendChild(f"Friction{touch.capitalize()}")
 
 
-def _define_friction(layer: Sdf.Layer, looks: Sdf.Path, touch: Touch) -> None:
+def _place_of_look(layer: Sdf.Layer, path: Sdf.Path, shared: Sdf.Path | None) -> Sdf.Path | None:
+    """Where a material is to be defined; None where it is already, and `path` only refers to it."""
+    if shared is None:
+        return path
+    place = shared.AppendChild(path.name)
+    is_there = layer.GetPrimAtPath(place) is not None
+    define(layer, path, "Material").referenceList.prependedItems = [Sdf.Reference("", place)]
+    return None if is_there else place
+
+
+def _define_friction(layer: Sdf.Layer, path: Sdf.Path, touch: Touch) -> None:
     """A physics material with the friction of dry surfaces."""
     friction = _FRICTION[touch]
-    material = define(layer, _friction(looks, touch), "Material")
+    material = define(layer, path, "Material")
     label_material(material, BASE_OF_TOUCH[touch], "PhysicsMaterialAPI")
     attribute(material, "physics:staticFriction", _TYPES.Float, friction.static)
     attribute(material, "physics:dynamicFriction", _TYPES.Float, friction.dynamic)
