@@ -4,7 +4,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.assets.mesh import Collider, Part, make_part
+from garage2usd.assets.materials import MATERIALS
+from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Collider, Part, make_part, unique_rows
 
 __all__ = ["GRID_M", "flat_part", "level_triangles", "upright_triangles"]
 
@@ -22,8 +23,34 @@ def flat_part(
     piece: str = "",
 ) -> Part:
     """A level sheet that looks up, of an (x, z) area."""
-    faces = [np.insert(corners, 1, height_m, axis=1) for corners in level_triangles(area)]
-    return make_part(name, faces, material, collider=collider, piece=piece, project=_from_above)
+    corners = level_triangles(area)
+    points, triangles = unique_rows(np.round(corners.reshape(-1, 2), WELD_DECIMALS) + 0.0)
+    triangles = triangles.reshape(-1, 3)
+    (ax, az), (bx, bz) = (np.moveaxis(points[triangles[:, end]] - points[triangles[:, 0]], 1, 0) for end in (1, 2))
+    up = az * bx - ax * bz
+    if not (up > MIN_AREA_M2).all():
+        faces = np.insert(corners, 1, height_m, axis=2)
+        return make_part(name, faces, material, collider=collider, piece=piece, project=_from_above)
+    # what `make_part` finds out of any faces is known of those that all look up
+    corner_of = triangles.ravel().astype(np.int32)
+    look, st, st_of = MATERIALS[material], np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    if look.textures():
+        repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
+        st, st_of = unique_rows(np.round(points * (1.0, -1.0) / repeats_m, WELD_DECIMALS) + 0.0)
+        st_of = st_of[corner_of]
+    return Part(
+        name=name,
+        points=np.insert(points, 1, round(height_m, WELD_DECIMALS), axis=1).astype(np.float32),
+        face_counts=np.full(len(triangles), 3, dtype=np.int32),
+        face_indices=corner_of,
+        normals=np.array([(0.0, 1.0, 0.0)], dtype=np.float32),
+        normal_indices=np.zeros(len(corner_of), dtype=np.int32),
+        st=st.astype(np.float32),
+        st_indices=st_of.astype(np.int32),
+        material=material,
+        collider=collider,
+        piece=piece,
+    )
 
 
 def level_triangles(area: shapely.Geometry) -> NDArray[np.float64]:
@@ -36,7 +63,8 @@ def level_triangles(area: shapely.Geometry) -> NDArray[np.float64]:
     """
     # constrained Delaunay, because no edge of it passes through another vertex
     triangles = shapely.get_parts(shapely.constrained_delaunay_triangles(area))
-    corners: NDArray[np.float64] = np.stack([shapely.get_coordinates(triangle)[:3] for triangle in triangles])
+    # of each triangle four corners, the first again as the last
+    corners: NDArray[np.float64] = shapely.get_coordinates(triangles).reshape(-1, 4, 2)[:, :3].copy()
     first, second, third = corners[:, 0], corners[:, 1], corners[:, 2]
     ab, ac = second - first, third - first
     # looking up, with +Z down the plan, is clockwise in (x, z)

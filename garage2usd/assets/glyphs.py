@@ -1,5 +1,7 @@
 """Shapes of words: capital letters and digits, drawn with a broad pen, and Chinese characters."""
 
+from functools import lru_cache
+
 import shapely
 from shapely import affinity
 
@@ -147,6 +149,7 @@ def text_length(text: str) -> float:
     return width + pitch * (len(text) - 1)
 
 
+@lru_cache(maxsize=64)
 def _glyph(character: str) -> shapely.Geometry:
     """A character that is 1 high, around the origin."""
     strokes = [

@@ -11,6 +11,8 @@ from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.assets.materials import MATERIALS, Finish, Rgb
 
 __all__ = [
+    "MIN_AREA_M2",
+    "WELD_DECIMALS",
     "AreaLight",
     "Asset",
     "Collider",
@@ -18,14 +20,17 @@ __all__ = [
     "Part",
     "make_part",
     "pascal_case",
+    "unique_rows",
 ]
 
 Face = NDArray[np.float64]
 """float64, shape (corners, 3): a planar polygon, counter-clockwise seen from outside."""
 
-_WELD_DECIMALS = 5
+WELD_DECIMALS = 5
+"""Of metres, to which corners are rounded."""
+MIN_AREA_M2 = 1e-9
+"""Faces whose area vectors are no longer are dropped."""
 _MIN_CORNERS = 3
-_MIN_AREA_M2 = 1e-9
 _NORMAL_STEPS = 10_000
 """Of 1, to which normals are rounded: an angle of 0.003 degrees."""
 
@@ -157,8 +162,8 @@ def make_part(
     project
         Texture coordinates in metres of corners, given the normal of each one's face; along the main axis if left out.
     """
-    corners = np.round(np.concatenate(faces), _WELD_DECIMALS) + 0.0
-    points, indices = _unique_rows(corners)
+    corners = np.round(np.concatenate(faces), WELD_DECIMALS) + 0.0
+    points, indices = unique_rows(corners)
     flat, counts = _clean_loops(points, indices, np.array([len(face) for face in faces]))
     used, flat = np.unique(flat, return_inverse=True)
     points, flat = points[used], flat.ravel()
@@ -172,7 +177,7 @@ def make_part(
         along = project or _along_main_axis
         repeats_m = look.repeat_m, look.repeat_up_m or look.repeat_m
         coordinates = along(points[flat], np.repeat(unit, counts, axis=0)) / repeats_m
-        st, st_indices = _unique_rows(np.round(coordinates, _WELD_DECIMALS) + 0.0)
+        st, st_indices = unique_rows(np.round(coordinates, WELD_DECIMALS) + 0.0)
     return Part(
         name=name,
         points=points.astype(np.float32),
@@ -188,7 +193,7 @@ def make_part(
     )
 
 
-def _unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def unique_rows(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """The distinct rows in their order, and for each row which of them it is."""
     order = np.lexsort(rows.T[::-1])
     is_new = np.concatenate(([True], (np.diff(rows[order], axis=0) != 0).any(axis=1)))
@@ -215,7 +220,7 @@ def _clean_loops(
     flat, face_of = flat[keep], face_of[keep]
     counts = np.bincount(face_of, minlength=len(counts))
     solid = counts >= _MIN_CORNERS
-    solid[solid] = np.linalg.norm(_area_vectors(points[flat[solid[face_of]]], counts[solid]), axis=1) > _MIN_AREA_M2
+    solid[solid] = np.linalg.norm(_area_vectors(points[flat[solid[face_of]]], counts[solid]), axis=1) > MIN_AREA_M2
     return flat[solid[face_of]], counts[solid]
 
 

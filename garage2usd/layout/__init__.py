@@ -293,7 +293,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
         yield hung
         if kept_clear is not None:
-            standing = [*pillars, *walls, *blocks, *cars, *closing, *charging, *signs, *gates]
+            standing = [*pillars, *walls, *blocks, *parked.cars, *closing, *charging, *signs, *gates]
             yield clutter(grid, stalls, cores, standing, hung, config, kept_clear=kept_clear)
 
     return Layout(

@@ -4,6 +4,7 @@ import math
 import string
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -115,15 +116,23 @@ def _asset(plates: Iterable[Plate]) -> Asset:
     faces: dict[str, list[Face]] = {}
     for plate in plates:
         cos, sin = round(math.cos(plate.yaw_rad)), round(math.sin(plate.yaw_rad))
-        for material, triangles in _fields(plate.text, plate.width_m):
-            flat = [*triangles]
-            if plate.radius_m is not None:
-                flat = bent(flat, plate.radius_m, segments=ROUND_SEGMENTS)
-            place = np.array((plate.middle[0], 0.0, plate.middle[1]))
-            for x, y, z in (face.T for face in flat):
-                turned = np.stack([x * cos + z * sin, y, z * cos - x * sin], axis=1)
-                faces.setdefault(material, []).append(turned + place)
+        turn = np.array([(cos, 0, -sin), (0, 1, 0), (sin, 0, cos)])
+        place = np.array((plate.middle[0], 0.0, plate.middle[1]))
+        for material, found in _faces(plate.text, plate.width_m, plate.radius_m):
+            faces.setdefault(material, []).extend(face @ turn + place for face in found)
     return Asset(tuple(make_part(pascal_case(key), each, key) for key, each in sorted(faces.items())))
+
+
+@lru_cache(maxsize=1024)
+def _faces(text: str, width_m: float, radius_m: float | None) -> tuple[tuple[str, tuple[Face, ...]], ...]:
+    """Material and faces of each field of a plate that looks to +Z, and of what is written there.
+
+    They are kept, as a garage has the same plate on many columns.
+    """
+    fields = ((material, [*triangles]) for material, triangles in _fields(text, width_m))
+    if radius_m is not None:
+        fields = ((material, bent(flat, radius_m, segments=ROUND_SEGMENTS)) for material, flat in fields)
+    return tuple((material, tuple(found)) for material, found in fields)
 
 
 def _fields(text: str, width_m: float) -> Iterator[tuple[str, _Faces]]:

@@ -28,11 +28,10 @@ _LOOKS = Sdf.Path("/Looks")
 
 
 def own_shapes(shapes: Collection[Spec], finishes: Mapping[str, Finish]) -> list[Spec]:
-    """The shapes with a finish that belongs to this garage, and with them those of some kinds."""
+    """The shapes with a finish that belongs to this garage; where there are such, those of some kinds too."""
     keys = {key for key in finishes if key.startswith(_OWN_MATERIALS)}
-    if not keys:
-        return []
-    return [shape for shape in shapes if shape.kind.name in _OWN_KINDS or keys & asset_of(shape).materials]
+    own = {shape for shape in shapes if keys & asset_of(shape).materials} if keys else set()
+    return [shape for shape in shapes if shape in own or (own and shape.kind.name in _OWN_KINDS)]
 
 
 def write_own_assets(

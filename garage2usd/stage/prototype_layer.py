@@ -141,7 +141,14 @@ def define_prototype(
     for label in pieces_of(asset):
         define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
     for part in asset.parts:
-        define_mesh(layer, _place(root.path, part), part, looks, finish=of[part.material].material)
+        define_mesh(
+            layer,
+            _place(root.path, part),
+            part,
+            looks,
+            finish=of[part.material].material,
+            is_compact=shared is not None,
+        )
     if asset.paints:
         _define_paints(root, asset.paints)
     else:
@@ -233,9 +240,19 @@ def _over(variant: Sdf.PrimSpec, *names: str) -> Sdf.PrimSpec:
 
 
 def define_mesh(
-    layer: Sdf.Layer, path: Sdf.Path, part: Part, looks: Sdf.Path, *, finish: Material | None = None
+    layer: Sdf.Layer,
+    path: Sdf.Path,
+    part: Part,
+    looks: Sdf.Path,
+    *,
+    finish: Material | None = None,
+    is_compact: bool = False,
 ) -> None:
-    """Define one mesh with the material of its key, or what takes its place, and its collider if it has one."""
+    """Define one mesh with the material of its key, or what takes its place, and its collider if it has one.
+
+    A compact one has texture coordinates in the order of its points where each point has one, so that a layer holds
+    the indices of both once.
+    """
     finish = finish or MATERIALS[part.material]
     usual = MATERIALS.get(part.material, finish)
     mesh = define(layer, path, "Mesh")
@@ -248,8 +265,9 @@ def define_mesh(
     # the attribute of the schema takes no indices, with which a car is half as large
     _define_primvar(mesh, "normals", _TYPES.Normal3fArray, Vt.Vec3fArray.FromNumpy(part.normals), part.normal_indices)
     if len(part.st):
-        st = part.st * _repeats(usual, finish) if finish != usual else part.st
-        _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(st), part.st_indices)
+        st, st_indices = _as_points(part) if is_compact else (part.st, part.st_indices)
+        st = st * _repeats(usual, finish) if finish != usual else st
+        _define_primvar(mesh, "st", _TYPES.TexCoord2fArray, Vt.Vec2fArray.FromNumpy(st), st_indices)
     relationship(mesh, "material:binding", [_look(looks, part.material)])
     if part.collider is None:
         apply_schemas(mesh, "MaterialBindingAPI")
@@ -257,6 +275,14 @@ def define_mesh(
     apply_schemas(mesh, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI")
     attribute(mesh, "physics:approximation", _TYPES.Token, part.collider.value, uniform=True)
     relationship(mesh, "material:binding:physics", [_friction(looks, finish.touch)])
+
+
+def _as_points(part: Part) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Texture coordinates and their indices in the order of the points, if each point has one pair at all corners."""
+    st_of = np.empty(len(part.points), dtype=np.int32)
+    st_of[part.face_indices] = part.st_indices
+    is_one = (st_of[part.face_indices] == part.st_indices).all()
+    return (part.st[st_of], part.face_indices) if is_one else (part.st, part.st_indices)
 
 
 def _repeats(usual: Material, finish: Material) -> NDArray[np.float32]:
