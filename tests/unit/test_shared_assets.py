@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pxr import Usd, UsdGeom, UsdShade, UsdUtils
+from pxr import Sdf, Usd, UsdGeom, UsdShade, UsdUtils
 from support.small_garage import SETTINGS
 
 from garage2usd.checks import check_file
@@ -122,6 +122,58 @@ def test_shared_assets_make_the_same_stage_wherever_all_of_it_stands(tmp_path, f
     assert not list(shared.asset_folder.rglob("*_????????????????.*"))
     (tmp_path / "shared").rename(tmp_path / "moved")
     assert composed(tmp_path / "moved" / "1" / "g.usdc") == composed(own.stage)
+
+
+def corners(mesh, name):
+    """A primvar of a mesh at each corner of its faces."""
+    primvar = UsdGeom.PrimvarsAPI(mesh).GetPrimvar(name)
+    return np.array(primvar.ComputeFlattened()).tobytes() if primvar.HasValue() else b""
+
+
+def seen(path):
+    """What each mesh of a stage looks like at the corners of its faces, and its material with all that it says."""
+    stage, found = Usd.Stage.Open(str(path)), {}
+    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        if not prim.IsA(UsdGeom.Mesh):
+            continue
+        binding = UsdShade.MaterialBindingAPI(prim)
+        materials = [binding.ComputeBoundMaterial(purpose)[0].GetPrim() for purpose in ("", "physics")]
+        says = [
+            (
+                each.GetName(),
+                name.GetName(),
+                str(name.Get()).rpartition("/")[2],
+                [to.name for to in name.GetConnections()],
+            )
+            for material in materials
+            if material
+            for each in Usd.PrimRange(material, Usd.TraverseInstanceProxies())
+            for name in each.GetAttributes()
+        ]
+        found[str(prim.GetPath())] = corners(prim, "st"), corners(prim, "normals"), says
+    return found
+
+
+def test_the_own_layer_of_a_drawn_look_defines_materials_once_and_looks_the_same(tmp_path):
+    settings = {**SETTINGS, "seed": 2, "look": {"drawn": True}}
+    own, shared = (
+        build(
+            GarageConfig(**{**settings, "stage": {"texture_quality": "low", "assets": place}}),
+            tmp_path / place / "1" / "g.usdc",
+        )
+        for place in ("own", "shared")
+    )
+    layer = Sdf.Layer.FindOrOpen(str(shared.asset_folder / "Grounds.usdc"))
+    kinds = {root.name.partition("_")[0] for root in layer.rootPrims}
+    assert {"Looks", "Floor", "StallNumber", "Column", "Wall", "Light"} <= kinds
+    surfaces = []
+    layer.Traverse("/", lambda path: surfaces.append(path) if path.name == "Surface" and path.IsPrimPath() else None)
+    defined = [path.GetParentPath() for path in surfaces if layer.GetPrimAtPath(path).specifier == Sdf.SpecifierDef]
+    altered = [path for path in defined if path.GetParentPath() != Sdf.Path("/Looks")]
+    assert len(defined) > len(altered)
+    assert {path.GetPrefixes()[0].name.partition("_")[0] for path in altered} <= {"Light"}
+    assert shared.labels.read_bytes() == own.labels.read_bytes()
+    assert seen(shared.stage) == seen(own.stage)
 
 
 def test_check_and_view_read_shared_assets_as_ones_of_the_stages_own(tmp_path):
