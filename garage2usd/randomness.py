@@ -28,6 +28,7 @@ class Step(IntEnum):
     ARRANGEMENTS = 20
     CLUTTER = 21
     LIDAR = 30
+    CAMERA_EFFECTS = 31
     GARAGES = 40
     SETTINGS = 41
     SPLITS = 42

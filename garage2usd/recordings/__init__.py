@@ -58,7 +58,7 @@ class Recorded:
     recording: Recording
 
 
-def record(
+def record(  # noqa: PLR0915 - the road of a recording, step by step
     stage: str | Path,
     output: str | Path,
     *,
@@ -159,11 +159,13 @@ def record(
         work.mkdir(exist_ok=True)
         finished.mkdir(exist_ok=True)
         visible: list[list[VisibleInstance] | None] = []
+        views = scene.views
         made = [finished / kind for kind in kinds]
         about: dict[str, object] = {"rig": chosen.model_dump(mode="json"), "drive": way.about}
         if chosen.cameras:
             drawing = scene.drawing(work, finished, drawn, samples=samples, seed=seed, device=drawn_on)
             visible = drawing.draw(work, progress, announce)
+            views = [replace(view, facts=drawing.facts(view)) for view in views]
             made += _write_calibrations(chosen, finished)
             if scene.birds_eye is not None:
                 made.append(scene.birds_eye.write_masks(finished, chosen.body))
@@ -177,7 +179,7 @@ def record(
             )
         table = write_frames(
             finished / "frames.json",
-            [(view, seen, []) for view, seen in zip(scene.views, visible, strict=True)],
+            [(view, seen, []) for view, seen in zip(views, visible, strict=True)],
             scene.labels,
             kinds,
             stage=path,

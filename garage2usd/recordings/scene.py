@@ -139,7 +139,9 @@ class Scene:
             "hidden_objects": self._way.left_out,
         }
         name = f"{camera.name}_{number:04d}"
-        return View(name, camera.name, None, lens, lens.size_px, sensor_to_world @ USD_FROM_OPENCV, facts)
+        return View(
+            name, camera.name, None, lens, lens.size_px, sensor_to_world @ USD_FROM_OPENCV, facts, camera.effects
+        )
 
     def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int, device: ComputeDevice) -> str:
         """Tells recordings apart whose frames differ."""
@@ -147,6 +149,7 @@ class Scene:
             "version": VERSION,
             "stage": _digest(self._stage, path),
             "views": [[view.name, view.lens_job(), view.camera_to_world.tolist(), view.facts] for view in self.views],
+            "effects": [None if view.effects is None else view.effects.model_dump(mode="json") for view in self.views],
             "hidden": self.hidden(),
             "car": self._rig.car,
             "kinds": kinds,

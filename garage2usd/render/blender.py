@@ -56,6 +56,7 @@ def main() -> None:
             _move(moving, frame["moved"], to_blender)
             _hide(drawn, frame, is_dark=False)
             report.watch(job["samples"])
+            _write_light(scene) if frame["is_light"] else _write_png(scene)
             _draw(scene, Path(frame["colour"]))
             report.finish(job["samples"])
     if data:
@@ -311,9 +312,20 @@ def _set_up_colour(scene: bpy.types.Scene, job: dict[str, Any]) -> None:
     scene.cycles.use_light_tree = not job["is_draft"]
     scene.cycles.max_bounces = _DRAFT_BOUNCES if job["is_draft"] else _BOUNCES
     scene.view_settings.view_transform = "AgX"
-    scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
+
+
+def _write_png(scene: bpy.types.Scene) -> None:
+    """Write pictures as they are looked at."""
+    scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_depth = "8"
+
+
+def _write_light(scene: bpy.types.Scene) -> None:
+    """Write linear light, of which a camera makes a picture elsewhere."""
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    scene.render.image_settings.exr_codec = "ZIP"
 
 
 def _set_up_data(scene: bpy.types.Scene, objects: list[bpy.types.Object]) -> None:

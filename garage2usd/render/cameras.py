@@ -13,6 +13,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.reading.values import metres_per_unit
 from garage2usd.sensors.around_view import SEAM_M, AroundView
 from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.camera_effects import CameraEffects
 from garage2usd.sensors.lenses import Fisheye, Pinhole
 from garage2usd.sensors.lenses import Lens as SensorLens
 from garage2usd.spelling import called
@@ -79,6 +80,8 @@ class View:
         From the camera, which looks along -Z with +Y up, to the stage's axes; metres; float64, shape (4, 4).
     facts
         What else the table of frames says of it.
+    effects
+        How its colour differs from that of a perfect camera; None for one.
     """
 
     name: str
@@ -88,6 +91,7 @@ class View:
     size_px: tuple[int, int]
     camera_to_world: NDArray[np.float64]
     facts: Mapping[str, object] = field(default_factory=dict)
+    effects: CameraEffects | None = None
 
     def world_to_camera(self) -> NDArray[np.float64]:
         """From the stage's axes to a camera that looks along +Z with +X right and +Y down; float64, shape (4, 4)."""

@@ -25,12 +25,15 @@ from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,
     VisibleInstance,
+    read_light,
     read_surfaces,
     visible_instances,
     write_colour,
     write_picture,
+    write_pixels,
 )
 from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.developing import develop
 from garage2usd.sensors.lenses import Pinhole
 
 __all__ = ["Drawing"]
@@ -41,6 +44,7 @@ _BLENDER_FROM = {
 }
 """From the axes of a stage, by the one that is up, to Blender's."""
 _SEEN = "seen"
+_EFFECTS = "effects"
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +112,7 @@ class Drawing:
         RenderError
             If Blender fails. Frames that were finished before stay.
         """
-        for folder in (*self.kinds, _SEEN):
+        for folder in (*self.kinds, _SEEN, _EFFECTS):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
         progress("scene", 0, 1)
         scene = read_drawn_prims(self.stage, self.labels.ids)
@@ -136,7 +140,10 @@ class Drawing:
         return [self._read_seen(view) if self._has_data else None for view in self.views]
 
     def take_colour(self, view: View, drawn: Path) -> None:
-        """Keep a colour picture that Blender drew."""
+        """Keep a colour picture that Blender drew, or what the view's camera makes of the light."""
+        if view.effects is not None:
+            self._develop(view, read_light(drawn))
+            return
         with _whole(self._path(view, Picture.COLOUR)) as part:
             starts_m = view.starts_m()
             write_colour(drawn, part, seeing=None if starts_m is None else np.isfinite(starts_m).all(axis=-1))
@@ -154,6 +161,23 @@ class Drawing:
         seen = [asdict(each) for each in visible_instances(surfaces.instance)]
         with _whole(self._seen_path(view)) as part:
             part.write_text(json.dumps(seen), encoding="utf-8")
+
+    def facts(self, view: View) -> dict[str, object]:
+        """What the table of frames says of a finished view: its own facts, and what its camera did to the light."""
+        if view.effects is None or not self._has_colour:
+            return dict(view.facts)
+        did = json.loads((self.finished / _EFFECTS / f"{view.name}.json").read_text(encoding="utf-8"))
+        return {**view.facts, "effects": {**view.effects.model_dump(mode="json"), **did}}
+
+    def _develop(self, view: View, light: NDArray[np.float32]) -> None:
+        """Keep what the view's camera makes of light; the picture comes last, and says that all is there."""
+        if view.effects is None:
+            raise TypeError(view.name)
+        taken = develop(light, view.sensor_lens(), view.effects, camera=view.camera, frame=view.name, seed=self.seed)
+        with _whole(self.finished / _EFFECTS / f"{view.name}.json") as part:
+            part.write_text(json.dumps(taken.facts), encoding="utf-8")
+        with _whole(self._path(view, Picture.COLOUR)) as part:
+            write_pixels(taken.pixels, part)
 
     def _order(self) -> list[int]:
         """The views in the order in which they are drawn: one lens after the other, as changing it takes a while."""
@@ -189,7 +213,10 @@ class Drawing:
         draws_colour = self._has_colour and not self._path(view, Picture.COLOUR).exists()
         draws_data = self._has_data and not self._seen_path(view).exists()
         return {
-            "colour": str(work / f"{view.name}.png") if draws_colour else None,
+            "colour": str(work / f"{view.name}.{'png' if view.effects is None else 'light.exr'}")
+            if draws_colour
+            else None,
+            "is_light": view.effects is not None,
             "data": [str(work / f"{view.name}_{digit}.exr") for digit in range(digits)] if draws_data else [],
             "lens": view.lens_job(),
             "size_px": view.size_px,

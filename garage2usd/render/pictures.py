@@ -21,6 +21,7 @@ __all__ = [
     "classes_of",
     "read_depth",
     "read_ids",
+    "read_light",
     "read_surfaces",
     "visible_instances",
     "with_needed",
@@ -28,6 +29,7 @@ __all__ = [
     "write_ids",
     "write_mask",
     "write_picture",
+    "write_pixels",
 ]
 
 INDEX_LIMIT = 32768
@@ -112,6 +114,21 @@ def write_colour(drawn: Path, path: Path, *, seeing: NDArray[np.bool_] | None = 
     with Image.open(drawn) as image:
         pixels = np.asarray(image)
     Image.fromarray(pixels if seeing is None else np.where(seeing[..., None], pixels, 0)).save(path)
+
+
+def write_pixels(pixels: NDArray[np.uint8], path: Path) -> None:
+    """Write a picture of red, green and blue; shape (rows, columns, 3)."""
+    Image.fromarray(pixels).save(path)
+
+
+def read_light(drawn: Path) -> NDArray[np.float32]:
+    """The linear red, green and blue of a picture that Blender drew; float32, shape (rows, columns, 3)."""
+    import OpenEXR  # noqa: PLC0415 - of an extra
+
+    with OpenEXR.File(str(drawn), separate_channels=True) as file:
+        channels = {name.rpartition(".")[2]: np.array(channel.pixels) for name, channel in file.channels().items()}
+    light: NDArray[np.float32] = np.stack([channels[name] for name in "RGB"], axis=-1)
+    return light
 
 
 def read_surfaces(

@@ -11,6 +11,7 @@ from garage2usd.config.vehicles import CarBody
 from garage2usd.errors import ConfigError
 from garage2usd.sensors.around_view import SECTORS, AroundView, Eye
 from garage2usd.sensors.camera import Camera
+from garage2usd.sensors.camera_effects import CameraEffects
 from garage2usd.settings import Settings
 
 __all__ = ["AroundViewCamera", "ServingCameras"]
@@ -61,6 +62,13 @@ class AroundViewCamera(Camera):
         if angle_deg:
             raise ValueError("0, for an around view")
         return angle_deg
+
+    @field_validator("effects")
+    @classmethod
+    def _without_chromatic_error(cls, effects: CameraEffects | None) -> CameraEffects | None:
+        if effects is not None and effects.chromatic_error:
+            raise ValueError("effects without chromatic_error, for an around view")
+        return effects
 
     def through(self, cameras: Mapping[str, Camera], car: CarBody) -> Self:
         """The same view through cameras by their names, around a car.

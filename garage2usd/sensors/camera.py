@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, field_validator
 
 from garage2usd.errors import ConfigError
+from garage2usd.sensors.camera_effects import CameraEffects
 from garage2usd.sensors.lenses import KannalaBrandt, Lens, Pinhole, WoodScape
 from garage2usd.sensors.mount import Sensor
 from garage2usd.sensors.radius_polynomial import RadiusPolynomial
@@ -29,6 +30,8 @@ class Camera(Sensor):
     """Width and height of its pictures."""
     recorded: bool = True
     """Whether its own pictures are recorded; if not, it is there for an around view to look through."""
+    effects: CameraEffects | None = None
+    """How its pictures differ from those of a perfect camera; they do not if left out."""
 
     @property
     @abstractmethod
