@@ -17,6 +17,7 @@ from garage2usd.render import Picture
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import Drawing
+from garage2usd.sensors.around_view_camera import AroundViewCamera
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.poses import VehiclePose
@@ -63,8 +64,9 @@ class Scene:
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
     def _sees_vehicle(self, camera: Camera) -> bool:
-        """Whether the vehicle comes to stand before a camera: one that it does not carry."""
-        return self._way.has_vehicle and camera.mount != "vehicle"
+        """Whether the vehicle is before a camera: one that it does not carry, or that is to see what carries it."""
+        own = self._rig.ego_visible and not isinstance(camera, AroundViewCamera)
+        return self._way.has_vehicle and (camera.mount != "vehicle" or own)
 
     def drawing(
         self,

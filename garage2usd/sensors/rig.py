@@ -53,6 +53,8 @@ class Rig(Settings):
     car: str = "hatchback"
     """Body of the ego car in garage2usd's catalogue, which masks show: `"hatchback"`, `"saloon"`, `"suv"`, `"van"`,
     `"pickup"` or `"compact_ev"`. What is driven is the way of the design car."""
+    ego_visible: bool = False
+    """Whether cameras on the car see its body, where their masks say; around views never do."""
     sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
     """The sensors."""
 
