@@ -139,6 +139,10 @@ class ParkingConfig(Settings):
     over_line: float = Field(0.02, ge=0, le=0.2)
     """Share of the parked cars that stand a few centimetres over a line, only where the next stall's car, parked or to
     come, has its room nevertheless."""
+    turned_wheels: float = Field(0.0, ge=0, le=1)
+    """Share of the parked cars whose front wheels are left turned. Each body is one more asset for each angle."""
+    dusty: float = Field(0.0, ge=0, le=1)
+    """Share of the parked cars whose flanks are covered with dust; one more asset likewise."""
     misparked: float = Field(0.0, ge=0, le=0.5)
     """Share of the parked cars that stand far over a line, aslant or across two stalls, as far as there are free stalls
     beside cars: that stall is told as blocked."""

@@ -41,7 +41,9 @@ _FAR_OVER_M = (0.25, 0.75)
 _SLANT_DEG = (4.0, 12.0)
 _SLANTED_SHARE = 0.4
 """Assumption: of the misparked cars, as far as the length of their stalls leaves room for it."""
-_DRAWS_A_CAR, _HABITS = 7, 4
+_DRAWS_A_CAR, _HABITS, _STATES = 7, 4, 3
+_STEER_DEG = (-20.0, -10.0, 10.0, 20.0)
+"""How far wheels are left turned: few angles, so that cars share assets. Assumption."""
 _TOUCH_M, _ROUNDING_M = 1e-3, 1e-9
 _USUAL = NormalDist()
 
@@ -81,6 +83,8 @@ class _Car:
     room_m: float
     side_share: float
     along_share: float
+    steer_deg: float
+    is_dusty: bool
 
     def half_x(self, *, mirrors: bool = True) -> float:
         """Half its extent across the stall."""
@@ -98,7 +102,7 @@ class _Car:
         rear_most = self.stall.length_m / 2 - _END_CLEARANCE_M - self.room_m + self.half_z
         along = rear_most + self.along_share * max(self.room_m - 2 * self.half_z, 0.0)
         turned = self.stall.yaw_rad + self.yaw + (math.pi if self.is_reversed else 0.0)
-        spec = CarSpec(self.body.name, self.paint)
+        spec = CarSpec(self.body.name, self.paint, self.steer_deg, self.is_dusty)
         return self.stall.placement("Car", spec, (side_m, along), yaw_rad=round(math.remainder(turned, math.tau), 6))
 
 
@@ -217,13 +221,14 @@ def park_cars(
     most = max((stall.ordinal for stall in stalls), default=0)
     numbers = draws.of_step(Step.CARS, most, _DRAWS_A_CAR)
     habits = draws.of_part(Step.CARS, "over the line", most, _HABITS)
+    states = draws.of_part(Step.CARS, "wheels and dust", most, _STATES)
     fleet = Fleet(parking, config.standard.country)
     holds_car = _occupancy(stalls, parking)
     cars: dict[str, _Car] = {}
     for stall in stalls:
         drawn = numbers[stall.square][stall.ordinal - 1].tolist()
         if stall.use.takes_cars and holds_car.get(stall.name, drawn[0] < parking.occupancy):
-            car = _car(stall, drawn, fleet, parking)
+            car = _car(stall, drawn, states[stall.square][stall.ordinal - 1].tolist(), fleet, parking)
             if car is not None:
                 cars[stall.name] = car
             elif holds_car.get(stall.name):
@@ -245,8 +250,10 @@ def park_cars(
     )
 
 
-def _car(stall: Stall, drawn: Sequence[float], fleet: Fleet, parking: ParkingConfig) -> _Car | None:
-    """The car of a stall by its draws; None where no body fits."""
+def _car(
+    stall: Stall, drawn: Sequence[float], state: Sequence[float], fleet: Fleet, parking: ParkingConfig
+) -> _Car | None:
+    """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
     is_reversed = reverse < fleet.reversed_share
     bodies = _fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
@@ -259,7 +266,20 @@ def _car(stall: Stall, drawn: Sequence[float], fleet: Fleet, parking: ParkingCon
     sin = max(min((side_room + _GAP_M) / body.length_m, end_room / body.overall_width_m), 0.0)
     most = min(math.radians(parking.max_yaw_deg), math.asin(min(sin, 1.0)))
     yaw = _cut_normal(yaw_share, math.radians(parking.yaw_spread_deg), -most, most)
-    return _Car(stall, body, fleet.paint_of(paint_share), is_reversed, yaw, room_m, side_share, along_share)
+    turned, angle, dust = state
+    steer_deg = _STEER_DEG[int(angle * len(_STEER_DEG))] if turned < parking.turned_wheels else 0.0
+    return _Car(
+        stall,
+        body,
+        fleet.paint_of(paint_share),
+        is_reversed,
+        yaw,
+        room_m,
+        side_share,
+        along_share,
+        steer_deg,
+        dust < parking.dusty,
+    )
 
 
 def _rows(stalls: Iterable[Stall]) -> list[list[Stall]]:

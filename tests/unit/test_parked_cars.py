@@ -259,3 +259,14 @@ def test_files_tell_blocked_stalls(tmp_path):
     assert not any(facts.facts(stall)["occupied"] for stall in facts.stalls)  # no cars are parked in them yet
     stage.GetDefaultPrim().GetVariantSet("occupancy").SetVariantSelection("empty")
     assert not any(slot.occupied or slot.blocked_by for slot in read_slots(stage).slots)
+
+
+def test_wheels_are_turned_and_flanks_dusty_as_often_as_asked():
+    asked = config_from_mapping({"parking": {"turned_wheels": 0.3, "dusty": 0.2, "occupancy": 0.9}})
+    cars = [car.spec for found in parked(asked, 60)[0] for car in found.cars]
+    assert sum(bool(spec.steer_deg) for spec in cars) / len(cars) == pytest.approx(0.3, abs=0.02)
+    assert sum(spec.is_dusty for spec in cars) / len(cars) == pytest.approx(0.2, abs=0.02)
+    assert {spec.steer_deg for spec in cars} == {-20.0, -10.0, 0.0, 10.0, 20.0}
+    usual = [car.spec for found in parked(GarageConfig(parking={"occupancy": 0.9}), 60)[0] for car in found.cars]
+    assert [(spec.body, spec.paint) for spec in usual] == [(spec.body, spec.paint) for spec in cars]
+    assert not any(spec.steer_deg or spec.is_dusty for spec in usual)
