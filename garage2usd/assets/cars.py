@@ -29,6 +29,7 @@ _HATCH_FROM = 0.93
 """Share of length from which a rear window ends at the tail."""
 _DUST_POINTS = slice(4, 9)
 """Of a ring: from the sill to the handles of doors."""
+_DUST_TOP = 0.97
 _CLEAN_END_M = 0.34
 """Length of nose and tail that dust leaves out."""
 _DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
@@ -80,7 +81,9 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
     faces = grid_quads(side[kept] + np.array((_DUST_LIFT_M, 0.0, 0.0))).reshape(-1, 4, 3)
 
     def project(corners: NDArray[np.float64], _normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.005, MATERIALS["road_dust"].repeat_up_m or 1.0)
+        # short of the texture's upper edge, where it begins anew
+        most = _DUST_TOP * (MATERIALS["road_dust"].repeat_up_m or 1.0)
+        high = np.clip(corners[:, 1] - shell.shape.clearance_m, 0.01, most)
         return np.stack([corners[:, 2], high], axis=1)
 
     part = make_part("Dust", flat(both_sides(faces)), "road_dust", crease_deg=50, project=project)
