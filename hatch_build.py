@@ -6,6 +6,7 @@
 # ruff: noqa: S603 - compilers are run
 
 import functools
+import importlib.util
 import os
 import shlex
 import subprocess
@@ -44,6 +45,7 @@ def compile_loops(library: Path = LIBRARY, source: Path = NATIVE, flags: tuple[s
         *_ARITHMETIC,
         *_LIBRARY,
         *flags,
+        f'-DSOURCES_DIGEST="{_digest_of(source)}"',
         "-o",
         str(unfinished),
         *map(str, files),
@@ -54,6 +56,16 @@ def compile_loops(library: Path = LIBRARY, source: Path = NATIVE, flags: tuple[s
     except (OSError, subprocess.CalledProcessError) as error:
         sys.exit(f"garage2usd's loops in C are not compiled ({error}); the environment variable CC names the compiler")
     unfinished.replace(library)
+
+
+def _digest_of(source: Path) -> str:
+    """The digest that ``garage2usd.native`` compares; its module is loaded alone, as NumPy is not there yet."""
+    spec = importlib.util.spec_from_file_location("garage2usd_native_digest", NATIVE / "digest.py")
+    if spec is None or spec.loader is None:
+        sys.exit(f"{NATIVE / 'digest.py'} cannot be loaded")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return str(module.digest_of(source))
 
 
 def _compiler() -> list[str]:

@@ -16,6 +16,8 @@ from typing import Annotated, Any, ParamSpec, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.native.digest import digest_of
+
 __all__ = [
     "LIBRARY",
     "Bools",
@@ -65,11 +67,21 @@ def load(path: Path = LIBRARY) -> ctypes.CDLL:
     Raises
     ------
     RuntimeError
-        If it is not there.
+        If it is not there, or was compiled from other C files than those beside it: it may lay out structs otherwise.
     """
+    remedy = "install garage2usd, or run python hatch_build.py in its repository"
     if not path.exists():
-        raise RuntimeError(f"{path} is missing: install garage2usd, or run python hatch_build.py in its repository")
-    return ctypes.CDLL(str(path))
+        raise RuntimeError(f"{path} is missing: {remedy}")
+    library, expected = ctypes.CDLL(str(path)), digest_of(path.parent)
+    try:
+        compiled = (ctypes.c_char * len(expected)).in_dll(library, "sources_digest").raw.decode()
+    except ValueError:  # a library from before there was a digest
+        compiled = "none"
+    if compiled != expected:
+        raise RuntimeError(
+            f"{path} is stale: its C files have digest {expected}, it was compiled from {compiled}: {remedy}"
+        )
+    return library
 
 
 @contextmanager
@@ -92,8 +104,8 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
     Raises
     ------
     TypeError
-        If an annotation is none of these; when called, if an array is not of the annotated type, or its numbers do not
-        lie side by side.
+        If an annotation is none of these; when called, if an argument is given by keyword, an array is not of the
+        annotated type, or its numbers do not lie side by side.
     """
     hints = typing.get_type_hints(function, include_extras=True)
     returns = hints.pop("return")
@@ -107,7 +119,11 @@ def in_c(function: Callable[P, T]) -> Callable[P, T]:
         return found
 
     @functools.wraps(function)
-    def call(*values: P.args, **_: P.kwargs) -> T:
+    def call(*values: P.args, **named: P.kwargs) -> T:
+        if named:
+            raise TypeError(
+                f"{function.__name__} takes its arguments by position alone, not {', '.join(named)} by name"
+            )
         packed = [pack(value) for (pack, _), value in zip(packers, values, strict=True)]
         return cast("T", symbol(_CALLED.get())(*packed))
 

@@ -1,5 +1,7 @@
 """Python and C agree about what they hand to each other, which nothing else would notice but a crash."""
 
+import shutil
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -8,7 +10,7 @@ from support.c_declarations import c_functions, c_structs, python_functions, sam
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.driving.search import Task
 from garage2usd.driving.sweep import Scene
-from garage2usd.native import in_c, load, packed
+from garage2usd.native import LIBRARY, in_c, load, packed
 from garage2usd.planning import aisles, polish, sarsa
 from garage2usd.planning.archive import new_archive, next_random
 from garage2usd.planning.board import new_board
@@ -74,3 +76,21 @@ def test_an_annotation_that_c_does_not_know_is_refused():
 def test_a_missing_library_says_what_to_do(tmp_path):
     with pytest.raises(RuntimeError, match="install garage2usd"):
         load(tmp_path / "loops.so")
+
+
+def test_a_library_of_other_sources_is_refused(tmp_path):
+    for path in LIBRARY.parent.iterdir():
+        if path.suffix in {".c", ".h", ".so"}:
+            shutil.copy(path, tmp_path)
+    copied = tmp_path / LIBRARY.name
+    load(copied)
+    with (tmp_path / "planning.h").open("a") as header:
+        header.write("/* another struct */\n")
+    load.cache_clear()
+    with pytest.raises(RuntimeError, match=r"is stale: .* hatch_build\.py"):
+        load(copied)
+
+
+def test_arguments_by_keyword_are_refused():
+    with pytest.raises(TypeError, match="by position alone, not random by name"):
+        next_random(random=np.zeros(1, np.uint64))
