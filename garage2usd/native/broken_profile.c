@@ -1,4 +1,5 @@
-/* The broken profile between squares that are decided and squares to come, and its step by one square.
+/* Dynamic programming over a broken profile, one square at a step: the frontiers of connectivity (Knuth, TAOCP
+ * 4A, section 7.1.4, "simpath"). Here: the profile, and its step by one square.
  *
  * What the squares decided so far mean for the rest is kept for the last square of each column only, the frontier: a
  * few bits each, in one number. Under the rules of circulation each lane is labelled: core, on which one drives on

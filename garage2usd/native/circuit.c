@@ -1,4 +1,6 @@
-/* Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes. */
+/* Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983) of large plans that circulate. Faults are priced, and the
+ * prices rise as the temperature falls (a penalty method). Every rule is judged around a move, by labels of the lanes:
+ * the rounds of pruning (k-core decomposition, Seidman 1983). */
 #include "draft.h"
 
 /* Shares of the moves that are of a side, and that start at what is broken. */

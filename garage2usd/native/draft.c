@@ -1,4 +1,5 @@
-/* A draft of lanes under annealing: one move, which is made and taken back. */
+/* Moves of simulated annealing under rules (`circuit.c`): a draft is one move of several squares, which is made and
+ * taken back, so that only the squares around it are judged (delta evaluation). */
 #include "draft.h"
 
 /* Have a square in the move; false if there is no room for it. */

@@ -1,0 +1,61 @@
+"""Planning and driving under the sanitizers of addresses and of undefined behaviour."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.hatch_building import compile_loops
+from support.sample_files import REPOSITORY
+
+from garage2usd.native import LIBRARY
+
+FLAGS = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+
+@pytest.fixture(scope="module")
+def runtimes(tmp_path_factory):
+    """What is preloaded; skips, which is a failure in CI, where the compiler has no sanitizers."""
+    compiler = shlex.split(os.environ.get("CC", "cc"))
+    found = []
+    for name in ("libasan.so", "libubsan.so"):
+        try:
+            run = subprocess.run([*compiler, f"-print-file-name={name}"], capture_output=True, text=True, check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            pytest.skip(f"{compiler[0]} names no {name}: {error}")
+        if not Path(run.stdout.strip()).is_absolute():
+            pytest.skip(f"{compiler[0]} has no {name}")
+        found.append(run.stdout.strip())
+    return " ".join(found)
+
+
+def run_of(folder, runtimes, fault=None):
+    for path in LIBRARY.parent.iterdir():
+        if path.suffix in {".c", ".h"}:
+            shutil.copy(path, folder)
+    if fault:
+        name, old, new = fault
+        text = (folder / name).read_text()
+        assert text.count(old) == 1
+        (folder / name).write_text(text.replace(old, new))
+    compile_loops(folder / LIBRARY.name, folder, FLAGS)
+    environment = os.environ | {"LD_PRELOAD": runtimes, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONPATH": str(REPOSITORY)}
+    command = [sys.executable, "-m", "support.sanitized_loops", str(folder / LIBRARY.name)]
+    return subprocess.run(
+        command, env=environment, cwd=REPOSITORY / "tests", capture_output=True, text=True, check=False
+    )
+
+
+def test_planning_and_driving_are_clean(tmp_path, runtimes):
+    run = run_of(tmp_path, runtimes)
+    assert (run.returncode, run.stdout) == (0, "clean\n"), run.stderr
+
+
+def test_a_write_past_an_array_is_found(tmp_path, runtimes):
+    old = "q < ground->cells.count; q++) {\n        board->cells.at[q]"
+    run = run_of(tmp_path, runtimes, fault=("board.c", old, old.replace("q < ", "q <= ")))
+    assert run.returncode != 0
+    assert "AddressSanitizer: heap-buffer-overflow" in run.stderr
