@@ -29,6 +29,7 @@ SECTIONS = {
     "ClutterConfig",
     "StageConfig",
     "MapsConfig",
+    "VehiclesConfig",
 }
 
 WORDS = {"integer": "whole number", "number": "number", "boolean": "`true`, `false`", "string": "text"}
