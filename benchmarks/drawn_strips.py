@@ -37,6 +37,8 @@ __all__ = ["DrawnGarage", "StripSettings", "draw_strips"]
 _SAME_CORNER_PX = 3.0
 """Corners of neighbouring stalls that are nearer to each other than this are one."""
 _ABOUT_FILE = "about.json"
+_MOST_SEED = 2**31 - 1
+"""Of Blender's samples."""
 _RANDOM = 34
 """Beside the garage's seed, the seed of its car and of where it stands."""
 
@@ -51,10 +53,13 @@ class StripSettings:
         How many of each garage at most; fewer where there is no room for the car.
     samples
         Of each pixel of the colour picture, which is denoised.
+    effects
+        Whether pictures are as real cameras take them, see `strip_rig`.
     """
 
     pictures: int = 11
     samples: int = 4
+    effects: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,7 +148,7 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         built = garage2usd.build(config, stage_folder / "garage.usdc")
         stage, path = open_stage(built.stage), built.stage
         random = np.random.default_rng([config.seed, _RANDOM])
-        poses = StripPoses(stage, path, drawn_rig(random), random).drawn(settings.pictures)
+        poses = StripPoses(stage, path, drawn_rig(random, effects=settings.effects), random).drawn(settings.pictures)
         views = [_view(pose, number) for number, pose in enumerate(poses)]
         if not views:
             raise GenerationError("strips", config.seed, "no room for the car before its stalls")
@@ -151,7 +156,10 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
         finished, blender = work / "finished", work / "blender"
         blender.mkdir()
         kinds = tuple(kind for kind in Picture if kind is Picture.COLOUR or kind in NEEDED)
-        drawing = Drawing(stage, labels, views, [[]] * len(views), kinds, settings.samples, 0, finished, is_draft=True)
+        seed = config.seed & _MOST_SEED
+        drawing = Drawing(
+            stage, labels, views, [[]] * len(views), kinds, settings.samples, seed, finished, is_draft=True
+        )
         drawing.draw(blender, silent)
         SlotLabels(stage, labels, views, finished).write(())
         strips = work / "strips"
@@ -184,7 +192,8 @@ def _draw(config: GarageConfig, folder: Path, key: str, settings: StripSettings)
 def _view(pose: Pose, number: int) -> View:
     lens = pose.camera.lens
     name = f"{number:04}"
-    return View(name, pose.camera.name, None, lens, lens.size_px, pose.camera_to_world @ USD_FROM_OPENCV)
+    matrix = pose.camera_to_world @ USD_FROM_OPENCV
+    return View(name, pose.camera.name, None, lens, lens.size_px, matrix, effects=pose.camera.effects)
 
 
 def _corners(slots: dict[str, Any]) -> dict[str, list[tuple[float, float, bool]]]:

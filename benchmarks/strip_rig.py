@@ -3,7 +3,7 @@
 import numpy as np
 from strips import SIDES, SIZE_PX
 
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import DRIVEN_BODIES
 from garage2usd.sensors.rig import Rig, rig_from_mapping
 
 __all__ = ["drawn_rig"]
@@ -24,9 +24,13 @@ _FISHEYE = {
 }
 
 
-def drawn_rig(random: np.random.Generator) -> Rig:
-    """A car, its four fisheyes and its strips, called `strips.SIDES`, with places and scale at random."""
-    body = CAR_BODIES[int(random.integers(len(CAR_BODIES)))]
+def drawn_rig(random: np.random.Generator, *, effects: bool) -> Rig:
+    """A car, its four fisheyes and its strips, called `strips.SIDES`, with places and scale at random.
+
+    With effects its cameras expose by themselves, too dark or too bright by some stops, and have noise, casts, dark
+    corners and compressed pictures, each garage's others.
+    """
+    body = DRIVEN_BODIES[int(random.integers(len(DRIVEN_BODIES)))]
     metres_per_px = body.length_m / random.uniform(*_CAR_PX)
     out_m = body.width_m / 2 + (SIZE_PX[0] / 2 - random.uniform(*_CAR_SHOWN_PX)) * metres_per_px
     ahead_m = body.ahead_m - body.length_m / 2 + random.uniform(*_CAR_BELOW_PX) * metres_per_px
@@ -42,6 +46,7 @@ def drawn_rig(random: np.random.Generator) -> Rig:
         {**_FISHEYE, "name": f"{name}_fisheye", "position_m": place, "yaw_deg": yaw, "pitch_deg": pitch}
         for name, place, yaw, pitch in fisheyes
     ]
+    taken = {"effects": _effects(random)} if effects else {}
     views = [
         {
             "kind": "around_view",
@@ -50,7 +55,23 @@ def drawn_rig(random: np.random.Generator) -> Rig:
             "size_px": list(SIZE_PX),
             "metres_per_px": metres_per_px,
             "cameras": {each: f"{each}_fisheye" for each in ("front", "rear", "left", "right")},
+            **taken,
         }
         for side, sign in zip(SIDES, (1.0, -1.0), strict=True)
     ]
     return rig_from_mapping({"name": "strips", "car": body.name, "sensors": [*views, *cameras]})
+
+
+def _effects(random: np.random.Generator) -> dict[str, object]:
+    """What the cameras of a car do to light."""
+    return {
+        "exposure_ev": float(random.normal(0.2, 0.6)),
+        "exposure_spread_ev": 0.25,
+        "white_balance_spread": 0.05,
+        "full_well_electrons": 3000.0,
+        "read_noise_electrons": 8.0,
+        "vignetting": float(random.uniform(0.0, 0.5)),
+        "headroom": float(random.uniform(1.0, 4.0)),
+        "bloom": float(random.uniform(0.0, 0.5)),
+        "jpeg_quality": int(random.integers(60, 96)),
+    }
