@@ -1,4 +1,5 @@
 """Models that other programs wrote, as triangles with their surfaces: USD of any units and axes, and GLB."""
+# Over 300 lines: two formats are read into the same parts.
 
 import hashlib
 import io

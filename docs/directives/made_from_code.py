@@ -120,6 +120,8 @@ def _values(schema: dict[str, Any], definitions: dict[str, Any]) -> str:  # noqa
             return "[" + ", ".join(WORDS[part["type"]] for part in schema["prefixItems"]) + "]"
         items = _values(schema["items"], definitions)
         return f"list of ({items})" if "," in items and not items.startswith("[") else f"list of {items}"
+    if kind == "object" and "properties" not in schema:
+        return "a table of shares"
     if kind == "object":
         return "a table with " + ", ".join(f"`{name}`" for name in schema["properties"])
     word = WORDS[kind]

@@ -190,8 +190,9 @@ def _headliner(shell: Shell) -> Faces:
 
 
 def _pillow(low: Sequence[float], high: Sequence[float], bevel_m: float) -> Faces:
-    """A closed box with bevelled edges around, in front and behind."""
+    """A closed box with bevelled edges around, in front and behind; where it is thin, with narrower ones."""
     (x0, y0, z0), (x1, y1, z1) = low, high
+    bevel_m = min(bevel_m, 0.24 * (x1 - x0), 0.24 * (y1 - y0))
     rings = []
     for z, inset in ((z0, bevel_m), (z0 + bevel_m, 0.0), (z1 - bevel_m, 0.0), (z1, bevel_m)):
         a, b, c, d = x0 + inset, y0 + inset, x1 - inset, y1 - inset

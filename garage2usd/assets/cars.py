@@ -21,6 +21,7 @@ from garage2usd.config.vehicles import PAINTS, CarBody
 __all__ = ["PLATE_M", "car", "dusty", "plate_places"]
 
 _ARCH_LIP_M = 0.03
+_ARCH_LIP_OUT_M = 0.01
 _SEAM_M = 0.007
 _PLATE_LIFT_M = 0.0012
 """Of a plate over its holder."""
@@ -146,12 +147,13 @@ def _seams(shell: Shell) -> Faces:
 
 
 def _handles(shell: Shell) -> Faces:
-    """A handle at the rear end of each door."""
+    """A handle at the rear end of each door, that stands out of the car's width by no more than wheel arches."""
     faces: list[Faces] = []
+    outermost = shell.body.width_m / 2 + _ARCH_LIP_OUT_M
     for s in _door_lines(shell)[1:]:
         y = shell.shoulder(s) - 0.12
         x, z = shell.side_place(s - 0.17, y)
-        faces.append(np.array(box_faces((x - 0.02, y - 0.016, z - 0.09), (x + 0.018, y + 0.016, z + 0.09))))
+        faces.append(np.array(box_faces((x - 0.02, y - 0.016, z - 0.09), (min(x + 0.018, outermost), y + 0.016, z + 0.09))))
     return both_sides(np.concatenate(faces))
 
 

@@ -12,9 +12,6 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, field_validator
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import ConvexHull
 
 from garage2usd.config.vehicles import CarBody
 from garage2usd.documents import read_toml
@@ -305,6 +302,10 @@ def _is_wheel(box: _Box) -> bool:
 
 def _pieces(points: NDArray[np.float64]) -> list[_Box]:
     """The boxes of what hangs together by common points, of corners of triangles, shape (3 n, 3)."""
+    # all wait for imports, and few garages have models of their own
+    from scipy.sparse import coo_array  # noqa: PLC0415
+    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
+
     _, which = np.unique(np.round(points, 4), axis=0, return_inverse=True)
     corners = which.reshape(-1, 3)
     pairs = np.concatenate([corners[:, :2], corners[:, 1:]])
@@ -351,6 +352,8 @@ def _outermost(triangles: NDArray[np.float64], place: tuple[float, float], towar
 
 def _hull(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
     """The convex outline (x, z) of points, in the order of `garage2usd.objects.outline.rectangle`."""
+    from scipy.spatial import ConvexHull  # noqa: PLC0415 - as above
+
     flat = points[:, [0, 2]]
     corners = np.round(flat[ConvexHull(flat).vertices][::-1], 4)
     return tuple((float(x), float(z)) for x, z in corners)

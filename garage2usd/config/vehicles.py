@@ -77,7 +77,7 @@ CAR_BODIES: tuple[CarBody, ...] = (
     CarBody("van", 4.75, 1.85, 1.83, 2.10, 2.98, 0.88, 0.33, 1.21, "mpv"),
     CarBody("pickup", 5.00, 1.87, 1.80, 2.14, 3.05, 0.88, 0.37, 1.65, "pickup"),
     CarBody("compact_ev", 3.85, 1.75, 1.54, 1.95, 2.53, 0.72, 0.32, 1.13, "hatchback"),
-    CarBody("microcar", 2.70, 1.66, 1.55, 1.88, 1.78, 0.50, 0.28, 0.88, "city"),
+    CarBody("microcar", 2.70, 1.66, 1.55, 1.88, 1.82, 0.50, 0.27, 0.88, "city"),
     CarBody("city_car", 3.57, 1.64, 1.49, 1.90, 2.42, 0.64, 0.285, 1.13, "city"),
     CarBody("tall_city_car", 3.40, 1.475, 1.78, 1.74, 2.40, 0.58, 0.265, 0.86, "city"),
     CarBody("supermini", 3.97, 1.73, 1.43, 1.97, 2.52, 0.80, 0.31, 1.38, "hatchback"),

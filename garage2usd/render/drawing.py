@@ -1,4 +1,5 @@
 """Views drawn by Blender, frame by frame: what is finished is kept, and never drawn again."""
+# Over 300 lines: what is drawn of a view, and in which order, is decided in one place.
 
 import json
 import time

@@ -132,7 +132,7 @@ SPECS = {
     "column_plates_bent": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3,) * 4, is_round=True),
     "column_plates_near": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3, 0.21, 0.3, 0.21)),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
-    "own_car": OwnCarSpec(own_car().body.name, PAINTS[0], own_car()),
+    "own_car": OwnCarSpec(own_car().body.name, PAINTS[0], model=own_car()),
     "own_plate": OwnPlateSpec(own_car().body.name, "K47 M92", car=own_car().body),
     **{f"bin_{colour}": BinSpec(colour) for colour in BIN_COLOURS},
     "bicycle": BicycleSpec("red"),

@@ -330,3 +330,16 @@ def test_dust_lies_on_the_flanks_and_thins_out_upwards(body):
     faces = triangles(dust)
     across = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])[:, 0] * np.sign(faces[:, :, 0].mean(axis=1))
     assert across[across > 0].sum() > 0.999 * np.abs(across).sum()
+
+
+@pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
+def test_no_face_folds_over_where_readers_halve_it(body):
+    """Readers draw a face as a fan from its first corner; each triangle looks to where the normals of its corners do."""
+    for part in car(body).parts:
+        first = np.cumsum([0, *part.face_counts[:-1]])
+        for start, count in zip(first.tolist(), part.face_counts.tolist(), strict=True):
+            points = part.points[part.face_indices[start : start + count]].astype(float)
+            normals = part.normals[part.normal_indices[start : start + count]]
+            for at in range(1, count - 1):
+                area = np.cross(points[at] - points[0], points[at + 1] - points[0])
+                assert area @ normals[[0, at, at + 1]].sum(axis=0) >= -1e-9, part.name

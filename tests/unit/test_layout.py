@@ -12,6 +12,7 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, SEGMENTS
 from garage2usd.errors import ConfigError
 from garage2usd.layout import StallUse, lay_out
+from garage2usd.objects import KINDS
 from garage2usd.objects.panel import PanelSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
@@ -203,6 +204,7 @@ def test_settings_decide_what_is_there():
         "charger",
     }
     empty |= {"sprinkler", "exit_sign", "mirror", "floor_stain", "drain"}
+    empty |= {kind.name for kind in KINDS if kind.group == "Clutter"}
     assert {kind for kind, count in bare.items() if count == 0} == empty
 
 

@@ -105,7 +105,8 @@ def test_cars_stand_beside_and_aslant_as_people_leave_them():
         sides, yaws, _ = np.array([posture(car, stalls[car.stall]) for each in garages for car in each.cars]).T
         assert least_m < sides.std() < 0.152
         assert 1.0 < yaws.std() < 1.25
-        assert abs(sides.mean()) < 0.01
+        # a row of few cars is not the same to both sides: 500 garages of one plan
+        assert abs(sides.mean()) < 0.015
         assert abs(yaws.mean()) < 0.03
         assert np.abs(yaws).max() <= 4.0
 
@@ -152,7 +153,7 @@ def test_the_next_garage_is_the_same_but_for_what_was_asked():
     paints = [[car.spec.paint for car in each.cars] for each in usual]
     bodies = parked(GarageConfig(parking={"bodies": {"suv": 1}}), 3)[0]
     assert [[car.spec.paint for car in each.cars] for each in bodies] == paints
-    assert {car.spec.body for each in bodies for car in each.cars} == {"suv"}
+    assert {body_named(car.spec.body).segment for each in bodies for car in each.cars} == {"suv"}
 
 
 def test_given_shares_take_the_place_of_the_markets():

@@ -14,6 +14,7 @@ DATA_FILES = (
     "datasets/*.json",
     "native/*.[ch]",
     "native/loops.so",
+    "config/markets/*.toml",
     "profiles/*.toml",
     "render/*.osl",
     "sensors/rigs/*.toml",
@@ -79,6 +80,7 @@ def test_the_wheel_holds_what_runs_and_nothing_else(wheel):
     data = {path.relative_to(package) for part in DATA_FILES for path in package.glob(part)}
     assert len(pictures) > 10
     expected = (
+        "config/markets/world.toml",
         "datasets/card.md.jinja",
         "native/loops.so",
         "profiles/cn-jgj100.toml",
