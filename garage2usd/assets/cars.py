@@ -18,7 +18,7 @@ from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
-__all__ = ["PLATE_M", "car", "dusty", "plate_places"]
+__all__ = ["PLATE_M", "car", "dusty", "lit", "plate_places"]
 
 _ARCH_LIP_M = 0.03
 _ARCH_LIP_OUT_M = 0.01
@@ -34,6 +34,7 @@ _DUST_TOP = 0.97
 _CLEAN_END_M = 0.34
 """Length of nose and tail that dust leaves out."""
 _DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
+_LIT = {"HeadLamps": "lamp_front_lit", "TailLamps": "lamp_rear_lit"}
 _RAIL_M = 0.034
 """Height of a rail over the edge of the roof."""
 
@@ -89,6 +90,12 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
 
     part = make_part("Dust", flat(both_sides(faces)), "road_dust", crease_deg=50, project=project)
     return replace(asset, parts=(*asset.parts, part))
+
+
+def lit(asset: Asset) -> Asset:
+    """A car whose head and tail lamps glow."""
+    parts = tuple(replace(part, material=_LIT.get(part.name, part.material)) for part in asset.parts)
+    return replace(asset, parts=parts)
 
 
 def plate_places(body: CarBody) -> list[tuple[float, float, float]]:

@@ -453,6 +453,12 @@ MATERIALS: dict[str, Material] = {
         colour_rgb=(0.86, 0.88, 0.90), roughness=0.14, metallic=0.35, clearcoat=1.0, touch=Touch.PLASTIC
     ),
     "lamp_rear": Material(colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
+    "lamp_front_lit": Material(
+        colour_rgb=(0.86, 0.88, 0.90), roughness=0.14, emissive_rgb=(30.0, 29.6, 28.8), touch=Touch.PLASTIC
+    ),
+    "lamp_rear_lit": Material(
+        colour_rgb=(0.55, 0.004, 0.006), roughness=0.10, emissive_rgb=(6.0, 0.05, 0.03), touch=Touch.PLASTIC
+    ),
     "lamp_housing": Material(colour_rgb=(0.008, 0.009, 0.010), roughness=0.10, clearcoat=1.0, touch=Touch.PLASTIC),
     "chrome": Material(colour_rgb=(0.68, 0.69, 0.70), roughness=0.25, metallic=0.6, clearcoat=1.0, touch=Touch.STEEL),
     "number_plate": Material(colour_texture="plate_characters.png", roughness=0.5, touch=Touch.PLASTIC),

@@ -50,6 +50,8 @@ _BASES = {
     "lamp_dead": "plexiglass",
     "lamp_front": "plexiglass",
     "lamp_rear": "plexiglass",
+    "lamp_front_lit": "plexiglass",
+    "lamp_rear_lit": "plexiglass",
     "mirror": "mirror",
     "rim": "aluminum",
     "screen_glow": "clear_glass",

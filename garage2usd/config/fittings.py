@@ -143,6 +143,9 @@ class ParkingConfig(Settings):
     """Share of the parked cars whose front wheels are left turned. Each body is one more asset for each angle."""
     dusty: float = Field(0.0, ge=0, le=1)
     """Share of the parked cars whose flanks are covered with dust; one more asset likewise."""
+    lit: float = Field(0.0, ge=0, le=1)
+    """Share of the parked cars whose head and tail lamps glow; one more asset likewise. Their glow is seen, and lights
+    what is near them as far as a renderer takes glowing faces for lights."""
     misparked: float = Field(0.0, ge=0, le=0.5)
     """Share of the parked cars that stand far over a line, aslant or across two stalls, as far as there are free stalls
     beside cars: that stall is told as blocked."""

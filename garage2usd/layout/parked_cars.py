@@ -85,6 +85,7 @@ class _Car:
     along_share: float
     steer_deg: float
     is_dusty: bool
+    is_lit: bool
 
     def half_x(self, *, mirrors: bool = True) -> float:
         """Half its extent across the stall."""
@@ -102,7 +103,7 @@ class _Car:
         rear_most = self.stall.length_m / 2 - _END_CLEARANCE_M - self.room_m + self.half_z
         along = rear_most + self.along_share * max(self.room_m - 2 * self.half_z, 0.0)
         turned = self.stall.yaw_rad + self.yaw + (math.pi if self.is_reversed else 0.0)
-        spec = CarSpec(self.body.name, self.paint, self.steer_deg, self.is_dusty)
+        spec = CarSpec(self.body.name, self.paint, self.steer_deg, self.is_dusty, self.is_lit)
         return self.stall.placement("Car", spec, (side_m, along), yaw_rad=round(math.remainder(turned, math.tau), 6))
 
 
@@ -222,13 +223,15 @@ def park_cars(
     numbers = draws.of_step(Step.CARS, most, _DRAWS_A_CAR)
     habits = draws.of_part(Step.CARS, "over the line", most, _HABITS)
     states = draws.of_part(Step.CARS, "wheels and dust", most, _STATES)
+    lamps = draws.of_part(Step.CARS, "lamps", most, 1)
     fleet = Fleet(parking, config.standard.country)
     holds_car = _occupancy(stalls, parking)
     cars: dict[str, _Car] = {}
     for stall in stalls:
         drawn = numbers[stall.square][stall.ordinal - 1].tolist()
         if stall.use.takes_cars and holds_car.get(stall.name, drawn[0] < parking.occupancy):
-            car = _car(stall, drawn, states[stall.square][stall.ordinal - 1].tolist(), fleet, parking)
+            state = [found[stall.square][stall.ordinal - 1] for found in (states, lamps)]
+            car = _car(stall, drawn, np.concatenate(state).tolist(), fleet, parking)
             if car is not None:
                 cars[stall.name] = car
             elif holds_car.get(stall.name):
@@ -266,7 +269,7 @@ def _car(
     sin = max(min((side_room + _GAP_M) / body.length_m, end_room / body.overall_width_m), 0.0)
     most = min(math.radians(parking.max_yaw_deg), math.asin(min(sin, 1.0)))
     yaw = _cut_normal(yaw_share, math.radians(parking.yaw_spread_deg), -most, most)
-    turned, angle, dust = state
+    turned, angle, dust, lamps = state
     steer_deg = _STEER_DEG[int(angle * len(_STEER_DEG))] if turned < parking.turned_wheels else 0.0
     return _Car(
         stall,
@@ -279,6 +282,7 @@ def _car(
         along_share,
         steer_deg,
         dust < parking.dusty,
+        lamps < parking.lit,
     )
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 from garage2usd.assets.car_wheels import steered, steered_box
-from garage2usd.assets.cars import car, dusty
+from garage2usd.assets.cars import car, dusty, lit
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.own_car import own_car
 from garage2usd.config.own_cars import OwnCar
@@ -38,12 +38,15 @@ class CarSpec(Spec, kind=KIND):
         way.
     is_dusty
         Whether its flanks are covered with dust.
+    is_lit
+        Whether its head and tail lamps glow.
     """
 
     body: str
     paint: str
     steer_deg: float = 0.0
     is_dusty: bool = False
+    is_lit: bool = False
 
     @property
     def measures(self) -> CarBody:
@@ -61,10 +64,12 @@ class CarSpec(Spec, kind=KIND):
         return ((PAINT_SET, self.paint),)
 
     def asset(self) -> Asset:
-        """The body with its wheels and dust, in every paint."""
+        """The body with its wheels, dust and lamps, in every paint."""
         body = self.measures
         asset = steered(car(body), body, self.steer_deg)
-        return dusty(asset, body) if self.is_dusty else asset
+        if self.is_dusty:
+            asset = dusty(asset, body)
+        return lit(asset) if self.is_lit else asset
 
     def outlines(self) -> tuple[Polygon, ...]:
         """Its body with the wheel arches, its mirrors, and its front wheels where they are turned."""

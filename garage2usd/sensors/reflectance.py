@@ -102,6 +102,7 @@ _OF_KEY = {
     "sign_blue": MaterialClass.RETROREFLECTOR,
     "sign_ring": MaterialClass.RETROREFLECTOR,
     "lamp_front": MaterialClass.PLASTIC,
+    "lamp_front_lit": MaterialClass.PLASTIC,
     **dict.fromkeys(
         [key for key in MATERIALS if key.startswith(("cloth_", "skin_", "hair_", "leather_", "cardboard", "wood_"))],
         MaterialClass.OTHER,

@@ -149,6 +149,7 @@ SPECS = {
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
     "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
     "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),
+    "lit": CarSpec("small_suv", PAINTS[0], is_lit=True),
     "dusty": CarSpec("small_suv", PAINTS[0], is_dusty=True),
 }
 """One shape at least of each class of `garage2usd.objects.Spec`."""

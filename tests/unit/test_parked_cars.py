@@ -1,6 +1,7 @@
 import json
 import math
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from pxr import Usd
 from support.footprints import footprint
 from support.overlaps import Solids
 
+from garage2usd.assets import MATERIALS
 from garage2usd.checks import check_layout
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.config.markets import MARKET_NAMES, load_market, market_of
@@ -21,6 +23,7 @@ from garage2usd.layout.parked_cars import park_cars
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.maps.stall_facts import StallFacts
+from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import build, generate
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.sensors.slots import read_slots
@@ -260,6 +263,21 @@ def test_files_tell_blocked_stalls(tmp_path):
     assert not any(facts.facts(stall)["occupied"] for stall in facts.stalls)  # no cars are parked in them yet
     stage.GetDefaultPrim().GetVariantSet("occupancy").SetVariantSelection("empty")
     assert not any(slot.occupied or slot.blocked_by for slot in read_slots(stage).slots)
+
+
+def test_lamps_glow_as_often_as_asked():
+    asked = config_from_mapping({"parking": {"lit": 0.2, "occupancy": 0.9}})
+    cars = [car.spec for found in parked(asked, 60)[0] for car in found.cars]
+    assert sum(spec.is_lit for spec in cars) / len(cars) == pytest.approx(0.2, abs=0.02)
+    usual = [car.spec for found in parked(GarageConfig(parking={"occupancy": 0.9}), 60)[0] for car in found.cars]
+    assert [replace(spec, is_lit=False) for spec in cars] == usual
+    lit, dark = (
+        {part.name: part.material for part in CarSpec("saloon", "white", is_lit=glows).asset().parts}
+        for glows in (True, False)
+    )
+    changed = {name: material for name, material in lit.items() if material != dark[name]}
+    assert changed == {"HeadLamps": "lamp_front_lit", "TailLamps": "lamp_rear_lit"}
+    assert all(any(MATERIALS[material].emissive_rgb) for material in changed.values())
 
 
 def test_wheels_are_turned_and_flanks_dusty_as_often_as_asked():
