@@ -63,6 +63,11 @@ class Scene:
         ]
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
 
+    @property
+    def _is_lit(self) -> bool:
+        """Whether a vehicle is there with its lamps on."""
+        return self._way.has_vehicle and self._rig.lamps == "on"
+
     def _sees_vehicle(self, camera: Camera) -> bool:
         """Whether the vehicle is before a camera: one that it does not carry, or that is to see what carries it."""
         own = self._rig.ego_visible and not isinstance(camera, AroundViewCamera)
@@ -81,9 +86,13 @@ class Scene:
         """How the views are drawn: the stage with the vehicle in it, which other cameras than its own see."""
         with_car = work / "stage.usdc"
         with_car.unlink(missing_ok=True)
-        write_stage_with_car(with_car, self._stage, self._rig.body)
-        moved = [self._way.car_moved(pose) if self._sees_vehicle(camera) else None for camera, _, pose in self.shots]
-        moved += [None] * (len(self.views) - len(moved))
+        write_stage_with_car(with_car, self._stage, self._rig.body, is_lit=self._is_lit)
+        moved = [
+            self._way.car_moved(pose) if self._is_lit or self._sees_vehicle(camera) else None
+            for camera, _, pose in self.shots
+        ]
+        if self.birds_eye:
+            moved += [self._way.car_moved(pose) if self._is_lit else None for pose in self._way.poses]
         return Drawing(
             open_stage(with_car),
             self.labels,
@@ -154,6 +163,7 @@ class Scene:
             "effects": [None if view.effects is None else view.effects.model_dump(mode="json") for view in self.views],
             "hidden": self.hidden(),
             "car": self._rig.car,
+            "lamps": self._rig.lamps,
             "kinds": kinds,
             "samples": samples,
             "seed": seed,

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationInfo, field_validator
 
@@ -55,6 +55,8 @@ class Rig(Settings):
     `"pickup"` or `"compact_ev"`. What is driven is the way of the design car."""
     ego_visible: bool = False
     """Whether cameras on the car see its body, where their masks say; around views never do."""
+    lamps: Literal["off", "on"] = "off"
+    """Whether the head and tail lamps of the ego car are on: their light falls before and behind it along a drive."""
     sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
     """The sensors."""
 

@@ -4,10 +4,12 @@ from pathlib import Path
 
 from pxr import Gf, Sdf, Usd, UsdGeom
 
+from garage2usd.assets.cars import lit
 from garage2usd.config.vehicles import CarBody
 from garage2usd.reading.values import metres_per_unit, metres_y_up
 from garage2usd.stage.authoring import define, operation, order_operations, save_file
 from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset
+from garage2usd.stage.lamp_lights import define_lamp_lights
 from garage2usd.stage.prototype_layer import define_mesh
 
 __all__ = ["EGO_PATH", "write_stage_with_car"]
@@ -16,11 +18,12 @@ EGO_PATH = "/EgoCar"
 """Of the car."""
 
 
-def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody) -> None:
+def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: bool = False) -> None:
     """Write a layer over a stage that adds a car at `EGO_PATH`.
 
     The middle of its rear axle on the ground is the origin, and it looks along what would be -Z were the stage's Y up.
     A car that drives in the stage, as `garage2usd drive --animate` writes it, is left out: it is the same one.
+    Where it is lit, its head and tail lamps glow and light what is before and behind it.
     """
     layer = Sdf.Layer.CreateNew(str(path))
     layer.subLayerPaths.append(str(Path(stage.GetRootLayer().realPath)))
@@ -35,18 +38,20 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody) -> None:
                 over = Sdf.CreatePrimInLayer(layer, driving)
                 over.specifier = Sdf.SpecifierOver
                 over.active = False
-        _author_car(layer, stage, car)
+        _author_car(layer, stage, car, is_lit=is_lit)
     save_file(layer, path)
 
 
-def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody) -> None:
+def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: bool) -> None:
     root = define(layer, Sdf.Path(EGO_PATH), "Xform")
     operation(root, "transform", Sdf.ValueTypeNames.Matrix4d, Gf.Matrix4d(metres_y_up(stage)).GetInverse())
     order_operations(root, ["transform"])
-    asset = driven_asset(car)
+    asset = lit(driven_asset(car)) if is_lit else driven_asset(car)
     looks = define_car_looks(layer, root.path, asset)
     body = define(layer, root.path.AppendChild("Body"), "Xform")
     operation(body, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(0, 0, -car.rear_axle_m))
     order_operations(body, ["translate"])
     for part in asset.parts:
         define_mesh(layer, body.path.AppendChild(part.name), part, looks)
+    if is_lit:
+        define_lamp_lights(layer, body.path, asset)

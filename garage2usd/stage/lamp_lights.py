@@ -1,0 +1,102 @@
+"""The light that the head and tail lamps of a car throw, as lights of UsdLux."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Gf, Sdf, UsdLux
+
+from garage2usd.assets import Asset, Rgb
+from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
+from garage2usd.errors import ConfigError
+from garage2usd.reading.lights import luminance_of
+from garage2usd.stage.authoring import apply_schemas, attribute, define, operation, order_operations
+from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
+
+__all__ = ["define_lamp_lights", "lamp_places"]
+
+_TYPES = Sdf.ValueTypeNames
+_AHEAD_M = 0.03
+"""Of a light before its lens."""
+_HEAD_LM = 700.0
+"""Of one head lamp's low beam."""
+_CONE_DEG, _CUT_OFF_DEG, _SOFTNESS = 22.0, 0.6, 0.15
+"""Half of the beam's angle, how far its upper edge dips (1 %, ECE R48), and what share of it fades. Assumption but for
+the dip: a true beam is flatter and wider."""
+_TAIL_RGB: Rgb = (1.0, 0.02, 0.01)
+_TAIL_CD, _TAIL_DOWN_DEG = 12.0, 20.0
+"""ECE R7 allows 4 to 17 candela to a tail lamp."""
+
+
+class _Lamp(NamedTuple):
+    """How a lamp shines: which prim it is, its radius, strength along its axis, colour and dip."""
+
+    part: str
+    type_name: str
+    radius_m: float
+    candela: float
+    colour_rgb: Rgb
+    down_deg: float
+
+
+_LAMPS = {
+    "Head": _Lamp(
+        "HeadLamps",
+        "SphereLight",
+        0.04,
+        _HEAD_LM / (math.tau * (1 - math.cos(math.radians(_CONE_DEG)))),
+        USUAL_LAMP_RGB,
+        _CONE_DEG + _CUT_OFF_DEG,
+    ),
+    "Tail": _Lamp("TailLamps", "DiskLight", 0.06, _TAIL_CD, _TAIL_RGB, _TAIL_DOWN_DEG),
+}
+
+
+def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
+    """Where the lights of a car's lamps are: before the middle of the lenses of either side.
+
+    Returns
+    -------
+    dict
+        By ``HeadLeft``, ``HeadRight``, ``TailLeft`` and ``TailRight``, metres in the axes of the asset; shape (3,).
+
+    Raises
+    ------
+    ConfigError
+        If the car has no parts ``HeadLamps`` and ``TailLamps``, as a model of one's own may.
+    """
+    parts = {part.name: part for part in asset.parts}
+    places = {}
+    for end, lamp in _LAMPS.items():
+        if lamp.part not in parts:
+            raise ConfigError("lamps", "on", f"a car that has the part {lamp.part}")
+        points = parts[lamp.part].points.astype(np.float64)
+        for name, side in (("Left", -1.0), ("Right", 1.0)):
+            own = points[points[:, 0] * side > 0]
+            x, y = own[:, :2].mean(axis=0)
+            z = own[:, 2].max() + _AHEAD_M if end == "Tail" else own[:, 2].min() - _AHEAD_M
+            places[f"{end}{name}"] = np.array((x, y, z))
+    return places
+
+
+def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
+    """Define a spot for each head lamp and a red disc for each pair of tail lenses, below the body of a car."""
+    for name, place in lamp_places(asset).items():
+        lamp = _LAMPS[name[:4]]
+        light = define(layer, car.AppendChild(f"{name}Light"), lamp.type_name)
+        nit = lamp.candela / (math.pi * lamp.radius_m**2)
+        brighter = luminance_of(USUAL_LAMP_RGB) / luminance_of(lamp.colour_rgb)
+        attribute(light, "inputs:radius", _TYPES.Float, lamp.radius_m)
+        attribute(light, "inputs:color", _TYPES.Color3f, Gf.Vec3f(*lamp.colour_rgb))
+        attribute(light, "inputs:intensity", _TYPES.Float, nit / NITS_PER_INTENSITY * brighter)
+        attribute(light, "inputs:normalize", _TYPES.Bool, value=False)
+        if lamp.type_name == "SphereLight":
+            apply_schemas(light, "ShapingAPI")
+            attribute(light, UsdLux.Tokens.inputsShapingConeAngle, _TYPES.Float, _CONE_DEG)
+            attribute(light, UsdLux.Tokens.inputsShapingConeSoftness, _TYPES.Float, _SOFTNESS)
+        # lights shine along their -Z, which is where cars look to
+        operation(light, "translate", _TYPES.Float3, Gf.Vec3f(*place.tolist()))
+        operation(light, "rotateY", _TYPES.Float, 180.0 if lamp.part == "TailLamps" else 0.0)
+        operation(light, "rotateX", _TYPES.Float, -lamp.down_deg)
+        order_operations(light, ["translate", "rotateY", "rotateX"])
