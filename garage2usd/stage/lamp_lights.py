@@ -21,7 +21,7 @@ _AHEAD_M = 0.03
 """Of a light before its lens."""
 _HEAD_LM = 700.0
 """Of one head lamp's low beam."""
-_CONE_DEG, _CUT_OFF_DEG, _SOFTNESS = 22.0, 0.6, 0.15
+_CONE_DEG, _CUT_OFF_DEG, _SOFTNESS = 35.0, 0.6, 0.15
 """Half of the beam's angle, how far its upper edge dips (1 %, ECE R48), and what share of it fades. Assumption but for
 the dip: a true beam is flatter and wider."""
 _TAIL_RGB: Rgb = (1.0, 0.02, 0.01)
