@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from pxr import Usd
+from pxr import Usd, UsdShade
 from support.footprints import footprint
 from support.overlaps import Solids
 
@@ -278,6 +278,27 @@ def test_lamps_glow_as_often_as_asked():
     changed = {name: material for name, material in lit.items() if material != dark[name]}
     assert changed == {"HeadLamps": "lamp_front_lit", "TailLamps": "lamp_rear_lit"}
     assert all(any(MATERIALS[material].emissive_rgb) for material in changed.values())
+
+
+def test_tail_lamps_of_the_lit_cars_of_a_stage_glow_and_no_others(tmp_path):
+    config = GarageConfig(
+        seed=3, site={"width_cells": 9, "height_cells": 8}, parking={"lit": 0.4, "dusty": 0.3, "occupancy": 0.95}
+    )
+    built = build(config, tmp_path / "garage.usda")
+    lit = [car.spec.is_lit for car in built.garage.layout.of_kind("car")]
+    stage = Usd.Stage.Open(str(built.stage))
+    cars = [prim for prim in stage.Traverse() if prim.IsInstance() and prim.GetName().startswith("Car_")]
+    glow = []
+    for car in cars:
+        lamps = next(
+            prim for prim in Usd.PrimRange(car, Usd.TraverseInstanceProxies()) if prim.GetName() == "TailLamps"
+        )
+        material, _ = UsdShade.MaterialBindingAPI(lamps).ComputeBoundMaterial()
+        colour = material.ComputeSurfaceSource()[0].GetInput("emissiveColor")
+        glow.append(bool(colour) and max(colour.Get()) > 1)
+    assert len(glow) == len(lit) > 20
+    assert sum(glow) == sum(lit)
+    assert 0.2 < sum(glow) / len(glow) < 0.6
 
 
 def test_wheels_are_turned_and_flanks_dusty_as_often_as_asked():
