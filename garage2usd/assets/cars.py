@@ -160,7 +160,9 @@ def _handles(shell: Shell) -> Faces:
     for s in _door_lines(shell)[1:]:
         y = shell.shoulder(s) - 0.12
         x, z = shell.side_place(s - 0.17, y)
-        faces.append(np.array(box_faces((x - 0.02, y - 0.016, z - 0.09), (min(x + 0.018, outermost), y + 0.016, z + 0.09))))
+        faces.append(
+            np.array(box_faces((x - 0.02, y - 0.016, z - 0.09), (min(x + 0.018, outermost), y + 0.016, z + 0.09)))
+        )
     return both_sides(np.concatenate(faces))
 
 

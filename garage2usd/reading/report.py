@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import AliasChoices, Field, ValidationError
+from pydantic import AliasChoices, Field, SerializerFunctionWrapHandler, ValidationError, model_serializer
 
 from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
 from garage2usd.documents import MAX_REPORT_BYTES, read_text
@@ -94,6 +94,14 @@ class ReportedStall(Record):
     length_m: float
     occupied: bool | None = None
     blocked_by: str | None = None
+
+    @model_serializer(mode="wrap")
+    def _where_it_is_blocked(self, handler: SerializerFunctionWrapHandler) -> dict[str, object]:
+        """Without `blocked_by` where nothing blocks it, as nothing does in most garages."""
+        told: dict[str, object] = handler(self)
+        if self.blocked_by is None:
+            del told["blocked_by"]
+        return told
 
 
 class UnmetClause(Record):

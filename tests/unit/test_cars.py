@@ -334,7 +334,7 @@ def test_dust_lies_on_the_flanks_and_thins_out_upwards(body):
 
 @pytest.mark.parametrize("body", CAR_BODIES, ids=lambda body: body.name)
 def test_no_face_folds_over_where_readers_halve_it(body):
-    """Readers draw a face as a fan from its first corner; each triangle looks to where the normals of its corners do."""
+    """Readers draw faces as fans from their first corners; each triangle looks where its corners' normals do."""
     for part in car(body).parts:
         first = np.cumsum([0, *part.face_counts[:-1]])
         for start, count in zip(first.tolist(), part.face_counts.tolist(), strict=True):

@@ -103,7 +103,8 @@ def test_cars_that_differ_in_paint_share_their_shape_but_not_their_palette(garag
     specs = {place.spec for place in build.garage.layout.of_kind("car")}
     bodies = {spec.body for spec in specs}
     assert len({placed.shape for placed in cars}) == len(bodies)
-    assert len({placed.palette for placed in cars}) == len({spec.paint for spec in specs})
+    # bodies have parts of other materials: lips of arches, dark glass
+    assert len({spec.paint for spec in specs}) <= len({placed.palette for placed in cars}) <= len(specs)
     colours = {scene.surfaces[number].colour_rgb for placed in cars for number in scene.palettes[placed.palette]}
     assert len(colours) > len({spec.paint for spec in specs})
 
