@@ -152,7 +152,8 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         from garage2usd.recordings.sweeps import Sweeps  # noqa: PLC0415 - of an extra, which pictures do without
 
         sweeps = Sweeps(opened, scene.labels, way, chosen, formats, seed)
-    drawn = with_needed(kinds, () if slots is None and birds_eye is None else NEEDED)
+    needed = {*(() if slots is None and birds_eye is None else NEEDED), *scene.needed(kinds)}
+    drawn = with_needed(kinds, needed)
     key = scene.key(path, drawn, samples=samples, seed=seed, device=drawn_on)
     with unfinished_folder(folder, key) as unfinished:
         finished, work = unfinished / "finished", unfinished / "work"

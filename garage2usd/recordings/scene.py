@@ -2,11 +2,12 @@
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pxr import Ar, Usd, UsdUtils
 
 from garage2usd.reading.files import open_stage
@@ -16,7 +17,7 @@ from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.render.devices import ComputeDevice
-from garage2usd.render.drawing import Drawing
+from garage2usd.render.drawing import MOTION_NEEDS, Drawing
 from garage2usd.sensors.around_view_camera import AroundViewCamera
 from garage2usd.sensors.birds_eye import BirdsEye
 from garage2usd.sensors.camera import Camera
@@ -62,6 +63,11 @@ class Scene:
             for camera, _, _ in self.shots
         ]
         return [*shots, *(self.birds_eye.hidden if self.birds_eye else ())]
+
+    def needed(self, kinds: Collection[Picture]) -> tuple[Picture, ...]:
+        """What has to be drawn that colour is made of."""
+        blurs = Picture.COLOUR in kinds and any(view.shows_motion for view in self.views)
+        return MOTION_NEEDS if blurs else ()
 
     @property
     def _is_lit(self) -> bool:
@@ -150,8 +156,20 @@ class Scene:
             "hidden_objects": self._way.left_out,
         }
         name = f"{camera.name}_{number:04d}"
+        is_carried = camera.mount == "vehicle"
+        to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ sensor_to_world
+        twist = pose.twist if is_carried else pose.twist.reversed()
         return View(
-            name, camera.name, None, lens, lens.size_px, sensor_to_world @ USD_FROM_OPENCV, facts, camera.effects
+            name,
+            camera.name,
+            None,
+            lens,
+            lens.size_px,
+            sensor_to_world @ USD_FROM_OPENCV,
+            facts,
+            camera.effects,
+            twist.of_part(to_vehicle),
+            is_carried,
         )
 
     def key(self, path: Path, kinds: Sequence[Picture], *, samples: int, seed: int, device: ComputeDevice) -> str:
@@ -161,6 +179,7 @@ class Scene:
             "stage": _digest(self._stage, path),
             "views": [[view.name, view.lens_job(), view.camera_to_world.tolist(), view.facts] for view in self.views],
             "effects": [None if view.effects is None else view.effects.model_dump(mode="json") for view in self.views],
+            "motion": [None if view.twist is None else view.twist.facts for view in self.views if view.shows_motion],
             "hidden": self.hidden(),
             "car": self._rig.car,
             "lamps": self._rig.lamps,

@@ -1,6 +1,6 @@
 """The way of a recording: where the vehicle is, and what it comes to."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +20,7 @@ from garage2usd.render.cameras import find_views
 from garage2usd.sensors.columns import column_to_y_up
 from garage2usd.sensors.mount import Sensor
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, VehiclePose, poses_along, y_up_to_stage
+from garage2usd.sensors.twist import Twist
 from garage2usd.stage.cameras import EYE_M, FRAMES_PER_SECOND
 from garage2usd.stage.driving_car import CAR_NAME
 
@@ -88,14 +89,16 @@ class Way:
             raise ConfigError("along", camera, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
         to_y_up = np.linalg.inv(self.to_stage)
         eyes = [to_y_up @ view.camera_to_world for view in views]
+        seconds = [((view.frame or 0.0) - first) / FRAMES_PER_SECOND for view in views]
         steps = [np.linalg.norm(there[:3, 3] - here[:3, 3]) for here, there in pairwise(eyes)]
         driven = np.concatenate([[0.0], np.cumsum(steps)])
         nearest = [int(np.abs(driven - target).argmin()) for target in np.arange(0.0, driven[-1] + every_m, every_m)]
         self.poses = [
             VehiclePose(
-                ((views[number].frame or 0.0) - first) / FRAMES_PER_SECOND,
+                seconds[number],
                 float(driven[number]),
                 self.to_stage @ _below(eyes[number]),
+                _twist(eyes, seconds, number),
             )
             for number in dict.fromkeys(nearest)
         ]
@@ -143,6 +146,14 @@ class Way:
         roots = self._stage.GetPseudoRoot().GetChildren()
         driving = [str(root.GetPath().AppendChild(CAR_NAME)) for root in roots]
         return [*labels.with_plates(self.left_out), *driving]
+
+
+def _twist(eyes: Sequence[Matrix], seconds: Sequence[float], number: int) -> Twist:
+    """How the vehicle moves in a frame, from the one before to the one after, where there are such."""
+    before, after = max(number - 1, 0), min(number + 1, len(eyes) - 1)
+    if before == after:
+        return Twist(np.zeros(3), np.zeros(3))
+    return Twist.between(_below(eyes[before]), _below(eyes[after]), seconds[after] - seconds[before])
 
 
 def _below(eye: Matrix) -> Matrix:

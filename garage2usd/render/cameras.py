@@ -16,6 +16,7 @@ from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.camera_effects import CameraEffects
 from garage2usd.sensors.lenses import Fisheye, Pinhole
 from garage2usd.sensors.lenses import Lens as SensorLens
+from garage2usd.sensors.twist import Twist
 from garage2usd.spelling import called
 
 __all__ = ["Lens", "View", "find_views"]
@@ -82,6 +83,10 @@ class View:
         What else the table of frames says of it.
     effects
         How its colour differs from that of a perfect camera; None for one.
+    twist
+        How the camera moves, in axes that look along +Z with +Y down, from what moves in its picture.
+    is_carried
+        Whether the vehicle carries it: all but the vehicle moves in its picture, else the vehicle alone.
     """
 
     name: str
@@ -92,6 +97,13 @@ class View:
     camera_to_world: NDArray[np.float64]
     facts: Mapping[str, object] = field(default_factory=dict)
     effects: CameraEffects | None = None
+    twist: Twist | None = None
+    is_carried: bool = False
+
+    @property
+    def shows_motion(self) -> bool:
+        """Whether its colour depends on how it moves, and so on depth and instances."""
+        return self.twist is not None and self.effects is not None and self.effects.shows_motion
 
     def world_to_camera(self) -> NDArray[np.float64]:
         """From the stage's axes to a camera that looks along +Z with +X right and +Y down; float64, shape (4, 4)."""

@@ -2,6 +2,7 @@
 # Over 300 lines: what is drawn of a view, and in which order, is decided in one place.
 
 import json
+import shutil
 import time
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -26,6 +27,8 @@ from garage2usd.render.pictures import (
     INDEX_LIMIT,
     Picture,
     VisibleInstance,
+    read_depth,
+    read_ids,
     read_light,
     read_surfaces,
     visible_instances,
@@ -36,8 +39,9 @@ from garage2usd.render.pictures import (
 from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.developing import develop
 from garage2usd.sensors.lenses import Pinhole
+from garage2usd.sensors.motion_blur import exposed_in_motion
 
-__all__ = ["Drawing"]
+__all__ = ["MOTION_NEEDS", "Drawing"]
 
 _BLENDER_FROM = {
     UsdGeom.Tokens.y: np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
@@ -46,6 +50,9 @@ _BLENDER_FROM = {
 """From the axes of a stage, by the one that is up, to Blender's."""
 _SEEN = "seen"
 _EFFECTS = "effects"
+_LIGHT = "light"
+MOTION_NEEDS = Picture.DEPTH, Picture.INSTANCE
+"""What is drawn for the colour of views that show motion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +120,10 @@ class Drawing:
         RenderError
             If Blender fails. Frames that were finished before stay.
         """
-        for folder in (*self.kinds, _SEEN, _EFFECTS):
+        missing = sorted(set(MOTION_NEEDS) - set(self.kinds))
+        if missing and self._has_colour and any(view.shows_motion for view in self.views):
+            raise TypeError(f"motion is drawn with {missing}")
+        for folder in (*self.kinds, _SEEN, _EFFECTS, _LIGHT):
             (self.finished / folder).mkdir(parents=True, exist_ok=True)
         progress("scene", 0, 1)
         scene = read_drawn_prims(self.stage, self.labels.ids)
@@ -138,10 +148,16 @@ class Drawing:
 
             run_blender(self._job(scene, [jobs[number] for number in order], work), work, done)
             waiting.take()
+        for view in self.views:
+            self._develop_kept(view)
         return [self._read_seen(view) if self._has_data else None for view in self.views]
 
     def take_colour(self, view: View, drawn: Path) -> None:
         """Keep a colour picture that Blender drew, or what the view's camera makes of the light."""
+        if view.shows_motion:  # which is seen only with the depth, which Blender draws last
+            with _whole(self._light_path(view)) as part:
+                shutil.copyfile(drawn, part)
+            return
         if view.effects is not None:
             self._develop(view, read_light(drawn))
             return
@@ -162,15 +178,32 @@ class Drawing:
         seen = [asdict(each) for each in visible_instances(surfaces.instance)]
         with _whole(self._seen_path(view)) as part:
             part.write_text(json.dumps(seen), encoding="utf-8")
+        self._develop_kept(view)
+
+    def _develop_kept(self, view: View) -> None:
+        """Develop light that waits for depth and instances, if they are there."""
+        light = self._light_path(view)
+        if not light.exists() or not self._seen_path(view).exists():
+            return
+        if view.twist is None or view.effects is None:
+            raise TypeError(view.name)
+        is_vehicle = np.isin(read_ids(self._path(view, Picture.INSTANCE)), sorted(self.moving))
+        moves = ~is_vehicle if view.is_carried else is_vehicle
+        depth_m = read_depth(self._path(view, Picture.DEPTH))
+        self._develop(
+            view, exposed_in_motion(read_light(light), depth_m, moves, view.sensor_lens(), view.twist, view.effects)
+        )
+        light.unlink()
 
     def facts(self, view: View) -> dict[str, object]:
         """What the table of frames says of a finished view: its own facts, and what its camera did to the light."""
         if view.effects is None or not self._has_colour:
             return dict(view.facts)
         did = json.loads((self.finished / _EFFECTS / f"{view.name}.json").read_text(encoding="utf-8"))
-        return {**view.facts, "effects": {**view.effects.model_dump(mode="json"), **did}}
+        motion = {"motion": view.twist.facts} if view.twist is not None and view.shows_motion else {}
+        return {**view.facts, "effects": {**view.effects.model_dump(mode="json"), **did, **motion}}
 
-    def _develop(self, view: View, light: NDArray[np.float32]) -> None:
+    def _develop(self, view: View, light: NDArray[np.float32] | NDArray[np.float64]) -> None:
         """Keep what the view's camera makes of light; the picture comes last, and says that all is there."""
         if view.effects is None:
             raise TypeError(view.name)
@@ -205,13 +238,17 @@ class Drawing:
     def _seen_path(self, view: View) -> Path:
         return self.finished / _SEEN / f"{view.name}.json"
 
+    def _light_path(self, view: View) -> Path:
+        return self.finished / _LIGHT / f"{view.name}.exr"
+
     def _read_seen(self, view: View) -> list[VisibleInstance]:
         entries = json.loads(self._seen_path(view).read_text(encoding="utf-8"))
         return [VisibleInstance(**{**entry, "box_px": tuple(entry["box_px"])}) for entry in entries]
 
     def _frame_job(self, view: View, hidden: Sequence[int], work: Path, digits: int) -> dict[str, Any]:
         """What Blender is told of a frame, without what is finished."""
-        draws_colour = self._has_colour and not self._path(view, Picture.COLOUR).exists()
+        is_there = self._path(view, Picture.COLOUR).exists() or self._light_path(view).exists()
+        draws_colour = self._has_colour and not is_there
         draws_data = self._has_data and not self._seen_path(view).exists()
         return {
             "colour": str(work / f"{view.name}.{'png' if view.effects is None else 'light.exr'}")

@@ -65,9 +65,10 @@ class AroundViewCamera(Camera):
 
     @field_validator("effects")
     @classmethod
-    def _without_chromatic_error(cls, effects: CameraEffects | None) -> CameraEffects | None:
-        if effects is not None and effects.chromatic_error:
-            raise ValueError("effects without chromatic_error, for an around view")
+    def _without_effects_of_one_eye(cls, effects: CameraEffects | None) -> CameraEffects | None:
+        for name in ("chromatic_error", "exposure_s", "readout_s"):
+            if effects is not None and getattr(effects, name):
+                raise ValueError(f"effects without {name}, for an around view")
         return effects
 
     def through(self, cameras: Mapping[str, Camera], car: CarBody) -> Self:

@@ -54,5 +54,16 @@ class CameraEffects(Settings):
     rest. 1 burns out at white."""
     tone: Literal["srgb", "linear"] = "srgb"
     """Curve from linear light to the numbers of the picture."""
+    exposure_s: float = Field(0.0, ge=0.0, le=0.2)
+    """How long each row is open: what moves is blurred along its way meanwhile. 0 for no blur. Brightness stays that of
+    `exposure`. Not for around views."""
+    readout_s: float = Field(0.0, ge=0.0, le=0.2)
+    """By how much the last row is open later than the first: a rolling shutter. 0 for all at once. Not for around
+    views."""
     jpeg_quality: int | None = Field(None, ge=1, le=100)
     """The picture is compressed as a JPEG of this quality, and written as it is read from it; none if left out."""
+
+    @property
+    def shows_motion(self) -> bool:
+        """Whether pictures depend on how the camera moves."""
+        return bool(self.exposure_s or self.readout_s)

@@ -1,6 +1,6 @@
 """Where a vehicle is when its sensors record: places along a drive, and the axes of what sensors are mounted on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from pxr import Usd
 from garage2usd.driving.timing import Motion
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.reading.values import metres_y_up
+from garage2usd.sensors.twist import Twist
 
 __all__ = ["CAR_FROM_VEHICLE", "MAP_TO_Y_UP", "VehiclePose", "poses_along", "vehicle_to_y_up", "y_up_to_stage"]
 
@@ -19,6 +20,8 @@ CAR_FROM_VEHICLE = np.array([[0.0, -1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0], [0, 0
 MAP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 """From x = X, y = -Z and z = Y to X, Y and Z."""
 _STEP_S = 0.02
+_HALF_S = 0.005
+"""How long before and after a place the vehicle is looked at, to tell how it moves."""
 _END_M = 1e-3
 """A last place that is nearer to the end than this is the end."""
 
@@ -34,11 +37,14 @@ class VehiclePose:
     vehicle_to_world
         From ISO 8855's axes, whose origin is the middle of the rear axle on the ground, to the stage's axes, in metres,
         for column vectors; float64, shape (4, 4).
+    twist
+        How it moves there, in ISO 8855's axes.
     """
 
     time_s: float
     distance_m: float
     vehicle_to_world: Matrix
+    twist: Twist = field(default_factory=lambda: Twist(np.zeros(3), np.zeros(3)))
 
     @property
     def facts(self) -> dict[str, float]:
@@ -64,10 +70,11 @@ def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[Veh
     reached, first = np.unique(driven.arc_m, return_index=True)
     times = np.append(np.interp(steps, reached, driven.time_s[first]), driven.time_s[-1])
     states = motion.at(times)
-    return [
-        VehiclePose(float(time), float(arc), to_stage @ matrix)
-        for time, arc, matrix in zip(times.tolist(), states.arc_m.tolist(), vehicle_to_y_up(states), strict=True)
-    ]
+    around = np.clip(times - _HALF_S, 0.0, driven.time_s[-1]), np.clip(times + _HALF_S, 0.0, driven.time_s[-1])
+    before, after = (vehicle_to_y_up(motion.at(each)) for each in around)
+    twists = map(Twist.between, before, after, (around[1] - around[0]).tolist())
+    placed = zip(times.tolist(), states.arc_m.tolist(), vehicle_to_y_up(states), twists, strict=True)
+    return [VehiclePose(time, arc, to_stage @ matrix, twist) for time, arc, matrix, twist in placed]
 
 
 def vehicle_to_y_up(states: Trajectory) -> Matrix:
