@@ -94,7 +94,7 @@ class _Flow:
         steady[stands], growing[stands] = 0.0, 0.0
         rows, columns = moving.shape
         shape = rows, columns
-        self._moving = moving
+        self._moving = ~stands.reshape(shape)
         self._depth = depth.reshape(shape)
         self._steady = steady[:, ::-1].reshape(*shape, 2)  # rows first, as arrays have them
         self._growing = growing[:, ::-1].reshape(*shape, 2)
@@ -116,7 +116,7 @@ class _Flow:
                 at = self._at(place)
                 moved = (self._steady[at] + self._growing[at] * times) * times
                 off_px = np.abs(place + moved - self._grid).max(axis=-1)
-                # what is uncovered shows no part of the vehicle
+                # what is uncovered shows no part of the vehicle, and nothing from outside of the field
                 off_px += _ELSEWHERE_PX * ((off_px > _NEAR_PX) & (self._moving[at] != self._moving))
                 depth = self._depth[at]
                 fits, fitted = off_px <= _NEAR_PX, best_px <= _NEAR_PX

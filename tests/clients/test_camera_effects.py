@@ -20,6 +20,7 @@ def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(builds, 
     built = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
     front = read_rig("avp_surround").model_dump(mode="json")["sensors"][0]
     effects = {"full_well_electrons": 2000.0, "exposure_spread_ev": 0.5, "jpeg_quality": 80, "dirt": 4}
+    effects |= {"exposure_s": 0.03, "readout_s": 0.05}
 
     def recorded(name, **settings):
         sensors = [{**front, **settings}]

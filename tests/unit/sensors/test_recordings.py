@@ -18,8 +18,11 @@ from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError, OutputError
 from garage2usd.output import unfinished_folder
 from garage2usd.reading.files import open_stage
+from garage2usd.reading.labels import read_labels
 from garage2usd.recordings import record
+from garage2usd.recordings.scene import Scene
 from garage2usd.recordings.way import Way
+from garage2usd.render import Picture
 from garage2usd.sensors.columns import column_to_y_up
 from garage2usd.sensors.rig import read_rig, rig_from_mapping
 
@@ -182,3 +185,49 @@ def test_a_second_run_in_one_unfinished_folder_is_refused_until_the_first_has_en
         with pytest.raises(OutputError, match="another run"), unfinished_folder(out, "a"):
             pytest.fail("two runs are at work")
     assert not place.exists()
+
+
+def test_cameras_move_as_the_vehicle_does_between_frames(built):
+    stage = open_stage(built.stage)
+    rig = read_rig("avp_surround")
+    along = f":{next(stall.name for stall in built.garage.layout.stalls if stall.use.takes_cars)}"
+    way = Way(stage, built.stage, along, 0.05, DriveConfig())
+    twists = [pose.twist for pose in way.poses]
+    velocities = np.array([twist.velocity_m_s for twist in twists])
+    assert np.abs(velocities[:, 0]).max() > 1.0
+    # the rear axle of a car does not slip aside
+    assert np.abs(velocities[:, 1]).max() < 0.01
+    views = [view for view in Scene(stage, read_labels(stage, built.stage), way, rig).views if view.camera == "left"]
+    compared = 0
+    for before, here, after in zip(views, views[1:], views[2:], strict=False):
+        seconds = after.facts["time_s"] - before.facts["time_s"]
+        if seconds > 0.15:  # it stops between them, or is slow
+            continue
+        to_camera = here.world_to_camera()[:3, :3]
+        moved = to_camera @ (after.camera_to_world[:3, 3] - before.camera_to_world[:3, 3]) / seconds
+        assert here.twist.velocity_m_s == pytest.approx(moved, abs=0.06)
+        ahead = to_camera @ (after.camera_to_world[:3, 1] - before.camera_to_world[:3, 1]) / seconds
+        # how fast the upward axis, which is -Y here, turns about the rest
+        assert np.cross(here.twist.turn_rad_s, [0, -1, 0]) == pytest.approx(ahead, abs=0.05)
+        compared += 1
+    assert compared > 50
+
+
+def test_a_camera_that_stands_sees_the_vehicle_move(built):
+    stage = open_stage(built.stage)
+    front = read_rig("avp_surround").model_dump(mode="json")["sensors"][0]
+    rig = rig_from_mapping({"name": "r", "sensors": [{**front, "mount": "world", "effects": {"exposure_s": 0.01}}]})
+    way = Way(stage, built.stage, "Drive", 2.0, DriveConfig())
+    scene = Scene(stage, read_labels(stage, built.stage), way, rig)
+    compared = 0
+    for view, pose in zip(scene.views, way.poses, strict=True):
+        axle = pose.vehicle_to_world
+        velocity = axle[:3, :3] @ pose.twist.velocity_m_s
+        first, later = (view.world_to_camera() @ [*(axle[:3, 3] + velocity * time), 1] for time in (0.0, 1e-4))
+        seen = view.twist.seen_after(first[None, :3], 1e-4)[0]
+        assert seen == pytest.approx(later[:3], abs=1e-5)
+        compared += np.linalg.norm(later - first) > 1e-5
+    assert compared > 3
+    assert not any(view.is_carried for view in scene.views)
+    assert scene.needed([Picture.COLOUR]) == (Picture.DEPTH, Picture.INSTANCE)
+    assert scene.needed([Picture.NORMALS]) == ()
