@@ -10,13 +10,17 @@ from garage2usd.sensors.twist import Twist
 __all__ = ["exposed_in_motion"]
 
 Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+_COMPLEX = np.array([1, 1j])
 _FARTHEST_M = 1e6
 """Where what has no depth is thought to be."""
 _SHORT_S = 1e-5
-_ITERATIONS = 5
+_ITERATIONS = 4
 _NEAR_PX = 0.75
 """A source that comes as near to a pixel as this is shown there."""
 _ELSEWHERE_PX = 1e6
+_SAME = 0.02
+"""By what share depths differ at most that are of one surface."""
 _WINDOWS = 0.25, 1.0
 """Half sides of the squares whose nearest surfaces may come over a pixel, in ways of the fastest one."""
 
@@ -71,7 +75,10 @@ def exposed_in_motion(
 
 
 class _Flow:
-    """Where the points that pixels show are a while later: steady and growing in time, as a parabola."""
+    """Where the points that pixels show are a while later: steady and growing in time, as a parabola.
+
+    Places and ways are complex numbers, columns + rows * i.
+    """
 
     def __init__(
         self,
@@ -92,59 +99,61 @@ class _Flow:
         steady[is_lost], growing[is_lost] = slow[is_lost], 0.0
         stands = ~moving.ravel() | ~np.isfinite(steady).all(axis=1)
         steady[stands], growing[stands] = 0.0, 0.0
-        rows, columns = moving.shape
-        shape = rows, columns
-        self._moving = ~stands.reshape(shape)
-        self._depth = depth.reshape(shape)
-        self._steady = steady[:, ::-1].reshape(*shape, 2)  # rows first, as arrays have them
-        self._growing = growing[:, ::-1].reshape(*shape, 2)
-        self._grid = np.moveaxis(np.indices(shape).astype(np.float64), 0, -1)
+        self._moving = ~stands
+        self._depth = depth
+        self._shape = moving.shape
+        self._steady, self._growing = steady @ _COMPLEX, growing @ _COMPLEX
+        self._grid = (middles - 0.5) @ _COMPLEX
         self._seeds = self._nearest(reach_s)
 
     def longest_px(self, seconds: float) -> float:
         """Of the ways that points take in a time around the middle, the picture's diagonal at most."""
-        ways = np.hypot(*np.moveaxis(self._steady, -1, 0)) * seconds
-        return float(min(ways.max(initial=0.0), np.linalg.norm(self._depth.shape)))
+        return float(min(np.abs(self._steady).max(initial=0.0) * seconds, np.linalg.norm(self._shape)))
 
     def sources(self, times_s: Floats) -> Floats:
         """Which place each pixel shows at the time of its row, shape (rows,); shape (2, rows, columns)."""
-        times = times_s[:, None, None]
-        best, best_px, best_m = self._grid, np.full(self._depth.shape, np.inf), np.full(self._depth.shape, np.inf)
+        times = np.repeat(times_s, self._shape[1])
+        best = self._grid.copy()
+        best_px, best_m = (np.full(best.shape, np.inf) for _ in range(2))
         for steady, growing in [(self._steady, self._growing), *self._seeds]:
             place = self._grid - (steady + growing * times) * times
             for _ in range(_ITERATIONS):
-                at = self._at(place)
+                at = self._pixel(place)
                 moved = (self._steady[at] + self._growing[at] * times) * times
-                off_px = np.abs(place + moved - self._grid).max(axis=-1)
+                off = place + moved - self._grid
+                off_px = np.maximum(np.abs(off.real), np.abs(off.imag))
                 # what is uncovered shows no part of the vehicle, and nothing from outside of the field
-                off_px += _ELSEWHERE_PX * ((off_px > _NEAR_PX) & (self._moving[at] != self._moving))
+                off_px[(off_px > _NEAR_PX) & (self._moving[at] != self._moving)] = _ELSEWHERE_PX
                 depth = self._depth[at]
                 fits, fitted = off_px <= _NEAR_PX, best_px <= _NEAR_PX
                 # of surfaces that come to the pixel the nearest, of places on it the one that comes closest
-                same = np.abs(depth - best_m) <= 0.02 * best_m
+                same = np.abs(depth - best_m) <= _SAME * depth
                 better = np.where(fits & fitted & ~same, depth < best_m, off_px < best_px)
-                best = np.where(better[..., None], place, best)
-                best_px, best_m = np.where(better, off_px, best_px), np.where(better, depth, best_m)
+                for old, new in ((best, place), (best_px, off_px), (best_m, depth)):
+                    np.copyto(old, new, where=better)
                 place = self._grid - moved
-        return np.moveaxis(best, -1, 0)
+        places: Floats = np.stack([best.imag, best.real]).reshape(2, *self._shape)
+        return places
 
-    def _at(self, place: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        rows, columns = self._depth.shape
-        row = np.clip(np.rint(place[..., 0]), 0, rows - 1).astype(np.intp)
-        return row, np.clip(np.rint(place[..., 1]), 0, columns - 1).astype(np.intp)
+    def _pixel(self, place: Complexes) -> NDArray[np.intp]:
+        """The number of the nearest pixel."""
+        rows, columns = self._shape
+        row = np.clip(np.rint(place.imag), 0, rows - 1)
+        pixel: NDArray[np.intp] = (row * columns + np.clip(np.rint(place.real), 0, columns - 1)).astype(np.intp)
+        return pixel
 
-    def _nearest(self, reach_s: float) -> list[tuple[Floats, Floats]]:
+    def _nearest(self, reach_s: float) -> list[tuple[Complexes, Complexes]]:
         """The flow of the nearest surface around each pixel, for windows from small to large."""
         from scipy.ndimage import minimum_filter  # noqa: PLC0415 - as above
 
-        order = np.argsort(self._depth, axis=None, kind="stable")
+        order = np.argsort(self._depth, kind="stable")
         rank = np.empty(order.size, dtype=np.int64)
         rank[order] = np.arange(order.size)
         widest_px = self.longest_px(reach_s)
         sides = [2 * int(np.ceil(share * widest_px)) + 1 for share in _WINDOWS]
-        flat = self._steady.reshape(-1, 2), self._growing.reshape(-1, 2)
-        found = [order[minimum_filter(rank.reshape(self._depth.shape), size=side)] for side in sides if side > 1]
-        return [(flat[0][nearest], flat[1][nearest]) for nearest in found]
+        ranks = rank.reshape(self._shape)
+        found = [order[minimum_filter(ranks, size=side).ravel()] for side in sides if side > 1]
+        return [(self._steady[nearest], self._growing[nearest]) for nearest in found]
 
 
 def _parabola(points_m: Floats, lens: Lens, twist: Twist, reach_s: float) -> tuple[Floats, Floats]:

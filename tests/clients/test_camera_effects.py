@@ -19,13 +19,13 @@ TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC
 def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(builds, tmp_path):
     built = builds(REPOSITORY / "samples" / "hand_drawn.toml", "usdc", "instanced")
     front = read_rig("avp_surround").model_dump(mode="json")["sensors"][0]
-    effects = {"full_well_electrons": 2000.0, "exposure_spread_ev": 0.5, "jpeg_quality": 80, "dirt": 4}
-    effects |= {"exposure_s": 0.03, "readout_s": 0.05}
+    motion = {"exposure_s": 0.03, "readout_s": 0.05}
+    effects = {"full_well_electrons": 2000.0, "exposure_spread_ev": 0.5, "jpeg_quality": 80, "dirt": 4, **motion}
 
     def recorded(name, **settings):
         sensors = [{**front, **settings}]
         rig = rig_from_mapping({"name": "r", "ego_visible": True, "sensors": sensors})
-        asked = {"along": ":Stall_r00_c01_1", "every_m": 500, "scale": 0.15, "samples": 2, "slots": ()}
+        asked = {"along": ":Stall_r00_c01_1", "every_m": 80, "scale": 0.15, "samples": 2, "slots": ()}
         return record(built.stage, tmp_path / name, rig=rig, pictures=(Picture.COLOUR, *TRUTH), **asked).folder
 
     perfect, real = recorded("perfect"), recorded("real", effects=effects)
@@ -35,9 +35,12 @@ def test_effects_change_colour_alone_and_the_car_is_where_its_mask_says(builds, 
     assert (perfect / "slots.json").read_bytes() == (real / "slots.json").read_bytes()
     colours = [np.asarray(Image.open(folder / "colour" / "front_0000.png")) for folder in (perfect, real)]
     assert not np.array_equal(*colours)
-    frame = json.loads((real / "frames.json").read_text())["frames"][0]
+    frame, driving = json.loads((real / "frames.json").read_text())["frames"][:2]
     assert frame["effects"]["jpeg_quality"] == 80
     assert frame["effects"]["cameras"]["front"]["gain"] >= 1.0
+    assert driving["effects"]["exposure_s"] == 0.03
+    assert np.linalg.norm(driving["effects"]["motion"]["velocity_m_s"]) == pytest.approx(2.5, abs=0.1)
+    assert not (real / "light").exists()
     ids = read_ids(real / "instance" / "front_0000.png")
     mask = np.asarray(Image.open(real / "ego" / "front.png")) > 0
     assert mask.any()
