@@ -21,6 +21,8 @@ _NEAR_PX = 0.75
 _ELSEWHERE_PX = 1e6
 _SAME = 0.02
 """By what share depths differ at most that are of one surface."""
+_MOST_TIMES = 128
+"""Longer ways, of what is a hand's breadth before the lens, have gaps between the times that are looked at."""
 _WINDOWS = 0.25, 1.0
 """Half sides of the squares whose nearest surfaces may come over a pixel, in ways of the fastest one."""
 
@@ -63,7 +65,7 @@ def exposed_in_motion(
         return given
     flow = _Flow(depth_m, moving, lens, twist, (effects.exposure_s + effects.readout_s) / 2)
     longest_px = flow.longest_px(effects.exposure_s)
-    count = 1 if effects.exposure_s == 0 else int(np.ceil(longest_px)) + 1
+    count = 1 if effects.exposure_s == 0 else min(int(np.ceil(longest_px)) + 1, _MOST_TIMES)
     rows = (np.arange(given.shape[0]) + 0.5) / given.shape[0] - 0.5
     gathered = np.zeros(given.shape)
     for step in range(count):
