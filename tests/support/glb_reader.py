@@ -24,9 +24,12 @@ WEIGHTS = np.array([1, 1, 1, 0.1, 0.1, 0.1])
 
 ALIKE = {
     pascal_case(key): pascal_case(next(other for other in MATERIALS if MATERIALS[other] == material))
+    if not key.startswith("car_paint")
+    else "CarPaint"
     for key, material in MATERIALS.items()
 }
-"""By the name of a material that of the first which looks as it does: a GLB has one of them."""
+"""By the name of a material that of the first which looks as it does: a GLB has one of them. The paint of a car is that of
+its variant, and so looks as the paint of that name does, which two-wheelers have."""
 
 
 class Glb:

@@ -142,7 +142,7 @@ SPECS = {
     "pram": PramSpec("grey"),
     **{f"bag_{sort}": BagSpec(sort) for sort in BagSort},
     **{f"person_{number}": PersonSpec(number) for number in range(len(PEOPLE))},
-    **{f"person_{pose}": PersonSpec(number, pose) for number, pose in enumerate(POSES, start=4)},
+    **{f"person_{pose}": PersonSpec(number, pose) for number, pose in enumerate(POSES, start=4) if pose != "standing"},
     "box": BoxSpec(0.6, 0.33, 0.4),
     **{f"pallets_{count}": PalletSpec(count) for count in (1, 5)},
     "pallets_upright": PalletSpec(2, is_upright=True),

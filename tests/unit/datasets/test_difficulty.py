@@ -192,7 +192,7 @@ def test_ways_that_only_free_stalls_leave_make_a_stall_harder():
     for stall in crossed:
         (if_clear,) = ranked([replace(stall.features, is_clear_when_full=True)], reference())
         assert stall.score > if_clear.score
-    assert {stall.level for stall in stalls} == {Level.EXTREME}
+    assert {stall.level for stall in stalls} <= {Level.COMPLEX, Level.EXTREME}
 
 
 def test_stalls_that_no_car_gets_into_are_told_apart():
