@@ -28,8 +28,8 @@ ALIKE = {
     else "CarPaint"
     for key, material in MATERIALS.items()
 }
-"""By the name of a material that of the first which looks as it does: a GLB has one of them. The paint of a car is that of
-its variant, and so looks as the paint of that name does, which two-wheelers have."""
+"""By the name of a material that of the first which looks as it does: a GLB has one of them. The paint of a car is that
+of its variant, and so looks as the paint of that name does, which two-wheelers have."""
 
 
 class Glb:
