@@ -172,28 +172,13 @@ _PAINT_RGB: dict[str, Rgb] = {
     "green": (0.012, 0.055, 0.035),
     "champagne": (0.40, 0.33, 0.24),
     "orange": (0.52, 0.13, 0.015),
-    "dark_grey": (0.035, 0.037, 0.041),
-    "light_blue": (0.16, 0.30, 0.42),
-    "dark_blue": (0.008, 0.016, 0.055),
-    "dark_red": (0.085, 0.008, 0.012),
-    "dark_green": (0.010, 0.028, 0.018),
-    "brown": (0.055, 0.030, 0.018),
-    "beige": (0.52, 0.46, 0.36),
-    "bronze": (0.17, 0.095, 0.04),
-    "yellow": (0.66, 0.42, 0.02),
 }
-"""Of each paint; cars take those that the catalogue lists."""
 _METALLIC_PAINTS = {
     "silver": 0.3,
     "grey": 0.2,
     "blue": 0.2,
     "green": 0.2,
     "champagne": 0.3,
-    "dark_grey": 0.2,
-    "dark_blue": 0.2,
-    "light_blue": 0.3,
-    "brown": 0.3,
-    "bronze": 0.3,
 }
 
 VARYING = frozenset({"car_paint"})

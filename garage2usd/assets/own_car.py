@@ -3,10 +3,9 @@
 import re
 
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.assets.materials import Finish, Material, StoredTexture, Touch
-from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Asset, Collider, Part, make_part, unique_rows
 from garage2usd.config.own_cars import OwnCar, placed_parts
 from garage2usd.foreign_models import ForeignPart, ForeignSurface
 
@@ -15,7 +14,7 @@ __all__ = ["own_car"]
 _CREASE_DEG = 40.0
 _SMALLEST_HULL_M = 0.5
 """Parts that are smaller in all directions lie within the hulls of others, or are of no weight."""
-_WELD_DECIMALS, _LEAST_AREA_M2 = 5, 1.01e-9
+_LEAST_AREA_M2 = 1.01 * MIN_AREA_M2
 _OPAQUE = 0.9
 _WORDS = {
     "glass": re.compile(r"(?i)glass|window|windscreen|windshield"),
@@ -69,7 +68,7 @@ def _material(surface: ForeignSurface, kind: str) -> Material:
 
 def _part(name: str, given: ForeignPart, key: str) -> Part | None:
     """A part with welded points; None where no triangle has an area."""
-    corners = np.round(given.triangles_m, _WELD_DECIMALS) + 0.0
+    corners = np.round(given.triangles_m, WELD_DECIMALS) + 0.0
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     is_kept = np.linalg.norm(across, axis=1) > _LEAST_AREA_M2
     if not is_kept.any():
@@ -78,9 +77,9 @@ def _part(name: str, given: ForeignPart, key: str) -> Part | None:
     spans = np.ptp(corners.reshape(-1, 3), axis=0)
     collider = Collider.CONVEX_HULL if spans.max() >= _SMALLEST_HULL_M else None
     made = make_part(name, corners, "car_paint", collider=collider, crease_deg=_CREASE_DEG)
-    st, st_indices = np.empty((0, 2), dtype=np.float32), np.empty(0, dtype=np.int32)
+    st, st_indices = np.empty((0, 2)), np.empty(0, dtype=np.int64)
     if given.surface.picture:
-        st, st_indices = _distinct(given.st[is_kept].reshape(-1, 2))
+        st, st_indices = unique_rows(np.round(given.st[is_kept].reshape(-1, 2), WELD_DECIMALS) + 0.0)
     return Part(
         name=name,
         points=made.points,
@@ -88,14 +87,8 @@ def _part(name: str, given: ForeignPart, key: str) -> Part | None:
         face_indices=made.face_indices,
         normals=made.normals,
         normal_indices=made.normal_indices,
-        st=st,
-        st_indices=st_indices,
+        st=st.astype(np.float32),
+        st_indices=st_indices.astype(np.int32),
         material=key,
         collider=collider,
     )
-
-
-def _distinct(st: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """The distinct texture coordinates, and which of them each corner has."""
-    values, which = np.unique(np.round(st, _WELD_DECIMALS) + 0.0, axis=0, return_inverse=True)
-    return values.astype(np.float32), which.ravel().astype(np.int32)

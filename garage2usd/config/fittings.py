@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from garage2usd.config.markets import PaintShares, SegmentShares
+from garage2usd.config.markets import MarketName, PaintShares, SegmentShares
 from garage2usd.settings import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
@@ -120,7 +120,7 @@ class ParkingConfig(Settings):
     """Share of the stalls that are accessible: one at least in a garage of 25 stalls or more, unless it is 0. Left out,
     as many as the profile asks for, or a share of 0.02 where it asks for none. Each has a hatched access aisle beside
     it, that two of them share and that takes the place of a stall."""
-    market: Literal["china", "germany", "uk", "usa", "world"] | None = None
+    market: MarketName | None = None
     """Whose cars park there; left out, those of the profile's country, or of the world where it names none."""
     bodies: SegmentShares | None = None
     """Shares of the classes of bodies, as ``{suv = 0.4, hatchback = 0.6}``, as parts of their sum; left out, the

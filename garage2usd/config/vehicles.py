@@ -69,6 +69,12 @@ class CarBody:
         """Whether it stands, with its mirrors, within a room of some measures in metres."""
         return self.overall_width_m <= width_m and self.length_m <= length_m and self.height_m <= height_m
 
+    def half_extents_m(self, yaw_rad: float, *, width_m: float | None = None) -> tuple[float, float]:
+        """Half the width and length of the box around it where it is turned, with its mirrors or of another width."""
+        cos, sin = abs(math.cos(yaw_rad)), abs(math.sin(yaw_rad))
+        wide_m = self.overall_width_m if width_m is None else width_m
+        return (wide_m * cos + self.length_m * sin) / 2, (self.length_m * cos + wide_m * sin) / 2
+
 
 CAR_BODIES: tuple[CarBody, ...] = (
     CarBody("hatchback", 4.05, 1.74, 1.47, 1.96, 2.55, 0.80, 0.31, 1.45, "hatchback"),
@@ -131,6 +137,9 @@ DRIVEN_PLATE = "G47 B16"
 """What is to be read on its number plates, and on no other car's."""
 
 
+_BY_NAME = {body.name: body for body in CAR_BODIES}
+
+
 def body_named(name: str) -> CarBody:
     """A body of the catalogue."""
-    return next(body for body in CAR_BODIES if body.name == name)
+    return _BY_NAME[name]

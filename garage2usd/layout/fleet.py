@@ -1,5 +1,6 @@
 """Which cars park: a body and a paint for each, by the shares of their market."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
@@ -34,24 +35,32 @@ class Fleet:
         self.paints = dict(parking.paints or market.paints.shares)
         self.reversed_share = market.reversed.share if parking.reversed_share is None else parking.reversed_share
 
-    def body_of(self, bodies: Sequence[CarBody], share: float) -> CarBody:
+        self._paint_sums = _sums([self.paints.get(paint, 0.0) for paint in PAINTS])
+        self._body_sums: dict[tuple[CarBody, ...], list[float]] = {}
+
+    def body_of(self, bodies: tuple[CarBody, ...], share: float) -> CarBody:
         """The body at a share from 0 to 1 of some bodies, whose class has its share of those that are there."""
-        return bodies[_at(share, body_weights(bodies, self.segments))]
+        if bodies not in self._body_sums:
+            self._body_sums[bodies] = _sums(body_weights(bodies, self.segments))
+        return bodies[_at(share, self._body_sums[bodies])]
 
     def paint_of(self, share: float) -> str:
         """The paint at a share from 0 to 1."""
-        return PAINTS[_at(share, [self.paints.get(paint, 0.0) for paint in PAINTS])]
+        return PAINTS[_at(share, self._paint_sums)]
 
 
 def body_weights(bodies: Sequence[CarBody], segments: Mapping[str, float]) -> list[float]:
     """The weight of each of some bodies: its class's share, evenly; all alike where none of their classes has any."""
-    weights = [
-        segments.get(body.segment, 0.0) / sum(other.segment == body.segment for other in bodies) for body in bodies
-    ]
+    counts = Counter(body.segment for body in bodies)
+    weights = [segments.get(body.segment, 0.0) / counts[body.segment] for body in bodies]
     return weights if sum(weights) > 0 else [1.0] * len(bodies)
 
 
-def _at(share: float, weights: Sequence[float]) -> int:
+def _sums(weights: Sequence[float]) -> list[float]:
+    """The sum of the weights up to each one of them."""
+    return list(accumulate(weights))
+
+
+def _at(share: float, sums: Sequence[float]) -> int:
     """Number of the part at a share from 0 to 1 of the sum."""
-    sums = list(accumulate(weights))
     return next(number for number, so_far in enumerate(sums) if share * sums[-1] < so_far)

@@ -45,8 +45,9 @@ def with_own_cars(
             result.append(car)
             continue
         is_own, which = numbers[stall.square][car.ordinal - 1].tolist()
-        fitting = [placed for model in models if (placed := _in_place_of(car, car.spec, model, stall)) is not None]
-        result.append(fitting[int(which * len(fitting))] if fitting and is_own < vehicles.share else car)
+        asked = models if is_own < vehicles.share else ()
+        fitting = [placed for model in asked if (placed := _in_place_of(car, car.spec, model, stall)) is not None]
+        result.append(fitting[int(which * len(fitting))] if fitting else car)
     return parked._replace(cars=result)
 
 
@@ -58,7 +59,7 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: Stall) -> 
     dx, dz = car.position_m[0] - stall.centre_m[0], car.position_m[2] - stall.centre_m[1]
     cos, sin = math.cos(stall.yaw_rad), math.sin(stall.yaw_rad)
     x, z = dx * cos - dz * sin, dx * sin + dz * cos
-    half_x, half_z = _half_footprint(model.body, turn)
+    half_x, half_z = model.body.half_extents_m(turn)
     side = stall.width_m / 2 - _CLEARANCE_M - half_x
     # the wheels at the rear stand where those of the other car did, before the wheel stop
     rear = z - _behind_wheels(spec.measures, is_reversed=is_reversed)
@@ -69,13 +70,6 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: Stall) -> 
     point = rounded(stall.to_world((min(max(x, -side), side), z)))
     own = OwnCarSpec(model.body.name, PAINTS[0], model=model)
     return replace(car, spec=own, position_m=(point[0], car.position_m[1], point[1]))
-
-
-def _half_footprint(body: CarBody, turn_rad: float) -> tuple[float, float]:
-    """Half of the width and of the length of the box around a turned car with its mirrors."""
-    cos, sin = abs(math.cos(turn_rad)), abs(math.sin(turn_rad))
-    wide, long = body.overall_width_m, body.length_m
-    return (wide * cos + long * sin) / 2, (long * cos + wide * sin) / 2
 
 
 def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:

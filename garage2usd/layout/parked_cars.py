@@ -90,13 +90,13 @@ class _Car:
     def half_x(self, *, mirrors: bool = True) -> float:
         """Half its extent across the stall."""
         # the arches of the wheels stand out of the body
-        width_m = self.body.overall_width_m if mirrors else self.body.width_m + 0.02
-        return (width_m * math.cos(self.yaw) + self.body.length_m * abs(math.sin(self.yaw))) / 2
+        width_m = None if mirrors else self.body.width_m + 0.02
+        return self.body.half_extents_m(self.yaw, width_m=width_m)[0]
 
     @property
     def half_z(self) -> float:
         """Half its extent along the stall."""
-        return (self.body.length_m * math.cos(self.yaw) + self.body.overall_width_m * abs(math.sin(self.yaw))) / 2
+        return self.body.half_extents_m(self.yaw)[1]
 
     def placement(self, side_m: float) -> Placement:
         """The car at a distance beside the middle of its stall."""
@@ -377,8 +377,7 @@ def _fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[Car
     return tuple(
         body
         for body in CAR_BODIES
-        if body.length_m <= _room_m(length_m, body, is_reversed=is_reversed)
-        and body.overall_width_m <= width_m - 2 * _END_CLEARANCE_M
+        if body.fits(width_m - 2 * _END_CLEARANCE_M, _room_m(length_m, body, is_reversed=is_reversed))
     )
 
 

@@ -8,7 +8,7 @@ from garage2usd.assets.cars import car, dusty, lit
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.own_car import own_car
 from garage2usd.config.own_cars import OwnCar
-from garage2usd.config.vehicles import CAR_BODIES, PAINTS, CarBody
+from garage2usd.config.vehicles import PAINTS, CarBody, body_named
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
@@ -18,7 +18,6 @@ KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.
 
 PAINT_SET = "paint"
 """Variant set of every car's asset."""
-_BODIES = {body.name: body for body in CAR_BODIES}
 _ARCHES_M = 0.01
 """How far the wheel arches stand out of a car's body."""
 _HALF_MIRROR_M = 0.1
@@ -51,7 +50,7 @@ class CarSpec(Spec, kind=KIND):
     @property
     def measures(self) -> CarBody:
         """Its measures, whether it is of the catalogue or a model of one's own."""
-        return _BODIES[self.body]
+        return body_named(self.body)
 
     @property
     def shape(self) -> Self:

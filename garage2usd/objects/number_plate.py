@@ -6,7 +6,7 @@ from typing import Self
 from garage2usd.assets.countries import Country
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.number_plates import PLATE_STYLES, number_plates
-from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.config.vehicles import CarBody, body_named
 from garage2usd.objects.car import CarSpec, OwnCarSpec
 from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
@@ -22,8 +22,6 @@ KIND = Kind(
     part=TilePart.PARKING,
 )
 """To Cityscapes, whose class of them is drawn in no picture, they are part of the car."""
-
-_BODIES = {body.name: body for body in CAR_BODIES}
 
 
 @dataclass(frozen=True)
@@ -42,7 +40,7 @@ class NumberPlateSpec(Spec, kind=KIND):
     @property
     def measures(self) -> CarBody:
         """Those of the car."""
-        return _BODIES[self.body]
+        return body_named(self.body)
 
     def asset(self) -> Asset:
         """Both plates with the text."""

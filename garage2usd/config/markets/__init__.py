@@ -4,16 +4,17 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib import resources
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, Field
 
 from garage2usd.config.vehicles import PAINTS, SEGMENTS
 from garage2usd.settings import Settings, validated
 
-__all__ = ["MARKET_NAMES", "Market", "PaintShares", "SegmentShares", "load_market", "market_of"]
+__all__ = ["MARKET_NAMES", "Market", "MarketName", "PaintShares", "SegmentShares", "load_market", "market_of"]
 
-MARKET_NAMES = ("china", "germany", "uk", "usa", "world")
+MarketName = Literal["china", "germany", "uk", "usa", "world"]
+MARKET_NAMES: tuple[str, ...] = get_args(MarketName)
 """The markets that are shipped."""
 _WORLD = "world"
 
