@@ -173,9 +173,10 @@ class TestFolders:
 
 
 class TestRigAndPoses:
+    @pytest.mark.parametrize("effects", [False, True])
     @pytest.mark.parametrize("seed", range(8))
-    def test_the_car_is_at_the_edge_as_in_photographs(self, seed):
-        rig = strip_rig.drawn_rig(np.random.default_rng(seed))
+    def test_the_car_is_at_the_edge_as_in_photographs(self, seed, effects):
+        rig = strip_rig.drawn_rig(np.random.default_rng(seed), effects=effects)
         for camera, edge in zip(rig.cameras, (-1, 0), strict=True):
             car = camera.lens.over_car(camera.lens.middles()).reshape(300, 96)
             assert 3 <= car.any(axis=0).sum() <= 15
@@ -187,7 +188,7 @@ class TestRigAndPoses:
         settings = {"seed": 3, "site": {"width_cells": 5, "height_cells": 5}, "stage": {"texture_quality": "low"}}
         built = build(config_from_mapping(settings), tmp_path / "garage.usdc")
         random = np.random.default_rng(0)
-        rig = strip_rig.drawn_rig(random)
+        rig = strip_rig.drawn_rig(random, effects=True)
         poses = strip_poses.StripPoses(open_stage(built.stage), built.stage, rig, random).drawn(40)
         assert len(poses) > 30
         stalls = built.garage.layout.stalls
