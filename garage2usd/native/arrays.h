@@ -4,6 +4,10 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#ifndef NDEBUG
+#include <stdio.h>
+#include <stdlib.h>
+#endif
 
 /* A function that garage2usd.native finds by its name; all others stay within the library. */
 #define FROM_PYTHON __attribute__((visibility("protected")))
@@ -27,5 +31,27 @@ typedef TABLE_OF(double) DoubleTable;
 typedef CUBE_OF(int32_t) Int32Cube;
 typedef CUBE_OF(int64_t) Int64Cube;
 typedef CUBE_OF(double) DoubleCube;
+
+/* `AT(row, index)` and `IN(table, row, column)` are entries of arrays. Without NDEBUG, as the tests with sanitizers
+ * compile the loops, an index outside of its array ends the program: the sanitizers see nothing of one that meets
+ * another array. With it, as the package is compiled, nothing is checked. */
+#ifndef NDEBUG
+static inline int64_t within(int64_t index, int64_t count, const char *array, const char *file, int line)
+{
+    if (index < 0 || index >= count) {
+        fprintf(stderr, "%s:%d: index %lld of %s, which has %lld\n", file, line, (long long)index, array,
+                (long long)count);
+        abort();
+    }
+    return index;
+}
+#define WITHIN(index, count, array) within(index, count, array, __FILE__, __LINE__)
+#else
+#define WITHIN(index, count, array) (index)
+#endif
+#define AT(row, index) ((row).at[WITHIN(index, (row).count, #row)])
+#define IN(table, row, column) \
+    ((table).at[WITHIN(row, (table).rows, "rows of " #table) * (table).columns + \
+                WITHIN(column, (table).columns, "columns of " #table)])
 
 #endif

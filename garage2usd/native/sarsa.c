@@ -118,150 +118,217 @@ static int64_t choose(const float *values, const bool *allowed, double epsilon, 
 /* Move the value of an action towards what it is found to be worth; in double precision until it is kept. */
 static void move_towards(float *value, double alpha, double target) { *value += alpha * (target - *value); }
 
+/* Where the agent learns, and from what. */
+typedef struct {
+    const Ground *ground;
+    Board *board;
+    const SarsaParameters *parameters;
+    Memory *memory;
+    Archive *archive;
+    SarsaRoom *room;
+    uint64_t *random;
+} Learning;
+
+/* An episode under way. */
+typedef struct {
+    int64_t start;
+    int64_t position;
+    int64_t previous; /* A_{t-1} */
+    int64_t run;      /* moves in a row in its direction */
+    int64_t steps;    /* actions on the tape */
+    int64_t lanes;    /* squares laid */
+    double reward;    /* R_t */
+    double earned;    /* E = sum_{t=1}^{T-1} R_t */
+    float *value;     /* q(S_{t-1}, A_{t-1}); NULL before the first action and after a failure */
+    bool is_over;
+    double best_value; /* of the prefix that is archived, and its lanes and actions */
+    int64_t best_lanes;
+    int64_t best_steps;
+} Episode;
+
+/* Colour the square that the agent enters. */
+static void colour(Learning *learning, Episode *episode)
+{
+    lay(learning->ground, learning->board, episode->position);
+    AT(learning->room->laid, episode->lanes++) = episode->position;
+}
+
+/* Begin an episode at an entrance, or replay part of an archived one: the better of two drawn, up to a step drawn. */
+static Episode replay(Learning *learning)
+{
+    const Archive *archive = learning->archive;
+    uint64_t *random = learning->random;
+    Int64Row entrances = learning->ground->entrances;
+    clear(learning->ground, learning->board);
+    Episode episode = {.previous = STAY, .best_value = NO_VALUE};
+    episode.start = AT(entrances, (int64_t)(next_random(random) % (uint64_t)entrances.count));
+    episode.position = episode.start;
+    if (AT(archive->in_use, 0) > 0 && uniform(random) < learning->parameters->revisit_rate) {
+        uint64_t count = (uint64_t)AT(archive->in_use, 0);
+        int64_t entry = (int64_t)(next_random(random) % count);
+        int64_t rival = (int64_t)(next_random(random) % count);
+        if (AT(archive->values, rival) > AT(archive->values, entry))
+            entry = rival;
+        episode.start = AT(archive->starts, entry);
+        episode.position = episode.start;
+        double share = uniform(random);
+        int64_t steps = (int64_t)(share * (double)AT(archive->lengths, entry));
+        while (episode.steps < steps) {
+            int8_t action = IN(archive->tapes, entry, episode.steps);
+            AT(learning->room->tape, episode.steps++) = action;
+            episode.position += AT(learning->room->moves, action);
+            if (AT(learning->board->cells, episode.position) == FREE)
+                colour(learning, &episode);
+            episode.run = action == episode.previous ? episode.run + 1 : 1;
+            episode.previous = action;
+        }
+    }
+    episode.earned = (double)AT(learning->board->tally, STALLS);
+    return episode;
+}
+
+/* Choose A_t by the policy; returns q(S_t, A_t) in the table, NULL where the agent is walled in. */
+static float *act(Learning *learning, const Episode *episode, int64_t *action)
+{
+    const SarsaParameters *p = learning->parameters;
+    BoolRow allowed = learning->room->allowed;
+    if (p->masks_actions) {
+        bool walled_in = true;
+        for (int64_t way = 0; way < 4; way++) {
+            int8_t beside = AT(learning->board->cells, episode->position + AT(learning->room->moves, way));
+            AT(allowed, way) = beside == FREE || beside == LANE;
+            walled_in &= !AT(allowed, way);
+        }
+        AT(allowed, STAY) = false;
+        if (walled_in)
+            return NULL;
+    }
+    uint64_t state = observe(learning->ground, learning->board, p, episode->position, episode->previous);
+    float *values = values_of(learning->memory, row_of(learning->memory, state));
+    *action = choose(values, allowed.at, AT(learning->memory->course, 0), learning->random);
+    return values + *action;
+}
+
+/* Take an action: R_{t+1} and S_{t+1}; false if it fails. */
+static bool reward(Learning *learning, Episode *episode, int64_t action)
+{
+    const SarsaParameters *p = learning->parameters;
+    Int8Row cells = learning->board->cells;
+    Int64Row moves = learning->room->moves, tally = learning->board->tally;
+    int64_t position = episode->position, previous = episode->previous, start = episode->start;
+    int64_t target = position + AT(moves, action);
+    int8_t kind = AT(cells, target);
+    double gained = -p->step_penalty;
+    if (action == STAY) {
+        episode->is_over = position == start;
+        gained -= p->step_penalty;
+    } else if (position == start && previous != STAY) {
+        return false; /* having come back to the start, only staying is left */
+    } else if (kind == FREE || kind == LANE || target == start) {
+        if (previous != STAY && previous == (action ^ 1))
+            gained -= p->turn_back_penalty;
+        else if (previous != STAY && previous != action && episode->run < p->min_run_squares)
+            gained -= p->interval_penalty;
+        episode->position = target;
+        if (kind == FREE) {
+            int64_t beside = 0;
+            for (int64_t way = 0; way < 4; way++)
+                beside += AT(cells, target + AT(moves, way)) == LANE;
+            gained -= p->wheeling_penalty * (double)most(0, beside - 1);
+            gained += p->loop_reward * (beside > 1);
+            int64_t stalls = AT(tally, STALLS);
+            colour(learning, episode);
+            gained += (double)(AT(tally, STALLS) - stalls);
+        }
+        episode->run = action == previous ? episode->run + 1 : 1;
+    } else {
+        return false;
+    }
+    AT(learning->room->tape, episode->steps++) = (int8_t)action;
+    episode->previous = action;
+    episode->reward = gained;
+    episode->earned += gained;
+    return true;
+}
+
+/* Note the plan that the agent has come to, if none on its way was better. */
+static void note(Learning *learning, Episode *episode)
+{
+    if (AT(learning->board->tally, UNTOUCHED) > 0)
+        return;
+    double value = value_now(learning->ground, learning->board);
+    if (value > episode->best_value)
+        value -= faults_cost(learning->ground, learning->board);
+    if (value > episode->best_value) {
+        episode->best_value = value;
+        episode->best_lanes = episode->lanes;
+        episode->best_steps = episode->steps;
+    }
+}
+
+/* End an episode: learn from its last action, archive its plan, and move epsilon. */
+static void finish(Learning *learning, Episode *episode)
+{
+    const SarsaParameters *p = learning->parameters;
+    Int64Row laid = learning->room->laid;
+    DoubleRow course = learning->memory->course;
+    if (episode->value != NULL)
+        move_towards(episode->value, p->alpha, episode->reward);
+    if (!p->archives_prefixes)
+        note(learning, episode);
+    if (episode->best_value > NO_VALUE)
+        keep(learning->archive, laid.at, episode->best_lanes, episode->best_value, learning->room->tape.at,
+             episode->best_steps, episode->start);
+    uint64_t key = 0;
+    for (int64_t index = 0; index < episode->lanes; index++)
+        key ^= (uint64_t)(AT(laid, index) * AT(laid, index) + 1) * UINT64_C(0xBF58476D1CE4E5B9);
+    double unchanged = key == AT(learning->memory->last, 0) ? AT(course, 1) + 1 : 0.0;
+    AT(learning->memory->last, 0) = key;
+    double epsilon = AT(course, 0) * p->epsilon_decay;
+    if (epsilon < p->epsilon_min)
+        epsilon = p->epsilon_min;
+    if (unchanged >= (double)p->patience_episodes) {
+        epsilon = p->epsilon_refresh;
+        unchanged = 0.0;
+    }
+    AT(course, 0) = epsilon;
+    AT(course, 1) = unchanged;
+}
+
 /* Run the episodes from `first` to below `last`, or fewer when the table fills up; returns the first that was not run,
  * and adds up in `taken` how many actions were taken.
  *
+ * Sarsa: on-policy control by temporal differences (Sutton and Barto, Reinforcement Learning, 2nd ed., 6.4),
  * q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t)). `curve` takes the paper's
  * E = sum_{t=1}^{T-1} R_t of each episode, without the R_T of a failure. */
 FROM_PYTHON
 int64_t learn(const Ground *ground, Board *board, const SarsaParameters *parameters, Memory *memory, Archive *archive,
               SarsaRoom *room, uint64_t *random, double *curve, int64_t first, int64_t last, int64_t *taken)
 {
+    Learning learning = {ground, board, parameters, memory, archive, room, random};
     const SarsaParameters *p = parameters;
-    const int8_t *cells = board->cells.at;
-    const int64_t *moves = room->moves.at, *tally = board->tally.at;
-    bool *allowed = room->allowed.at;
-    int8_t *tape = room->tape.at;
-    int64_t *laid = room->laid.at;
-    int64_t max_steps = least(p->max_steps_per_square * ground->squares.count, room->tape.count);
-    double epsilon = memory->course.at[0], unchanged = memory->course.at[1];
-    int64_t episode = first;
-    for (; episode < last; episode++) {
-        if (2 * (memory->used.at[0] + max_steps) > memory->keys.count)
-            break;
-        clear(ground, board);
-        int64_t start = ground->entrances.at[next_random(random) % (uint64_t)ground->entrances.count];
-        int64_t position = start, run = 0, lanes = 0, step = 0, previous = STAY;
-        /* go on from part of an archived episode */
-        if (archive->in_use.at[0] > 0 && uniform(random) < p->revisit_rate) {
-            uint64_t count = (uint64_t)archive->in_use.at[0];
-            int64_t entry = (int64_t)(next_random(random) % count);
-            int64_t rival = (int64_t)(next_random(random) % count);
-            if (archive->values.at[rival] > archive->values.at[entry])
-                entry = rival;
-            start = archive->starts.at[entry];
-            position = start;
-            double share = uniform(random);
-            step = (int64_t)(share * (double)archive->lengths.at[entry]);
-            for (int64_t index = 0; index < step; index++) {
-                int8_t action = archive->tapes.at[entry * archive->tapes.columns + index];
-                tape[index] = action;
-                position += moves[action];
-                if (cells[position] == FREE) {
-                    lay(ground, board, position);
-                    laid[lanes++] = position;
-                }
-                run = action == previous ? run + 1 : 1;
-                previous = action;
-            }
-        }
-        double best_value = NO_VALUE;
-        int64_t best_lanes = 0, best_step = 0;
-        double earned = (double)tally[STALLS], reward = 0.0;
-        float *old = NULL, *value = NULL; /* of the action before the last, and of the last */
-        bool done = false;
-        while (step < max_steps && !done) {
-            if (p->masks_actions) {
-                bool walled_in = true;
-                for (int way = 0; way < 4; way++) {
-                    int8_t beside = cells[position + moves[way]];
-                    allowed[way] = beside == FREE || beside == LANE;
-                    walled_in &= !allowed[way];
-                }
-                allowed[STAY] = false;
-                if (walled_in)
-                    break;
-            }
-            float *values = values_of(memory, row_of(memory, observe(ground, board, p, position, previous)));
-            int64_t action = choose(values, allowed, epsilon, random);
-            value = values + action;
-            if (old != NULL)
-                move_towards(old, p->alpha, reward + p->gamma * *value);
-            int64_t target = position + moves[action];
-            int8_t kind = cells[target];
-            reward = -p->step_penalty;
-            bool failed = false;
-            if (action == STAY) {
-                done = position == start;
-                reward -= p->step_penalty;
-            } else if (position == start && previous != STAY) {
-                failed = true; /* having come back to the start, only staying is left */
-            } else if (kind == FREE || kind == LANE || target == start) {
-                if (previous != STAY && previous == (action ^ 1))
-                    reward -= p->turn_back_penalty;
-                else if (previous != STAY && previous != action && run < p->min_run_squares)
-                    reward -= p->interval_penalty;
-                if (kind == FREE) {
-                    int64_t beside = 0;
-                    for (int way = 0; way < 4; way++)
-                        beside += cells[target + moves[way]] == LANE;
-                    reward -= p->wheeling_penalty * (double)most(0, beside - 1);
-                    reward += p->loop_reward * (beside > 1);
-                    int64_t stalls = tally[STALLS];
-                    lay(ground, board, target);
-                    laid[lanes++] = target;
-                    reward += (double)(tally[STALLS] - stalls);
-                }
-                run = action == previous ? run + 1 : 1;
-                position = target;
-            } else {
-                failed = true;
-            }
+    int64_t max_steps = least(p->max_steps_per_square * ground->squares.count, room->tape.count), number = first;
+    for (; number < last && 2 * (AT(memory->used, 0) + max_steps) <= memory->keys.count; number++) {
+        Episode episode = replay(&learning);
+        while (episode.steps < max_steps && !episode.is_over) {
+            int64_t action, lanes = episode.lanes;
+            float *value = act(&learning, &episode, &action);
+            if (value == NULL)
+                break;
+            if (episode.value != NULL)
+                move_towards(episode.value, p->alpha, episode.reward + p->gamma * *value);
+            episode.value = value;
             ++*taken;
-            if (failed) {
+            if (!reward(&learning, &episode, action)) {
                 move_towards(value, p->alpha, -p->failure_penalty);
-                value = NULL;
+                episode.value = NULL;
                 break;
             }
-            tape[step++] = (int8_t)action;
-            previous = action;
-            earned += reward;
-            old = value;
-            if (p->archives_prefixes && kind == FREE && tally[UNTOUCHED] == 0) {
-                double worth = value_now(ground, board);
-                if (worth > best_value)
-                    worth -= faults_cost(ground, board);
-                if (worth > best_value) {
-                    best_value = worth;
-                    best_lanes = lanes;
-                    best_step = step;
-                }
-            }
+            if (p->archives_prefixes && episode.lanes > lanes)
+                note(&learning, &episode);
         }
-        if (value != NULL)
-            move_towards(value, p->alpha, reward);
-        if (!p->archives_prefixes && tally[UNTOUCHED] == 0) {
-            best_value = value_now(ground, board) - faults_cost(ground, board);
-            best_lanes = lanes;
-            best_step = step;
-        }
-        if (best_value > NO_VALUE)
-            keep(archive, laid, best_lanes, best_value, tape, best_step, start);
-        curve[episode] = earned;
-        uint64_t key = 0;
-        for (int64_t index = 0; index < lanes; index++)
-            key ^= (uint64_t)(laid[index] * laid[index] + 1) * UINT64_C(0xBF58476D1CE4E5B9);
-        unchanged = key == memory->last.at[0] ? unchanged + 1 : 0.0;
-        memory->last.at[0] = key;
-        epsilon *= p->epsilon_decay;
-        if (epsilon < p->epsilon_min)
-            epsilon = p->epsilon_min;
-        if (unchanged >= (double)p->patience_episodes) {
-            epsilon = p->epsilon_refresh;
-            unchanged = 0.0;
-        }
+        finish(&learning, &episode);
+        curve[number] = episode.earned;
     }
-    memory->course.at[0] = epsilon;
-    memory->course.at[1] = unchanged;
-    return episode;
+    return number;
 }
