@@ -29,34 +29,35 @@ static uint64_t square_key(int64_t square)
 void keep(Archive *archive, const int64_t *laid, int64_t lanes, double value, const int8_t *tape, int64_t steps,
           int64_t start)
 {
-    int64_t *count = archive->in_use.at, size = archive->values.count;
-    double *values = archive->values.at;
-    bool full = count[0] == size;
-    if (full && value <= values[count[1]])
+    Int64Row count = archive->in_use;
+    int64_t size = archive->values.count;
+    DoubleRow values = archive->values;
+    bool full = AT(count, 0) == size;
+    if (full && value <= AT(values, AT(count, 1)))
         return;
     uint64_t key = 0;
     for (int64_t index = 0; index < lanes; index++)
         key ^= square_key(laid[index]);
-    for (int64_t index = 0; index < count[0]; index++)
-        if (archive->keys.at[index] == key)
+    for (int64_t index = 0; index < AT(count, 0); index++)
+        if (AT(archive->keys, index) == key)
             return;
-    int64_t place = full ? count[1] : count[0];
-    count[0] = least(count[0] + 1, size);
-    values[place] = value;
-    archive->keys.at[place] = key;
+    int64_t place = full ? AT(count, 1) : AT(count, 0);
+    AT(count, 0) = least(AT(count, 0) + 1, size);
+    AT(values, place) = value;
+    AT(archive->keys, place) = key;
     bool *is_lane = archive->lanes.at + place * archive->lanes.columns;
     for (int64_t q = 0; q < archive->lanes.columns; q++)
         is_lane[q] = false;
     for (int64_t index = 0; index < lanes; index++)
         is_lane[laid[index]] = true;
-    archive->starts.at[place] = start;
-    archive->lengths.at[place] = steps;
+    AT(archive->starts, place) = start;
+    AT(archive->lengths, place) = steps;
     for (int64_t index = 0; index < steps; index++)
-        archive->tapes.at[place * archive->tapes.columns + index] = tape[index];
-    if (count[0] == size) {
-        count[1] = 0;
+        IN(archive->tapes, place, index) = tape[index];
+    if (AT(count, 0) == size) {
+        AT(count, 1) = 0;
         for (int64_t entry = 0; entry < size; entry++)
-            if (values[entry] < values[count[1]])
-                count[1] = entry;
+            if (AT(values, entry) < AT(values, AT(count, 1)))
+                AT(count, 1) = entry;
     }
 }

@@ -32,9 +32,10 @@ typedef CUBE_OF(int32_t) Int32Cube;
 typedef CUBE_OF(int64_t) Int64Cube;
 typedef CUBE_OF(double) DoubleCube;
 
-/* `AT(row, index)` and `IN(table, row, column)` are entries of arrays. Without NDEBUG, as the tests with sanitizers
- * compile the loops, an index outside of its array ends the program: the sanitizers see nothing of one that meets
- * another array. With it, as the package is compiled, nothing is checked. */
+/* Entries of arrays: `AT(row, index)`, `IN(table, row, column)`, and `PLACE(table, place)` by row * columns + column.
+ *
+ * The package is compiled with NDEBUG, which leaves the checks out. Without it, as in the tests with sanitizers, an
+ * index outside its array ends the program; sanitizers miss an index that meets another row or another array. */
 #ifndef NDEBUG
 static inline int64_t within(int64_t index, int64_t count, const char *array, const char *file, int line)
 {
@@ -50,6 +51,7 @@ static inline int64_t within(int64_t index, int64_t count, const char *array, co
 #define WITHIN(index, count, array) (index)
 #endif
 #define AT(row, index) ((row).at[WITHIN(index, (row).count, #row)])
+#define PLACE(table, place) ((table).at[WITHIN(place, (table).rows * (table).columns, #table)])
 #define IN(table, row, column) \
     ((table).at[WITHIN(row, (table).rows, "rows of " #table) * (table).columns + \
                 WITHIN(column, (table).columns, "columns of " #table)])

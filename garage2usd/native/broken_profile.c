@@ -20,12 +20,12 @@ static int64_t mask(int64_t edges) { return (edges & 1) | ((edges & 2) << 1) | (
 
 static bool is_free(const SquareTable *table, int64_t index)
 {
-    return index < table->kinds.count && table->kinds.at[index] == FREE;
+    return index < table->kinds.count && AT(table->kinds, index) == FREE;
 }
 
 static double worth(const SquareTable *table, int64_t index, int64_t edges)
 {
-    return table->worth.at[index * 16 + edges];
+    return IN(table->worth, index, edges);
 }
 
 /* Code of a free square of which only the lower edge is still to come; one for all that gain the same. */
@@ -117,9 +117,9 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
 {
     int64_t cols = table->cols, col = index % cols, depth = choice - 1;
     bool typed = table->depth >= 0, lane = choice > 0;
-    const int8_t *kinds = table->kinds.at;
+    const Int8Row kinds = table->kinds;
     int64_t flags = key & (FINISHED | LOOPED);
-    if (lane && (kinds[index] != FREE || (flags & FINISHED)))
+    if (lane && (AT(kinds, index) != FREE || (flags & FINISHED)))
         return FORBIDDEN;
     int64_t *codes = room, *pieces = room + cols + 2, *names = room + 2 * (cols + 2);
     unpack(table, key, codes, pieces);
@@ -132,8 +132,8 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
         return FORBIDDEN;
     int64_t kind = 0;
     if (lane && typed) {
-        kind = depth == 0 ? most(0, 2 - table->portals.at[index]) : 1 + 2 * depth;
-        if (depth > 0 && table->portals.at[index] > 0)
+        kind = depth == 0 ? most(0, 2 - AT(table->portals, index)) : 1 + 2 * depth;
+        if (depth > 0 && AT(table->portals, index) > 0)
             return FORBIDDEN;
     }
     double gain = 0.0;
@@ -183,7 +183,7 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
         codes[col - 1] = settled(table, index - 1, edges);
     }
     /* this square */
-    bool has_right = col < cols - 1 && kinds[index + 1] == FREE;
+    bool has_right = col < cols - 1 && AT(kinds, index + 1) == FREE;
     int64_t corner = 0;
     if (lane) {
         if (needs(kind) > has_right + is_free(table, index + cols))
@@ -204,9 +204,9 @@ double step(const SquareTable *table, int64_t index, int64_t key, int64_t choice
         }
         codes[col] = LANE_CODE + kind;
         pieces[col] = piece;
-    } else if (kinds[index] >= ENTRANCE) {
+    } else if (AT(kinds, index) >= ENTRANCE) {
         codes[col] = up_piece > 0 || left_piece > 0 ? 0 : PORTAL_CODE;
-    } else if (kinds[index] == FREE) {
+    } else if (AT(kinds, index) == FREE) {
         int64_t edges = (up_piece > 0) + 2 * (left_piece > 0);
         gain += worth(table, index, mask(edges));
         codes[col] = has_right ? FREE_CODE + edges : settled(table, index, edges);

@@ -25,18 +25,18 @@ enum { TAKEN_OFF = -1, PUT_ON = 1 };
 static int64_t line_on(int64_t stride, int64_t axis, int64_t q) { return axis == 0 ? q / stride : q % stride; }
 
 /* Blocks of two by two lanes that touch the moved squares. */
-static int64_t blocks_at(const int8_t *cells, Draft *draft, int64_t stride)
+static int64_t blocks_at(Int8Row cells, Draft *draft, int64_t stride)
 {
-    int64_t mark = ++draft->marks.at[BLOCKS_MET], count = 0;
+    int64_t mark = ++AT(draft->marks, BLOCKS_MET), count = 0;
     int64_t *stamp = draft->stamp.at + BLOCKS_MET * draft->stamp.columns;
     const int64_t corners[4] = { 0, -1, -stride, -stride - 1 };
-    for (int64_t index = 0; index < draft->size.at[MOVED]; index++)
+    for (int64_t index = 0; index < AT(draft->size, MOVED); index++)
         for (int place = 0; place < 4; place++) {
-            int64_t corner = draft->moved.at[index] + corners[place];
+            int64_t corner = AT(draft->moved, index) + corners[place];
             if (stamp[corner] != mark) {
                 stamp[corner] = mark;
-                count += cells[corner] == LANE && cells[corner + 1] == LANE && cells[corner + stride] == LANE &&
-                         cells[corner + stride + 1] == LANE;
+                count += AT(cells, corner) == LANE && AT(cells, corner + 1) == LANE &&
+                         AT(cells, corner + stride) == LANE && AT(cells, corner + stride + 1) == LANE;
             }
         }
     return count;
@@ -45,44 +45,45 @@ static int64_t blocks_at(const int8_t *cells, Draft *draft, int64_t stride)
 /* Add what the squares around a move hold, or take it off. */
 static void count_around(const Ground *ground, const Board *board, Draft *draft, int64_t sign)
 {
-    const int8_t *cells = board->cells.at;
-    int64_t *change = draft->change.at;
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
-        int64_t x = draft->around.at[index];
-        if (cells[x] == FREE) {
+    const Int8Row cells = board->cells;
+    Int64Row change = draft->change;
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++) {
+        int64_t x = AT(draft->around, index);
+        if (AT(cells, x) == FREE) {
             int64_t near, count = stalls_at(ground, board, x, &near);
-            change[STALLS] += sign * count;
-            change[UNUSED] += sign * (count == 0);
+            AT(change, STALLS) += sign * count;
+            AT(change, UNUSED) += sign * (count == 0);
             if (count > 0)
-                change[TIME] += sign * count * (1 + near);
-        } else if (cells[x] == LANE) {
-            change[BAD] += sign * fault(cells, draft->label.at, ground->stride, x);
+                AT(change, TIME) += sign * count * (1 + near);
+        } else if (AT(cells, x) == LANE) {
+            AT(change, BAD) += sign * fault(cells, draft->label, ground->stride, x);
         }
     }
-    change[BLOCKS] += sign * blocks_at(cells, draft, ground->stride);
+    AT(change, BLOCKS) += sign * blocks_at(cells, draft, ground->stride);
 }
 
 /* Squares by which the stretches around a move are too long. */
 static int64_t excess_around(const Ground *ground, const Board *board, Draft *draft)
 {
-    const int8_t *cells = board->cells.at, *label = draft->label.at;
+    const Int8Row cells = board->cells, label = draft->label;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    int64_t stride = ground->stride, *queue = draft->queue.at, excess = 0;
-    int64_t mark = ++draft->marks.at[SEARCHED], *stamp = draft->stamp.at + SEARCHED * draft->stamp.columns;
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
-        int64_t first = draft->around.at[index];
-        if (label[first] != THROUGH || stamp[first] == mark || through(cells, label, stride, first) != 2)
+    Int64Row queue = draft->queue;
+    int64_t stride = ground->stride, excess = 0;
+    int64_t mark = ++AT(draft->marks, SEARCHED), *stamp = draft->stamp.at + SEARCHED * draft->stamp.columns;
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++) {
+        int64_t first = AT(draft->around, index);
+        if (AT(label, first) != THROUGH || stamp[first] == mark || through(cells, label, stride, first) != 2)
             continue;
         stamp[first] = mark;
-        queue[0] = first;
+        AT(queue, 0) = first;
         int64_t head = 0, tail = 1;
         while (head < tail) {
-            int64_t q = queue[head++];
+            int64_t q = AT(queue, head++);
             for (int way = 0; way < 4; way++) {
                 int64_t p = q + steps[way];
-                if (label[p] == THROUGH && stamp[p] != mark && through(cells, label, stride, p) == 2) {
+                if (AT(label, p) == THROUGH && stamp[p] != mark && through(cells, label, stride, p) == 2) {
                     stamp[p] = mark;
-                    queue[tail++] = p;
+                    AT(queue, tail++) = p;
                 }
             }
         }
@@ -95,11 +96,11 @@ static int64_t excess_around(const Ground *ground, const Board *board, Draft *dr
 static void drive(const Board *board, const Draft *draft, const Sizes *sizes, int64_t stride, int64_t sign)
 {
     int64_t *rows = sizes->driven.at, *columns = sizes->driven.at + sizes->driven.columns;
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
-        int64_t q = draft->around.at[index];
-        if (board->cells.at[q] < LANE)
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++) {
+        int64_t q = AT(draft->around, index);
+        if (AT(board->cells, q) < LANE)
             continue;
-        int64_t ways = driven_ways(board->cells.at, stride, q);
+        int64_t ways = driven_ways(board->cells, stride, q);
         rows[q / stride] += sign * (ways & ALONG_X);
         columns[q % stride] += sign * (ways >> 1);
     }
@@ -108,17 +109,17 @@ static void drive(const Board *board, const Draft *draft, const Sizes *sizes, in
 /* Whether a line is to have another side than it has. */
 static bool has_other_side(const Sizes *sizes, int64_t axis, int64_t line)
 {
-    return sizes->is_chosen.at[axis] &&
-           side_now(sizes, axis, line) != sizes->actual_mm.at[axis * sizes->actual_mm.columns + line];
+    return AT(sizes->is_chosen, axis) &&
+           side_now(sizes, axis, line) != IN(sizes->actual_mm, axis, line);
 }
 
 /* Find the lines around a move that get another side by it. */
 static void find_lines(const Ground *ground, Draft *draft, const Sizes *sizes)
 {
     int64_t *lines = draft->lines.at, size = 0;
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++)
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++)
         for (int64_t axis = 0; axis < 2; axis++) {
-            int64_t line = line_on(ground->stride, axis, draft->around.at[index]);
+            int64_t line = line_on(ground->stride, axis, AT(draft->around, index));
             if (!has_other_side(sizes, axis, line))
                 continue;
             bool is_new = true;
@@ -130,14 +131,14 @@ static void find_lines(const Ground *ground, Draft *draft, const Sizes *sizes)
                 size++;
             }
         }
-    draft->size.at[LINES] = size;
+    AT(draft->size, LINES) = size;
 }
 
 /* Give the lines that a move touches the sides that they are to have now. */
 static void resize_lines(const Ground *ground, const Draft *draft, const Sizes *sizes)
 {
-    for (int64_t place = 0; place < draft->size.at[LINES]; place++) {
-        int64_t axis = draft->lines.at[place * 2], line = draft->lines.at[place * 2 + 1];
+    for (int64_t place = 0; place < AT(draft->size, LINES); place++) {
+        int64_t axis = PLACE(draft->lines, place * 2), line = PLACE(draft->lines, place * 2 + 1);
         resize(ground, sizes, axis, line, side_now(sizes, axis, line));
     }
 }
@@ -145,9 +146,9 @@ static void resize_lines(const Ground *ground, const Draft *draft, const Sizes *
 /* Whether a square around a move lay on a stretch that is too long. */
 static bool touches_long(const Board *board, const Draft *draft, int64_t stretch_squares)
 {
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++) {
-        int64_t q = draft->around.at[index];
-        if (draft->label.at[q] > OFF && is_long(board, stretch_squares, q))
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++) {
+        int64_t q = AT(draft->around, index);
+        if (AT(draft->label, q) > OFF && is_long(board, stretch_squares, q))
             return true;
     }
     return false;
@@ -161,7 +162,7 @@ static double tally_whole(const Ground *ground, Board *board, Draft *draft, cons
     if (exact == NO_VALUE)
         return NO_VALUE;
     for (int figure = STALLS; figure <= UNUSED; figure++)
-        draft->tally.at[figure] = board->tally.at[figure];
+        AT(draft->tally, figure) = AT(board->tally, figure);
     if (is_sized(sizes))
         foresee(ground, board, sizes);
     return exact - floor_cost(sizes);
@@ -170,32 +171,32 @@ static double tally_whole(const Ground *ground, Board *board, Draft *draft, cons
 /* What a move adds to the value, less the price of the faults that it adds; very little if no stall is left. */
 static double gain_of(const Ground *ground, const Draft *draft, double price, double stretch_price)
 {
-    const int64_t *change = draft->change.at, *tally = draft->tally.at;
-    const double *weights = ground->weights.at;
-    int64_t stalls = tally[STALLS] + change[STALLS];
+    const Int64Row change = draft->change, tally = draft->tally;
+    const DoubleRow weights = ground->weights;
+    int64_t stalls = AT(tally, STALLS) + AT(change, STALLS);
     if (stalls <= 0)
         return NO_VALUE;
-    double gain = weights[0] * (double)change[STALLS] + weights[2] * (double)change[UNUSED];
-    gain += weights[1] * ((double)(tally[TIME] + change[TIME]) / (double)stalls -
-                          (double)tally[TIME] / (double)most(1, tally[STALLS]));
-    return gain - price * (double)(change[BAD] + change[BLOCKS]) - stretch_price * (double)change[EXCESS];
+    double gain = AT(weights, 0) * (double)AT(change, STALLS) + AT(weights, 2) * (double)AT(change, UNUSED);
+    gain += AT(weights, 1) * ((double)(AT(tally, TIME) + AT(change, TIME)) / (double)stalls -
+                          (double)AT(tally, TIME) / (double)most(1, AT(tally, STALLS)));
+    return gain - price * (double)(AT(change, BAD) + AT(change, BLOCKS)) - stretch_price * (double)AT(change, EXCESS);
 }
 
 /* Squares by which the new lanes of a move bring a lane beside them nearer to the entrances, at most. */
 static int64_t shortcut(const Board *board, const Draft *draft, int64_t stride)
 {
     const int64_t steps[4] = STEPS_BESIDE(stride);
-    const int8_t *cells = board->cells.at;
-    const int32_t *hops = board->hops.at;
+    const Int8Row cells = board->cells;
+    const Int32Row hops = board->hops;
     int64_t saved = 0;
-    for (int64_t index = 0; index < draft->size.at[MOVED]; index++) {
-        int64_t q = draft->moved.at[index];
-        if (cells[q] != LANE || draft->old.at[index] != OFF || hops[q] >= FAR)
+    for (int64_t index = 0; index < AT(draft->size, MOVED); index++) {
+        int64_t q = AT(draft->moved, index);
+        if (AT(cells, q) != LANE || AT(draft->old, index) != OFF || AT(hops, q) >= FAR)
             continue;
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] == LANE && hops[p] < FAR)
-                saved = most(saved, hops[p] - hops[q] - 1);
+            if (AT(cells, p) == LANE && AT(hops, p) < FAR)
+                saved = most(saved, AT(hops, p) - AT(hops, q) - 1);
         }
     }
     return saved;
@@ -205,14 +206,14 @@ static int64_t shortcut(const Board *board, const Draft *draft, int64_t stride)
 static double hope_of(const Ground *ground, const Draft *draft, const Sizes *sizes)
 {
     double hope = 0.0;
-    for (int64_t index = 0; index < draft->size.at[AROUND]; index++)
+    for (int64_t index = 0; index < AT(draft->size, AROUND); index++)
         for (int64_t axis = 0; axis < 2; axis++) {
-            int64_t line = line_on(ground->stride, axis, draft->around.at[index]);
+            int64_t line = line_on(ground->stride, axis, AT(draft->around, index));
             if (!has_other_side(sizes, axis, line))
                 continue;
-            double hint = sizes->hint.at[axis * sizes->hint.columns + line];
+            double hint = IN(sizes->hint, axis, line);
             /* squares around a move lie on a line more than once: what is feared counts but for one of them */
-            hope += hint > 0 ? hint + 0.2 * fabs(hint) + 2.0 : (0.8 * hint + 2.0) / (double)draft->size.at[AROUND];
+            hope += hint > 0 ? hint + 0.2 * fabs(hint) + 2.0 : (0.8 * hint + 2.0) / (double)AT(draft->size, AROUND);
         }
     return hope;
 }
@@ -221,22 +222,23 @@ static double hope_of(const Ground *ground, const Draft *draft, const Sizes *siz
 static void book(Draft *draft)
 {
     for (int figure = STALLS; figure <= UNUSED; figure++)
-        draft->tally.at[figure] += draft->change.at[figure];
+        AT(draft->tally, figure) += AT(draft->change, figure);
 }
 
 /* Make the move of the draft if it gains as much as the threshold. */
 static bool try_move(const Ground *ground, Board *board, Draft *draft, const Sizes *sizes, double threshold,
                      double price, double stretch_price)
 {
-    int64_t *change = draft->change.at, stride = ground->stride;
+    Int64Row change = draft->change;
+    int64_t stride = ground->stride;
     bool sized = is_sized(sizes);
     gather(draft, stride);
     for (int64_t figure = 0; figure < draft->change.count; figure++)
-        change[figure] = 0;
-    draft->size.at[LINES] = 0;
+        AT(change, figure) = 0;
+    AT(draft->size, LINES) = 0;
     count_around(ground, board, draft, TAKEN_OFF);
     if (touches_long(board, draft, ground->rules.stretch_squares))
-        change[EXCESS] -= excess_around(ground, board, draft);
+        AT(change, EXCESS) -= excess_around(ground, board, draft);
     if (sized)
         drive(board, draft, sizes, stride, TAKEN_OFF);
     apply(ground, board, draft);
@@ -245,20 +247,20 @@ static bool try_move(const Ground *ground, Board *board, Draft *draft, const Siz
         drive(board, draft, sizes, stride, PUT_ON);
     /* most moves end here: the whole is measured only where what is around promises enough */
     double hope = sized ? hope_of(ground, draft, sizes) : 0.0;
-    hope -= ground->weights.at[1] * (double)shortcut(board, draft, stride);
+    hope -= AT(ground->weights, 1) * (double)shortcut(board, draft, stride);
     if (gain_of(ground, draft, price, stretch_price) + hope >= threshold) {
         if (ground->rules.stretch_squares > 0)
-            change[EXCESS] += excess_around(ground, board, draft);
-        double floor = sizes->area_m2.at[0];
+            AT(change, EXCESS) += excess_around(ground, board, draft);
+        double floor = AT(sizes->area_m2, 0);
         if (sized) {
             find_lines(ground, draft, sizes);
             resize_lines(ground, draft, sizes);
         }
         if (measure(ground, board, INFINITY) > NO_VALUE) {
             for (int figure = STALLS; figure <= UNUSED; figure++)
-                change[figure] = board->tally.at[figure] - draft->tally.at[figure];
+                AT(change, figure) = AT(board->tally, figure) - AT(draft->tally, figure);
             double gain = gain_of(ground, draft, price, stretch_price) -
-                          sizes->price.at[0] * (sizes->area_m2.at[0] - floor);
+                          AT(sizes->price, 0) * (AT(sizes->area_m2, 0) - floor);
             if (gain >= threshold) {
                 copy_hops(&draft->hops, &board->hops);
                 book(draft);
@@ -290,17 +292,17 @@ static void try_side(const Ground *ground, const Board *board, Draft *draft, con
 {
     int64_t axis = below(random, 2);
     int64_t line = below(random, axis == 0 ? board->cells.count / ground->stride : ground->stride);
-    int64_t side = sizes->free_mm.at[below(random, sizes->free_mm.count)];
+    int64_t side = AT(sizes->free_mm, below(random, sizes->free_mm.count));
     int64_t at = axis * sizes->kept_mm.columns + line;
-    if (!sizes->is_chosen.at[axis] || sizes->driven.at[at] > 0 || side == sizes->kept_mm.at[at])
+    if (!AT(sizes->is_chosen, axis) || PLACE(sizes->driven, at) > 0 || side == PLACE(sizes->kept_mm, at))
         return;
-    int64_t fitted = most(side, sizes->least_mm.at[at]);
+    int64_t fitted = most(side, PLACE(sizes->least_mm, at));
     double area = weigh(ground, board, sizes, axis, line, fitted);
     for (int64_t figure = 0; figure < draft->change.count; figure++)
-        draft->change.at[figure] = figure < sizes->change.count ? sizes->change.at[figure] : 0;
-    double gain = gain_of(ground, draft, 0.0, 0.0) - sizes->price.at[0] * area;
+        AT(draft->change, figure) = figure < sizes->change.count ? AT(sizes->change, figure) : 0;
+    double gain = gain_of(ground, draft, 0.0, 0.0) - AT(sizes->price, 0) * area;
     if (gain >= threshold_at(heat, random)) {
-        sizes->kept_mm.at[at] = side;
+        PLACE(sizes->kept_mm, at) = side;
         resize(ground, sizes, axis, line, fitted);
         book(draft);
     }
@@ -355,7 +357,7 @@ double anneal_labels(const Ground *ground, Board *board, Draft *draft, const Siz
             if (ground->rules.is_asked)
                 trim(ground, board);
             double measured = tally_whole(ground, board, draft, sizes);
-            int64_t faults = board->tally.at[FAULTS];
+            int64_t faults = AT(board->tally, FAULTS);
             if (measured - fault_price * (double)faults > best - fault_price * (double)best_faults) {
                 best = measured;
                 best_faults = faults;

@@ -19,25 +19,25 @@ void revert(Board *board, Draft *draft);
 
 /* labels.c */
 void label_lanes(const Ground *ground, Board *board, Draft *draft);
-int64_t fault(const int8_t *cells, const int8_t *label, int64_t stride, int64_t q);
+int64_t fault(Int8Row cells, Int8Row label, int64_t stride, int64_t q);
 void find_faults(const Ground *ground, const Board *board, Draft *draft);
 FROM_PYTHON
 void trim(const Ground *ground, Board *board);
 
 /* How many neighbours of a square are portals or lanes that cars drive on through. */
-static inline int64_t through(const int8_t *cells, const int8_t *label, int64_t stride, int64_t q)
+static inline int64_t through(Int8Row cells, Int8Row label, int64_t stride, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(stride);
     int64_t count = 0;
     for (int way = 0; way < 4; way++)
-        count += cells[q + steps[way]] >= ENTRANCE || label[q + steps[way]] == THROUGH;
+        count += AT(cells, q + steps[way]) >= ENTRANCE || AT(label, q + steps[way]) == THROUGH;
     return count;
 }
 
 /* Whether a square lay on a stretch that is too long at the last survey. */
 static inline bool is_long(const Board *board, int64_t stretch_squares, int64_t q)
 {
-    return stretch_squares > 0 && board->state.at[q] > STRETCH + stretch_squares;
+    return stretch_squares > 0 && AT(board->state, q) > STRETCH + stretch_squares;
 }
 
 /* moves.c */

@@ -12,23 +12,23 @@ typedef struct {
 static void count(const Ground *ground, const Board *board, const int32_t *hops, int64_t q, int64_t p, int64_t sign,
                   Held *sum)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t stride = ground->stride, steps[4] = STEPS_BESIDE(stride), around[5] = {0, -stride, stride, -1, 1};
     for (int turn = 0; turn < (p == q ? 1 : 2); turn++) {
         int64_t middle = turn == 0 ? q : p, other = turn == 0 ? p : q;
         for (int place = 0; place < 5; place++) {
             int64_t x = middle + around[place];
-            if (cells[x] != FREE || (place != 0 && x == other))
+            if (AT(cells, x) != FREE || (place != 0 && x == other))
                 continue;
             int64_t edges = 0, near = FAR;
             for (int64_t way = 0; way < 4; way++) {
                 int64_t beside = x + steps[way];
-                if (cells[beside] == LANE) {
+                if (AT(cells, beside) == LANE) {
                     edges |= 1 << way;
                     near = least(near, hops[beside]);
                 }
             }
-            int64_t held = ground->capacity.at[x * 16 + edges];
+            int64_t held = IN(ground->capacity, x, edges);
             sum->stalls += sign * held;
             sum->unused += sign * (held == 0);
             if (held > 0)
@@ -40,18 +40,18 @@ static void count(const Ground *ground, const Board *board, const int32_t *hops,
 /* Set the hops of a new lane from those beside it; by how many squares it brings one of them nearer, at most. */
 static int64_t reach(const Ground *ground, const Board *board, int32_t *hops, int64_t q)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    if (cells[q] != LANE)
+    if (AT(cells, q) != LANE)
         return 0;
     int64_t nearest = FAR, farthest = 0;
     for (int way = 0; way < 4; way++) {
         int64_t p = q + steps[way];
-        if (cells[p] == LANE) {
+        if (AT(cells, p) == LANE) {
             nearest = least(nearest, hops[p] + 1);
             if (hops[p] < FAR)
                 farthest = most(farthest, hops[p]);
-        } else if (cells[p] == ENTRANCE) {
+        } else if (AT(cells, p) == ENTRANCE) {
             nearest = 1;
         }
     }
@@ -60,13 +60,14 @@ static int64_t reach(const Ground *ground, const Board *board, int32_t *hops, in
 }
 
 /* Blocks of two by two lanes on a square. */
-static int64_t blocks_on(const int8_t *cells, int64_t stride, int64_t square)
+static int64_t blocks_on(Int8Row cells, int64_t stride, int64_t square)
 {
     const int64_t corners[4] = {square, square - 1, square - stride, square - stride - 1};
     int64_t blocks = 0;
     for (int place = 0; place < 4; place++) {
-        const int8_t *corner = cells + corners[place];
-        blocks += corner[0] == LANE && corner[1] == LANE && corner[stride] == LANE && corner[stride + 1] == LANE;
+        int64_t q = corners[place];
+        blocks += AT(cells, q) == LANE && AT(cells, q + 1) == LANE && AT(cells, q + stride) == LANE &&
+                  AT(cells, q + stride + 1) == LANE;
     }
     return blocks;
 }
@@ -74,24 +75,24 @@ static int64_t blocks_on(const int8_t *cells, int64_t stride, int64_t square)
 /* `TALLIED` if all ways to the entrances stay as long, `REFUSED` if lanes fall apart, else `FLIPPED`: unknown. */
 static int64_t ways_on(const Ground *ground, const Board *board, const int32_t *hops, int64_t q)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    if (cells[q] == LANE)
+    if (AT(cells, q) == LANE)
         return TALLIED;
     int64_t fate = TALLIED, beside = 0;
     bool alone = false;
     for (int way = 0; way < 4; way++) {
         int64_t x = q + steps[way];
-        if (cells[x] > LANE)
+        if (AT(cells, x) > LANE)
             fate = FLIPPED; /* a portal may touch no lane any more */
-        if (cells[x] != LANE)
+        if (AT(cells, x) != LANE)
             continue;
         beside++;
         int64_t lanes = 0;
         bool has_parent = hops[x] <= hops[q];
         for (int onward = 0; onward < 4; onward++) {
             int64_t y = x + steps[onward];
-            if (cells[y] == LANE) {
+            if (AT(cells, y) == LANE) {
                 lanes++;
                 has_parent |= hops[y] == hops[x] - 1;
             }
@@ -106,16 +107,16 @@ static int64_t ways_on(const Ground *ground, const Board *board, const int32_t *
 /* Whether new lanes on two squares, if any, have a lane beside them that was there before. */
 static bool is_joined(const Ground *ground, const Board *board, int64_t q, int64_t p)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride), squares[2] = {q, p};
-    if (cells[q] != LANE && cells[p] != LANE)
+    if (AT(cells, q) != LANE && AT(cells, p) != LANE)
         return true;
     for (int place = 0; place < 2; place++) {
-        if (cells[squares[place]] != LANE)
+        if (AT(cells, squares[place]) != LANE)
             continue;
         for (int way = 0; way < 4; way++) {
             int64_t beside = squares[place] + steps[way];
-            if (cells[beside] == LANE && beside != q && beside != p)
+            if (AT(cells, beside) == LANE && beside != q && beside != p)
                 return true;
         }
     }
@@ -129,7 +130,7 @@ static int64_t starts(const Ground *ground, const Board *board)
     int64_t lanes = 0;
     for (int64_t index = 0; index < ground->entrances.count; index++)
         for (int way = 0; way < 4; way++)
-            lanes += board->cells.at[ground->entrances.at[index] + steps[way]] == LANE;
+            lanes += AT(board->cells, AT(ground->entrances, index) + steps[way]) == LANE;
     return lanes;
 }
 
@@ -146,13 +147,13 @@ static int64_t starts(const Ground *ground, const Board *board)
 int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, int32_t *hops, int64_t q, int64_t p,
                     double enough)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     Held held = {known[STALLS], known[TIME], known[UNUSED]};
     count(ground, board, hops, q, p, -1, &held);
     flip(board->cells.at, q, p);
-    if (cells[q] == LANE)
+    if (AT(cells, q) == LANE)
         hops[q] = FAR;
-    if (cells[p] == LANE)
+    if (AT(cells, p) == LANE)
         hops[p] = FAR;
     int64_t shortcut = reach(ground, board, hops, q);
     shortcut = most(shortcut, reach(ground, board, hops, p));
@@ -161,10 +162,10 @@ int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, in
     count(ground, board, hops, q, p, 1, &held);
     if (held.stalls <= 0)
         return FLIPPED;
-    const double *weights = ground->weights.at;
+    const DoubleRow weights = ground->weights;
     double mean_time = (double)held.time / (double)held.stalls;
-    double bound = weights[0] * (double)held.stalls + weights[1] * (mean_time - (double)most(0, shortcut)) +
-                   weights[2] * (double)held.unused;
+    double bound = AT(weights, 0) * (double)held.stalls + AT(weights, 1) * (mean_time - (double)most(0, shortcut)) +
+                   AT(weights, 2) * (double)held.unused;
     if (ground->rules.is_asked) {
         int64_t blocks = most(blocks_on(cells, ground->stride, q), blocks_on(cells, ground->stride, p));
         bound -= ground->rules.block_cost * (double)blocks;
@@ -178,15 +179,15 @@ int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, in
             fate = least(fate, ways_on(ground, board, hops, p));
         if (fate == TALLIED && !is_joined(ground, board, q, p))
             fate = FLIPPED;
-        if (fate == TALLIED && !(cells[q] == LANE && cells[p] == LANE) && starts(ground, board) > 1)
+        if (fate == TALLIED && !(AT(cells, q) == LANE && AT(cells, p) == LANE) && starts(ground, board) > 1)
             fate = FLIPPED; /* each entrance might have lanes of its own */
     }
     if (fate == REFUSED) {
         flip(board->cells.at, q, p);
     } else if (fate == TALLIED) {
-        board->tally.at[STALLS] = held.stalls;
-        board->tally.at[TIME] = held.time;
-        board->tally.at[UNUSED] = held.unused;
+        AT(board->tally, STALLS) = held.stalls;
+        AT(board->tally, TIME) = held.time;
+        AT(board->tally, UNUSED) = held.unused;
     }
     return fate;
 }

@@ -100,44 +100,45 @@ void follow_frontiers(const SquareTable *table, int64_t index, const int64_t *ke
  * Squares from `first_open` on may all still be lanes. */
 static double detour(const Ground *ground, Board *board, int64_t first_open, const int64_t *relaxed)
 {
-    const int8_t *cells = board->cells.at;
-    int32_t *hops = board->hops.at;
-    int64_t *queue = board->queue.at;
-    const int64_t steps[4] = STEPS_BESIDE(ground->stride), *squares = ground->squares.at;
+    const Int8Row cells = board->cells;
+    Int32Row hops = board->hops;
+    Int64Row queue = board->queue;
+    const Int64Row squares = ground->squares;
+    const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     for (int64_t at = 0; at < ground->squares.count; at++)
-        hops[squares[at]] = FAR;
+        AT(hops, AT(squares, at)) = FAR;
     int64_t tail = 0;
     for (int64_t at = 0; at < ground->entrances.count; at++)
         for (int way = 0; way < 4; way++) {
-            int64_t p = ground->entrances.at[at] + steps[way];
-            if (hops[p] == FAR && (cells[p] == LANE || (cells[p] == FREE && p >= first_open))) {
-                hops[p] = 1;
-                queue[tail++] = p;
+            int64_t p = AT(ground->entrances, at) + steps[way];
+            if (AT(hops, p) == FAR && (AT(cells, p) == LANE || (AT(cells, p) == FREE && p >= first_open))) {
+                AT(hops, p) = 1;
+                AT(queue, tail++) = p;
             }
         }
     for (int64_t head = 0; head < tail; head++)
         for (int way = 0; way < 4; way++) {
-            int64_t q = queue[head], p = q + steps[way];
-            if ((cells[p] == LANE || (cells[p] == FREE && p >= first_open)) && hops[p] == FAR) {
-                hops[p] = hops[q] + 1;
-                queue[tail++] = p;
+            int64_t q = AT(queue, head), p = q + steps[way];
+            if ((AT(cells, p) == LANE || (AT(cells, p) == FREE && p >= first_open)) && AT(hops, p) == FAR) {
+                AT(hops, p) = AT(hops, q) + 1;
+                AT(queue, tail++) = p;
             }
         }
     double more = 0.0;
-    for (int64_t at = 0; at < ground->squares.count && squares[at] < first_open; at++) {
-        int64_t q = squares[at], edges = 0, near = FAR, free = FAR;
-        if (cells[q] != FREE)
+    for (int64_t at = 0; at < ground->squares.count && AT(squares, at) < first_open; at++) {
+        int64_t q = AT(squares, at), edges = 0, near = FAR, free = FAR;
+        if (AT(cells, q) != FREE)
             continue;
         for (int side = 0; side < 4; side++) {
             int64_t p = q + steps[side];
-            if (cells[p] == LANE) {
+            if (AT(cells, p) == LANE) {
                 edges |= 1 << side;
                 free = least(free, relaxed[p]);
             }
-            if (cells[p] == LANE || (cells[p] == FREE && p >= first_open))
-                near = least(near, hops[p]);
+            if (AT(cells, p) == LANE || (AT(cells, p) == FREE && p >= first_open))
+                near = least(near, AT(hops, p));
         }
-        int64_t stalls = ground->capacity.at[q * 16 + edges];
+        int64_t stalls = IN(ground->capacity, q, edges);
         if (stalls > 0 && near > free)
             more += (double)(stalls * (near - free));
     }
@@ -154,10 +155,10 @@ static void begin(const Enumeration *state, int64_t depth, const SquareTable *ta
     int64_t first = offsets[depth + 1], last = offsets[depth + 2];
     for (int64_t choice = 0; choice < choices; choice++) {
         int64_t key;
-        double gain = step(table, depth, state->keys.at[depth], choice, state->room.at, &key);
+        double gain = step(table, depth, AT(state->keys, depth), choice, state->room.at, &key);
         if (gain == FORBIDDEN)
             continue;
-        double value = state->values.at[depth] + gain;
+        double value = AT(state->values, depth) + gain;
         double bound = value + suffixes[first + bisect(keys + first, last - first, key)];
         if (bound <= best + 1e-9)
             continue;
@@ -173,8 +174,8 @@ static void begin(const Enumeration *state, int64_t depth, const SquareTable *ta
         next_keys[slot] = key;
         next_values[slot] = value;
     }
-    state->children.at[depth] = children;
-    state->tried.at[depth] = 0;
+    AT(state->children, depth) = children;
+    AT(state->tried, depth) = 0;
 }
 
 /* Score the layouts whose relaxed value is above the best met so far; whether all of them are scored.
@@ -189,43 +190,44 @@ bool enumerate_layouts(const Enumeration *state, int64_t steps, const SquareTabl
                        const int64_t *relaxed, double price)
 {
     int64_t total = state->ways.rows, choices = state->ways.columns, cols = table->cols, stride = ground->stride;
-    int64_t border = PADDING * (stride + 1), depth = state->counts.at[0], *tried = state->tried.at;
-    double best = state->best.at[0];
+    Int64Row tried = state->tried;
+    int64_t border = PADDING * (stride + 1), depth = AT(state->counts, 0);
+    double best = AT(state->best, 0);
     for (int64_t taken = 0; taken < steps && depth >= 0; taken++) {
         if (depth == total) {
             double value = measure(ground, board, -INFINITY);
-            state->counts.at[1]++;
+            AT(state->counts, 1)++;
             if (value > best + 1e-9) {
                 best = value;
                 for (int64_t q = 0; q < board->cells.count; q++)
-                    state->best_cells.at[q] = board->cells.at[q];
+                    AT(state->best_cells, q) = AT(board->cells, q);
             }
             depth--;
             continue;
         }
-        if (tried[depth] < 0)
+        if (AT(tried, depth) < 0)
             begin(state, depth, table, offsets, keys, suffixes, best);
         int64_t square = border + (depth / cols) * stride + depth % cols;
-        int64_t slot = tried[depth], child = depth * choices + slot;
-        if (slot == state->children.at[depth] || state->bounds.at[child] <= best + 1e-9) {
-            board->cells.at[square] = ground->cells.at[square];
-            tried[depth] = -1;
+        int64_t slot = AT(tried, depth), child = depth * choices + slot;
+        if (slot == AT(state->children, depth) || PLACE(state->bounds, child) <= best + 1e-9) {
+            AT(board->cells, square) = AT(ground->cells, square);
+            AT(tried, depth) = -1;
             depth--;
             continue;
         }
-        tried[depth]++;
-        board->cells.at[square] = state->ways.at[child] > 0 ? LANE : ground->cells.at[square];
+        AT(tried, depth)++;
+        AT(board->cells, square) = PLACE(state->ways, child) > 0 ? LANE : AT(ground->cells, square);
         if ((depth + 1) % cols == 0) {
             int64_t first_open = border + ((depth + 1) / cols) * stride + (depth + 1) % cols;
             double lost = price * detour(ground, board, first_open, relaxed);
-            if (state->bounds.at[child] - lost <= best + 1e-9)
+            if (PLACE(state->bounds, child) - lost <= best + 1e-9)
                 continue;
         }
-        state->keys.at[depth + 1] = state->next_keys.at[child];
-        state->values.at[depth + 1] = state->next_values.at[child];
+        AT(state->keys, depth + 1) = PLACE(state->next_keys, child);
+        AT(state->values, depth + 1) = PLACE(state->next_values, child);
         depth++;
     }
-    state->best.at[0] = best;
-    state->counts.at[0] = depth;
+    AT(state->best, 0) = best;
+    AT(state->counts, 0) = depth;
     return depth < 0;
 }

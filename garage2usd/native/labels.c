@@ -4,57 +4,57 @@
 /* Label the lanes on the board: short dead ends by their depth, all else as driven through. */
 void label_lanes(const Ground *ground, Board *board, Draft *draft)
 {
-    const int8_t *cells = board->cells.at;
-    const int32_t *state = board->state.at;
-    int8_t *label = draft->label.at;
-    int64_t *queue = draft->queue.at;
+    const Int8Row cells = board->cells;
+    const Int32Row state = board->state;
+    Int8Row label = draft->label;
+    Int64Row queue = draft->queue;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t deepest = ground->rules.dead_end_squares;
     Survey found;
-    survey(ground->squares.at, ground->squares.count, ground->stride, cells, board->state.at, board->queue.at, deepest,
-           0, &found);
+    survey(ground->squares.at, ground->squares.count, ground->stride, cells.at, board->state.at, board->queue.at,
+           deepest, 0, &found);
     for (int64_t q = 0; q < draft->label.count; q++)
-        label[q] = OFF;
+        AT(label, q) = OFF;
     for (int64_t index = 0; index < ground->squares.count; index++)
-        if (cells[ground->squares.at[index]] == LANE)
-            label[ground->squares.at[index]] = THROUGH;
+        if (AT(cells, AT(ground->squares, index)) == LANE)
+            AT(label, AT(ground->squares, index)) = THROUGH;
     int64_t head = 0, tail = 0;
     for (int64_t index = 0; index < ground->squares.count; index++) {
-        int64_t q = ground->squares.at[index];
-        if (cells[q] != LANE || state[q] < -deepest || state[q] >= 0)
+        int64_t q = AT(ground->squares, index);
+        if (AT(cells, q) != LANE || AT(state, q) < -deepest || AT(state, q) >= 0)
             continue;
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] >= ENTRANCE || (cells[p] == LANE && (state[p] >= 2 || state[p] < -deepest)))
-                label[q] = TIP;
+            if (AT(cells, p) >= ENTRANCE || (AT(cells, p) == LANE && (AT(state, p) >= 2 || AT(state, p) < -deepest)))
+                AT(label, q) = TIP;
         }
-        if (label[q] == TIP)
-            queue[tail++] = q;
+        if (AT(label, q) == TIP)
+            AT(queue, tail++) = q;
     }
     while (head < tail) {
-        int64_t q = queue[head++];
+        int64_t q = AT(queue, head++);
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] == LANE && label[p] == THROUGH && state[p] < 0 && state[p] > state[q]) {
-                label[p] = (int8_t)(label[q] + 1);
-                queue[tail++] = p;
+            if (AT(cells, p) == LANE && AT(label, p) == THROUGH && AT(state, p) < 0 && AT(state, p) > AT(state, q)) {
+                AT(label, p) = (int8_t)(AT(label, q) + 1);
+                AT(queue, tail++) = p;
             }
         }
     }
 }
 
 /* How far a lane is from what its label says. */
-int64_t fault(const int8_t *cells, const int8_t *label, int64_t stride, int64_t q)
+int64_t fault(Int8Row cells, Int8Row label, int64_t stride, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(stride);
     int64_t passing = through(cells, label, stride, q);
-    if (label[q] == THROUGH)
+    if (AT(label, q) == THROUGH)
         return most(0, 2 - passing);
     if (passing > 1)
         return 1; /* cars drive on through it */
     for (int way = 0; way < 4; way++) {
         int64_t p = q + steps[way];
-        if ((OFF < label[p] && label[p] < label[q]) || cells[p] >= ENTRANCE)
+        if ((OFF < AT(label, p) && AT(label, p) < AT(label, q)) || AT(cells, p) >= ENTRANCE)
             return 0;
     }
     return 1;
@@ -63,33 +63,33 @@ int64_t fault(const int8_t *cells, const int8_t *label, int64_t stride, int64_t 
 /* List the lanes around which rules are broken, by the last survey and the labels. */
 void find_faults(const Ground *ground, const Board *board, Draft *draft)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const CirculationRules *rules = &ground->rules;
     int64_t stride = ground->stride, count = 0;
     for (int64_t index = 0; index < ground->squares.count; index++) {
-        int64_t q = ground->squares.at[index];
-        if (cells[q] != LANE)
+        int64_t q = AT(ground->squares, index);
+        if (AT(cells, q) != LANE)
             continue;
-        if (board->state.at[q] < -rules->dead_end_squares || is_long(board, rules->stretch_squares, q) ||
-            fault(cells, draft->label.at, stride, q) > 0 ||
-            (cells[q + 1] == LANE && cells[q + stride] == LANE && cells[q + stride + 1] == LANE))
-            draft->faulty.at[count++] = q;
+        if (AT(board->state, q) < -rules->dead_end_squares || is_long(board, rules->stretch_squares, q) ||
+            fault(cells, draft->label, stride, q) > 0 ||
+            (AT(cells, q + 1) == LANE && AT(cells, q + stride) == LANE && AT(cells, q + stride + 1) == LANE))
+            AT(draft->faulty, count++) = q;
     }
-    draft->size.at[FAULTY] = count;
+    AT(draft->size, FAULTY) = count;
 }
 
 /* The last lane of a walk from the tip of a dead end to its root, which ends one lane beyond the depth allowed. */
 static int64_t towards_root(const Ground *ground, const Board *board, int64_t tip)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    const int32_t *state = board->state.at;
+    const Int32Row state = board->state;
     int64_t here = tip, depth = 1;
     bool onward = true;
     while (onward && depth <= ground->rules.dead_end_squares) {
         onward = false;
         for (int way = 0; way < 4 && !onward; way++) {
             int64_t p = here + steps[way];
-            if (board->cells.at[p] == LANE && state[p] < state[here]) {
+            if (AT(board->cells, p) == LANE && AT(state, p) < AT(state, here)) {
                 here = p;
                 depth++;
                 onward = true;
@@ -103,7 +103,7 @@ static int64_t towards_root(const Ground *ground, const Board *board, int64_t ti
 void trim(const Ground *ground, Board *board)
 {
     const CirculationRules *rules = &ground->rules;
-    const int32_t *state = board->state.at;
+    const Int32Row state = board->state;
     for (;;) {
         Survey found;
         survey(ground->squares.at, ground->squares.count, ground->stride, board->cells.at, board->state.at,
@@ -112,10 +112,10 @@ void trim(const Ground *ground, Board *board)
             return;
         /* tips of the trees that have deep lanes: those from which a walk to the root meets one */
         for (int64_t index = 0; index < ground->squares.count; index++) {
-            int64_t q = ground->squares.at[index];
-            if (board->cells.at[q] == LANE && state[q] == -1 &&
-                state[towards_root(ground, board, q)] < -rules->dead_end_squares)
-                board->cells.at[q] = FREE;
+            int64_t q = AT(ground->squares, index);
+            if (AT(board->cells, q) == LANE && AT(state, q) == -1 &&
+                AT(state, towards_root(ground, board, q)) < -rules->dead_end_squares)
+                AT(board->cells, q) = FREE;
         }
     }
 }

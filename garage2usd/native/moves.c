@@ -25,18 +25,18 @@ enum { LONGEST_LEG = 6, LONGEST_PATH = 20, LONGEST_RUN = 40 };
 /* A label that suits a new lane on a square, mostly. */
 static int64_t new_label(const Ground *ground, const Board *board, const Draft *draft, uint64_t *random, int64_t q)
 {
-    const int8_t *label = draft->label.at;
+    const Int8Row label = draft->label;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t deepest = ground->rules.dead_end_squares;
-    int64_t passing = through(board->cells.at, label, ground->stride, q);
+    int64_t passing = through(board->cells, label, ground->stride, q);
     if (passing >= 2 || deepest == 0 || uniform(random) < THROUGH_SHARE)
         return THROUGH;
     if (passing == 1)
         return TIP;
     int64_t shallowest = 100;
     for (int way = 0; way < 4; way++)
-        if (label[q + steps[way]] > OFF)
-            shallowest = least(shallowest, label[q + steps[way]]);
+        if (AT(label, q + steps[way]) > OFF)
+            shallowest = least(shallowest, AT(label, q + steps[way]));
     return shallowest <= deepest ? shallowest + 1 : THROUGH;
 }
 
@@ -44,38 +44,38 @@ static int64_t new_label(const Ground *ground, const Board *board, const Draft *
 static bool flip_square(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    if (board->cells.at[q] == LANE)
+    if (AT(board->cells, q) == LANE)
         return add_square(draft, q, OFF);
     bool touched = false;
     for (int way = 0; way < 4; way++)
-        touched |= board->cells.at[q + steps[way]] >= LANE;
+        touched |= AT(board->cells, q + steps[way]) >= LANE;
     return touched && add_square(draft, q, new_label(ground, board, draft, random, q));
 }
 
 /* A lane gets another label. */
 static bool relabel(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
 {
-    if (board->cells.at[q] != LANE)
+    if (AT(board->cells, q) != LANE)
         return false;
     int64_t fresh = 1 + below(random, ground->rules.dead_end_squares + 1);
-    return fresh != draft->label.at[q] && add_square(draft, q, fresh);
+    return fresh != AT(draft->label, q) && add_square(draft, q, fresh);
 }
 
 /* A lane moves to the free square beside it. */
 static bool exchange(const Board *board, Draft *draft, int64_t q, int64_t p)
 {
-    if (board->cells.at[q] != LANE || board->cells.at[p] != FREE)
+    if (AT(board->cells, q) != LANE || AT(board->cells, p) != FREE)
         return false;
-    return add_square(draft, q, OFF) && add_square(draft, p, draft->label.at[q]);
+    return add_square(draft, q, OFF) && add_square(draft, p, AT(draft->label, q));
 }
 
 /* Two lanes side by side go, or two free squares become lanes that lead on or end. */
 static bool flip_pair(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q, int64_t p)
 {
-    const int8_t *cells = board->cells.at;
-    if (cells[q] == LANE && cells[p] == LANE)
+    const Int8Row cells = board->cells;
+    if (AT(cells, q) == LANE && AT(cells, p) == LANE)
         return add_square(draft, q, OFF) && add_square(draft, p, OFF);
-    if (cells[q] != FREE || cells[p] != FREE || through(cells, draft->label.at, ground->stride, q) == 0)
+    if (AT(cells, q) != FREE || AT(cells, p) != FREE || through(cells, draft->label, ground->stride, q) == 0)
         return false;
     bool ends = ground->rules.dead_end_squares >= 2 && uniform(random) < 0.5;
     return add_square(draft, q, ends ? TIP : THROUGH) && add_square(draft, p, ends ? TIP + 1 : THROUGH);
@@ -84,8 +84,8 @@ static bool flip_pair(const Ground *ground, const Board *board, Draft *draft, ui
 /* Whether a square is in the move. */
 static bool is_moved(const Draft *draft, int64_t q)
 {
-    for (int64_t index = 0; index < draft->size.at[MOVED]; index++)
-        if (draft->moved.at[index] == q)
+    for (int64_t index = 0; index < AT(draft->size, MOVED); index++)
+        if (AT(draft->moved, index) == q)
             return true;
     return false;
 }
@@ -94,14 +94,14 @@ static bool is_moved(const Draft *draft, int64_t q)
 static bool drop(const Ground *ground, Draft *draft, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    const int8_t *label = draft->label.at;
+    const Int8Row label = draft->label;
     if (is_moved(draft, q))
         return true;
     if (!add_square(draft, q, OFF))
         return false;
     for (int way = 0; way < 4; way++) {
         int64_t p = q + steps[way];
-        if (label[p] > label[q] && !is_moved(draft, p) && !add_square(draft, p, OFF))
+        if (AT(label, p) > AT(label, q) && !is_moved(draft, p) && !add_square(draft, p, OFF))
             return false;
     }
     return true;
@@ -110,52 +110,53 @@ static bool drop(const Ground *ground, Draft *draft, int64_t q)
 /* The path between two junctions goes, but for dead ends beside these. */
 static bool take_path(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
 {
-    const int8_t *cells = board->cells.at, *label = draft->label.at;
+    const Int8Row cells = board->cells, label = draft->label;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    int64_t stride = ground->stride, deepest = ground->rules.dead_end_squares, *lengths = draft->lengths.at;
-    if (label[q] != THROUGH || through(cells, label, stride, q) != 2)
+    Int64Row lengths = draft->lengths;
+    int64_t stride = ground->stride, deepest = ground->rules.dead_end_squares;
+    if (AT(label, q) != THROUGH || through(cells, label, stride, q) != 2)
         return false;
     add_square(draft, q, OFF);
-    lengths[0] = lengths[1] = 0;
+    AT(lengths, 0) = AT(lengths, 1) = 0;
     for (int side = 0; side < 2; side++) {
         int64_t previous = q, here = q, found = 0;
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (label[p] == THROUGH || cells[p] >= ENTRANCE) {
+            if (AT(label, p) == THROUGH || AT(cells, p) >= ENTRANCE) {
                 if (found == side)
                     here = p;
                 found++;
             }
         }
-        while (label[here] == THROUGH && through(cells, label, stride, here) == 2 && here != q &&
-               lengths[side] < LONGEST_PATH) {
+        while (AT(label, here) == THROUGH && through(cells, label, stride, here) == 2 && here != q &&
+               AT(lengths, side) < LONGEST_PATH) {
             add_square(draft, here, OFF);
             int64_t onward = here;
             for (int way = 0; way < 4; way++) {
                 int64_t p = here + steps[way];
-                if (p != previous && (label[p] == THROUGH || cells[p] >= ENTRANCE))
+                if (p != previous && (AT(label, p) == THROUGH || AT(cells, p) >= ENTRANCE))
                     onward = p;
             }
             previous = here;
             here = onward;
-            lengths[side]++;
+            AT(lengths, side)++;
         }
-        if (lengths[side] >= LONGEST_PATH || here == q || cells[here] >= ENTRANCE)
+        if (AT(lengths, side) >= LONGEST_PATH || here == q || AT(cells, here) >= ENTRANCE)
             return false;
     }
-    int64_t last = draft->size.at[MOVED] - 1;
+    int64_t last = AT(draft->size, MOVED) - 1;
     for (int side = 0; side < 2; side++) {
-        int64_t kept = least(below(random, deepest + 1), lengths[side]);
+        int64_t kept = least(below(random, deepest + 1), AT(lengths, side));
         for (int64_t place = 0; place < kept; place++)
-            draft->fresh.at[(side == 1 ? last : lengths[0]) - place] = (int8_t)(place + TIP);
+            AT(draft->fresh, (side == 1 ? last : AT(lengths, 0)) - place) = (int8_t)(place + TIP);
     }
     /* dead ends that hang on the path go with it */
     for (int64_t index = 0; index <= last; index++) {
-        if (draft->fresh.at[index] != OFF)
+        if (AT(draft->fresh, index) != OFF)
             continue;
         for (int way = 0; way < 4; way++) {
-            int64_t p = draft->moved.at[index] + steps[way];
-            if (label[p] > THROUGH && !drop(ground, draft, p))
+            int64_t p = AT(draft->moved, index) + steps[way];
+            if (AT(label, p) > THROUGH && !drop(ground, draft, p))
                 return false;
         }
     }
@@ -166,16 +167,16 @@ static bool take_path(const Ground *ground, const Board *board, Draft *draft, ui
 static int64_t step_along(int64_t stride, int64_t step) { return step == -stride || step == stride ? 1 : stride; }
 
 /* Whether a lane has no lane or portal beside it across the direction `side`. */
-static bool is_run(const int8_t *cells, const int8_t *label, int64_t stride, int64_t q, int64_t side)
+static bool is_run(Int8Row cells, Int8Row label, int64_t stride, int64_t q, int64_t side)
 {
     int64_t across = side == 1 ? stride : 1;
-    return label[q] == THROUGH && cells[q - across] <= FREE && cells[q + across] <= FREE;
+    return AT(label, q) == THROUGH && AT(cells, q - across) <= FREE && AT(cells, q + across) <= FREE;
 }
 
 /* A straight run between two junctions shifts to the side. */
 static bool shift_run(const Ground *ground, const Board *board, Draft *draft, int64_t q, int64_t step)
 {
-    const int8_t *cells = board->cells.at, *label = draft->label.at;
+    const Int8Row cells = board->cells, label = draft->label;
     int64_t stride = ground->stride, along = step_along(stride, step);
     if (!is_run(cells, label, stride, q, along))
         return false;
@@ -192,7 +193,7 @@ static bool shift_run(const Ground *ground, const Board *board, Draft *draft, in
         return false;
     for (int64_t place = 0; place < length; place++) {
         int64_t p = first + place * along;
-        if (cells[p + step] != FREE)
+        if (AT(cells, p + step) != FREE)
             return false;
         add_square(draft, p, OFF);
         add_square(draft, p + step, THROUGH);
@@ -204,10 +205,10 @@ static bool shift_run(const Ground *ground, const Board *board, Draft *draft, in
 static bool lead_on(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t start,
                     int64_t step)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     int64_t p = start + step, length = 0;
     int64_t turn = uniform(random) < BENT_SHARE ? 1 + below(random, LONGEST_LEG) : 0;
-    while (cells[p] == FREE && length <= 2 * LONGEST_LEG) {
+    while (AT(cells, p) == FREE && length <= 2 * LONGEST_LEG) {
         if (!add_square(draft, p, THROUGH))
             return false;
         length++;
@@ -217,11 +218,11 @@ static bool lead_on(const Ground *ground, const Board *board, Draft *draft, uint
         }
         p += step;
     }
-    if (length == 0 || length > 2 * LONGEST_LEG || cells[p] != LANE)
+    if (length == 0 || length > 2 * LONGEST_LEG || AT(cells, p) != LANE)
         return false;
     const int64_t ends[2] = { start, p };
     for (int end = 0; end < 2; end++)
-        if (draft->label.at[ends[end]] > THROUGH && !add_square(draft, ends[end], THROUGH))
+        if (AT(draft->label, ends[end]) > THROUGH && !add_square(draft, ends[end], THROUGH))
             return false;
     return true;
 }
@@ -230,46 +231,46 @@ static bool lead_on(const Ground *ground, const Board *board, Draft *draft, uint
 static bool shift_line(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t start,
                        int64_t step)
 {
-    const int8_t *cells = board->cells.at, *label = draft->label.at;
+    const Int8Row cells = board->cells, label = draft->label;
     int64_t along = step_along(ground->stride, step);
-    if (label[start] != THROUGH || !(label[start - along] == THROUGH || label[start + along] == THROUGH))
+    if (AT(label, start) != THROUGH || !(AT(label, start - along) == THROUGH || AT(label, start + along) == THROUGH))
         return false;
     bool keeps_ends = ground->rules.dead_end_squares > 0 && uniform(random) < ENDS_STAY_SHARE;
     int64_t first = start, last = start;
-    while (cells[first - along] == FREE || cells[first - along] == LANE)
+    while (AT(cells, first - along) == FREE || AT(cells, first - along) == LANE)
         first -= along;
-    while (cells[last + along] == FREE || cells[last + along] == LANE)
+    while (AT(cells, last + along) == FREE || AT(cells, last + along) == LANE)
         last += along;
     for (int64_t p = first; p != last + along; p += along) {
-        if (label[p] != THROUGH || !(label[p - along] == THROUGH || label[p + along] == THROUGH))
+        if (AT(label, p) != THROUGH || !(AT(label, p - along) == THROUGH || AT(label, p + along) == THROUGH))
             continue;
         int64_t fresh = p + step, behind = p - step;
-        if (cells[fresh] == FREE && !add_square(draft, fresh, THROUGH))
+        if (AT(cells, fresh) == FREE && !add_square(draft, fresh, THROUGH))
             return false;
-        if (cells[fresh] < FREE || cells[fresh] > LANE)
+        if (AT(cells, fresh) < FREE || AT(cells, fresh) > LANE)
             continue;
-        if (label[behind] == OFF && cells[behind] <= FREE) {
-            bool ends = cells[fresh] == LANE && keeps_ends;
+        if (AT(label, behind) == OFF && AT(cells, behind) <= FREE) {
+            bool ends = AT(cells, fresh) == LANE && keeps_ends;
             if (!add_square(draft, p, ends ? TIP : OFF))
                 return false;
         }
     }
-    return draft->size.at[MOVED] > 0;
+    return AT(draft->size, MOVED) > 0;
 }
 
 /* Draw a move into the draft, some of them where rules are broken; false where what is drawn is not a move. */
 bool propose(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, double faulty_share)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    draft->size.at[MOVED] = 0;
-    int64_t q = ground->squares.at[below(random, ground->squares.count)];
+    AT(draft->size, MOVED) = 0;
+    int64_t q = AT(ground->squares, below(random, ground->squares.count));
     int64_t step = steps[below(random, 4)];
-    if (draft->size.at[FAULTY] > 0 && uniform(random) < faulty_share) {
-        q = draft->faulty.at[below(random, draft->size.at[FAULTY])];
+    if (AT(draft->size, FAULTY) > 0 && uniform(random) < faulty_share) {
+        q = AT(draft->faulty, below(random, AT(draft->size, FAULTY)));
         for (int64_t left = below(random, 3); left > 0; left--) {
             q += steps[below(random, 4)];
-            if (cells[q] != FREE && cells[q] != LANE)
+            if (AT(cells, q) != FREE && AT(cells, q) != LANE)
                 return false;
         }
     }
@@ -283,7 +284,7 @@ bool propose(const Ground *ground, const Board *board, Draft *draft, uint64_t *r
     if (draw < PAIRS)
         return flip_pair(ground, board, draft, random, q, q + step);
     if (draw < CONNECTORS)
-        return cells[q] == LANE && lead_on(ground, board, draft, random, q, step);
+        return AT(cells, q) == LANE && lead_on(ground, board, draft, random, q, step);
     if (draw < PATHS)
         return take_path(ground, board, draft, random, q);
     if (draw < SHIFTED_LINES)

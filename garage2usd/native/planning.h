@@ -221,12 +221,12 @@ static inline int64_t stalls_at(const Ground *ground, const Board *board, int64_
     *near = FAR;
     for (int64_t way = 0; way < 4; way++) {
         int64_t p = square + steps[way];
-        if (board->cells.at[p] == LANE) {
+        if (AT(board->cells, p) == LANE) {
             edges |= 1 << way;
-            *near = least(*near, board->hops.at[p]);
+            *near = least(*near, AT(board->hops, p));
         }
     }
-    return ground->capacity.at[square * 16 + edges];
+    return IN(ground->capacity, square, edges);
 }
 
 /* sizes.c */
@@ -242,19 +242,19 @@ FROM_PYTHON
 void settle(const Ground *ground, const Board *board, const Sizes *sizes, int64_t passes);
 
 /* Whether any side is chosen with the plan. */
-static inline bool is_sized(const Sizes *sizes) { return sizes->is_chosen.at[0] || sizes->is_chosen.at[1]; }
+static inline bool is_sized(const Sizes *sizes) { return AT(sizes->is_chosen, 0) || AT(sizes->is_chosen, 1); }
 
 /* Whether cars drive along X on a square, and along Z, as a sum of `ALONG_X` and `ALONG_Z`. */
 enum { ALONG_X = 1, ALONG_Z = 2 };
-static inline int64_t driven_ways(const int8_t *cells, int64_t stride, int64_t q)
+static inline int64_t driven_ways(Int8Row cells, int64_t stride, int64_t q)
 {
     int64_t ways = 0;
-    if (cells[q] == LANE) {
-        ways |= ALONG_X * (cells[q - 1] >= 1 || cells[q + 1] >= 1);
-        ways |= ALONG_Z * (cells[q - stride] >= 1 || cells[q + stride] >= 1);
-    } else if (cells[q] >= ENTRANCE) {
-        ways |= ALONG_X * (cells[q - 1] == 1 || cells[q + 1] == 1);
-        ways |= ALONG_Z * (cells[q - stride] == 1 || cells[q + stride] == 1);
+    if (AT(cells, q) == LANE) {
+        ways |= ALONG_X * (AT(cells, q - 1) >= 1 || AT(cells, q + 1) >= 1);
+        ways |= ALONG_Z * (AT(cells, q - stride) >= 1 || AT(cells, q + stride) >= 1);
+    } else if (AT(cells, q) >= ENTRANCE) {
+        ways |= ALONG_X * (AT(cells, q - 1) == 1 || AT(cells, q + 1) == 1);
+        ways |= ALONG_Z * (AT(cells, q - stride) == 1 || AT(cells, q + stride) == 1);
     }
     return ways;
 }
@@ -263,12 +263,12 @@ static inline int64_t driven_ways(const int8_t *cells, int64_t stride, int64_t q
 static inline int64_t side_now(const Sizes *sizes, int64_t axis, int64_t line)
 {
     int64_t at = axis * sizes->driven.columns + line;
-    int64_t side = sizes->driven.at[at] > 0 ? sizes->aisle_mm : sizes->kept_mm.at[at];
-    return most(side, sizes->least_mm.at[at]);
+    int64_t side = PLACE(sizes->driven, at) > 0 ? sizes->aisle_mm : PLACE(sizes->kept_mm, at);
+    return most(side, PLACE(sizes->least_mm, at));
 }
 
 /* What the floor costs, in stalls. */
-static inline double floor_cost(const Sizes *sizes) { return sizes->price.at[0] * sizes->area_m2.at[0]; }
+static inline double floor_cost(const Sizes *sizes) { return AT(sizes->price, 0) * AT(sizes->area_m2, 0); }
 
 /* flips.c: what became of a flip. */
 enum { REFUSED = 0, FLIPPED = 1, TALLIED = 2 };

@@ -17,18 +17,18 @@ typedef struct {
 /* Whether a square or the other has a lane beside it: without, no flip of them keeps the lanes joined. */
 static bool beside_lane(const Polish *polish, int64_t q, int64_t p)
 {
-    const int8_t *cells = polish->board->cells.at;
+    const Int8Row cells = polish->board->cells;
     const int64_t steps[4] = STEPS_BESIDE(polish->ground->stride);
     bool beside = false;
     for (int way = 0; way < 4; way++)
-        beside |= cells[q + steps[way]] == LANE || cells[p + steps[way]] == LANE;
+        beside |= AT(cells, q + steps[way]) == LANE || AT(cells, p + steps[way]) == LANE;
     return beside;
 }
 
 /* Whether a square and the other, which may be the same, may be flipped. */
 static bool may_flip(const Polish *polish, int64_t q, int64_t p)
 {
-    int8_t kind = polish->board->cells.at[p];
+    int8_t kind = AT(polish->board->cells, p);
     return (kind == FREE || kind == LANE) && beside_lane(polish, q, p);
 }
 
@@ -49,7 +49,7 @@ static double worth(const Polish *polish, double enough)
 static void remember(const Polish *polish)
 {
     for (int64_t figure = 0; figure < polish->room->known.count; figure++)
-        polish->room->known.at[figure] = polish->board->tally.at[figure];
+        AT(polish->room->known, figure) = AT(polish->board->tally, figure);
     copy_hops(&polish->room->hops, &polish->board->hops);
 }
 
@@ -86,16 +86,17 @@ static double flipped(const Polish *polish, int64_t q, int64_t p, double enough)
 /* Climb by one pass over all squares in a new order; whether the value was raised. */
 static bool climb(const Polish *polish, uint64_t *random, double *value)
 {
-    const int64_t *order = polish->room->order.at, steps[3] = {0, polish->ground->stride, 1};
+    const Int64Row order = polish->room->order;
+    const int64_t steps[3] = {0, polish->ground->stride, 1};
     bool improved = false;
     for (int64_t index = polish->room->order.count - 1; index > 0; index--) {
-        int64_t other = (int64_t)(next_random(random) % (uint64_t)(index + 1)), square = order[index];
-        polish->room->order.at[index] = order[other];
-        polish->room->order.at[other] = square;
+        int64_t other = (int64_t)(next_random(random) % (uint64_t)(index + 1)), square = AT(order, index);
+        AT(polish->room->order, index) = AT(order, other);
+        AT(polish->room->order, other) = square;
     }
     for (int64_t index = 0; index < polish->room->order.count; index++)
         for (int way = 0; way < 3; way++) {
-            int64_t q = order[index], p = q + steps[way];
+            int64_t q = AT(order, index), p = q + steps[way];
             if (!may_flip(polish, q, p))
                 continue;
             double tried = flipped(polish, q, p, *value);
@@ -119,11 +120,11 @@ static void resize_any(const Polish *polish, uint64_t draw, double threshold, do
     int64_t axis = (int64_t)((draw >> 4) & 1);
     int64_t stride = polish->ground->stride, count = axis == 0 ? polish->board->cells.count / stride : stride;
     int64_t line = (int64_t)((draw >> 8) % (uint64_t)count);
-    if (!sizes->is_chosen.at[axis] || sizes->driven.at[axis * sizes->driven.columns + line] > 0)
+    if (!AT(sizes->is_chosen, axis) || IN(sizes->driven, axis, line) > 0)
         return;
-    int64_t *side = &sizes->kept_mm.at[axis * sizes->kept_mm.columns + line], kept = *side;
-    *side = sizes->free_mm.at[(draw >> 20) % (uint64_t)sizes->free_mm.count];
-    if (side_now(sizes, axis, line) == sizes->actual_mm.at[axis * sizes->actual_mm.columns + line])
+    int64_t *side = &IN(sizes->kept_mm, axis, line), kept = *side;
+    *side = AT(sizes->free_mm, (draw >> 20) % (uint64_t)sizes->free_mm.count);
+    if (side_now(sizes, axis, line) == IN(sizes->actual_mm, axis, line))
         return;
     double tried = worth(polish, threshold);
     if (tried >= threshold)
@@ -145,7 +146,7 @@ static void anneal(const Polish *polish, uint64_t *random, double value, int64_t
     const Ground *ground = polish->ground;
     const int64_t steps[4] = {0, 0, 1, ground->stride};
     double best = value;
-    int64_t best_faults = polish->board->tally.at[FAULTS];
+    int64_t best_faults = AT(polish->board->tally, FAULTS);
     keep_best(polish);
     double cooling = pow(coldest / hottest, 1.0 / (double)flips), heat = hottest;
     for (int64_t index = 0; index < flips; index++) {
@@ -157,7 +158,7 @@ static void anneal(const Polish *polish, uint64_t *random, double value, int64_t
             resize_any(polish, draw, threshold, &value);
             continue;
         }
-        int64_t q = ground->squares.at[(draw >> 8) % (uint64_t)ground->squares.count], p = q + steps[draw & 3];
+        int64_t q = AT(ground->squares, (draw >> 8) % (uint64_t)ground->squares.count), p = q + steps[draw & 3];
         if (!may_flip(polish, q, p))
             continue;
         double tried = flipped(polish, q, p, threshold);
@@ -169,7 +170,7 @@ static void anneal(const Polish *polish, uint64_t *random, double value, int64_t
         }
         value = tried;
         remember(polish);
-        int64_t faults = polish->board->tally.at[FAULTS];
+        int64_t faults = AT(polish->board->tally, FAULTS);
         if (faults < best_faults || (faults == best_faults && value > best + 1e-9)) {
             best = value;
             best_faults = faults;
@@ -198,7 +199,7 @@ double improve(const Ground *ground, Board *board, const Sizes *sizes, const Pol
         remember(&polish);
     }
     for (int64_t index = 0; index < ground->squares.count; index++)
-        room->order.at[index] = ground->squares.at[index];
+        AT(room->order, index) = AT(ground->squares, index);
     for (int64_t pass = 0; pass < passes; pass++)
         if (!climb(&polish, random, &value))
             break;

@@ -4,28 +4,28 @@
 /* Whether every portal is reached from a square over squares that are free or lanes; takes `near` for marks. */
 static bool reaches_all(const Ground *ground, Board *board, int64_t first)
 {
-    const int8_t *cells = board->cells.at;
-    int64_t *queue = board->queue.at;
-    int32_t *seen = board->near.at;
+    const Int8Row cells = board->cells;
+    Int64Row queue = board->queue;
+    Int32Row seen = board->near;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     for (int64_t q = 0; q < board->cells.count; q++)
-        seen[q] = 0;
-    queue[0] = first;
-    seen[first] = 1;
+        AT(seen, q) = 0;
+    AT(queue, 0) = first;
+    AT(seen, first) = 1;
     int64_t head = 0, tail = 1;
     while (head < tail) {
-        int64_t q = queue[head++];
+        int64_t q = AT(queue, head++);
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] >= FREE && seen[p] == 0) {
-                seen[p] = 1;
-                if (cells[p] <= LANE)
-                    queue[tail++] = p;
+            if (AT(cells, p) >= FREE && AT(seen, p) == 0) {
+                AT(seen, p) = 1;
+                if (AT(cells, p) <= LANE)
+                    AT(queue, tail++) = p;
             }
         }
     }
     for (int64_t index = 0; index < ground->portals.count; index++)
-        if (seen[ground->portals.at[index]] != 1)
+        if (AT(seen, AT(ground->portals, index)) != 1)
             return false;
     return true;
 }
@@ -33,14 +33,14 @@ static bool reaches_all(const Ground *ground, Board *board, int64_t first)
 /* A square beside a portal: the first lane, else a free one from which all portals are reached, or -1. */
 static int64_t lane_at(const Ground *ground, Board *board, int64_t portal)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t free = -1;
     for (int way = 0; way < 4; way++) {
         int64_t q = portal + steps[way];
-        if (cells[q] == LANE)
+        if (AT(cells, q) == LANE)
             return q;
-        if (cells[q] == FREE && (free < 0 || reaches_all(ground, board, q)))
+        if (AT(cells, q) == FREE && (free < 0 || reaches_all(ground, board, q)))
             free = q;
     }
     return free;
@@ -49,34 +49,34 @@ static int64_t lane_at(const Ground *ground, Board *board, int64_t portal)
 /* Lay the shortest way over free squares from the marked network to any other lane or portal. */
 static bool lay_way(const Ground *ground, Board *board)
 {
-    int8_t *cells = board->cells.at;
-    const int32_t *reached = board->near.at;
-    int32_t *came = board->hops.at;
-    int64_t *queue = board->queue.at;
+    Int8Row cells = board->cells;
+    const Int32Row reached = board->near;
+    Int32Row came = board->hops;
+    Int64Row queue = board->queue;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t head = 0, tail = 0;
     for (int64_t index = 0; index < ground->squares.count; index++) {
-        int64_t q = ground->squares.at[index];
-        came[q] = -1;
-        if (cells[q] == LANE && reached[q] == 1) {
-            came[q] = (int32_t)q;
-            queue[tail++] = q;
+        int64_t q = AT(ground->squares, index);
+        AT(came, q) = -1;
+        if (AT(cells, q) == LANE && AT(reached, q) == 1) {
+            AT(came, q) = (int32_t)q;
+            AT(queue, tail++) = q;
         }
     }
     while (head < tail) {
-        int64_t q = queue[head++];
+        int64_t q = AT(queue, head++);
         for (int way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] >= LANE && reached[p] == 0) {
-                while (cells[q] == FREE) {
-                    cells[q] = LANE;
-                    q = came[q];
+            if (AT(cells, p) >= LANE && AT(reached, p) == 0) {
+                while (AT(cells, q) == FREE) {
+                    AT(cells, q) = LANE;
+                    q = AT(came, q);
                 }
                 return true;
             }
-            if (cells[p] == FREE && came[p] == -1) {
-                came[p] = (int32_t)q;
-                queue[tail++] = p;
+            if (AT(cells, p) == FREE && AT(came, p) == -1) {
+                AT(came, p) = (int32_t)q;
+                AT(queue, tail++) = p;
             }
         }
     }
@@ -88,22 +88,22 @@ static bool lay_way(const Ground *ground, Board *board)
  * Starts at the first portal; lanes that no way reaches are taken off. */
 bool connect_lanes(const Ground *ground, Board *board)
 {
-    int8_t *cells = board->cells.at;
-    const int32_t *reached = board->near.at;
-    int64_t first = lane_at(ground, board, ground->portals.at[0]);
+    Int8Row cells = board->cells;
+    const Int32Row reached = board->near;
+    int64_t first = lane_at(ground, board, AT(ground->portals, 0));
     if (first < 0)
         return false;
-    cells[first] = LANE;
+    AT(cells, first) = LANE;
     do
         mark_network(ground, board, first);
     while (lay_way(ground, board));
     for (int64_t index = 0; index < ground->squares.count; index++) {
-        int64_t q = ground->squares.at[index];
-        if (cells[q] == LANE && reached[q] == 0)
-            cells[q] = FREE;
+        int64_t q = AT(ground->squares, index);
+        if (AT(cells, q) == LANE && AT(reached, q) == 0)
+            AT(cells, q) = FREE;
     }
     for (int64_t index = 0; index < ground->portals.count; index++)
-        if (reached[ground->portals.at[index]] != 1)
+        if (AT(reached, AT(ground->portals, index)) != 1)
             return false;
     return true;
 }

@@ -31,7 +31,7 @@ static int64_t row_of(Memory *memory, uint64_t key)
     while (keys[place] != key) {
         if (keys[place] == 0) {
             keys[place] = key;
-            memory->used.at[0]++;
+            AT(memory->used, 0)++;
             break;
         }
         place = (place + 1) & mask;
@@ -47,10 +47,10 @@ FROM_PYTHON
 void carry_over(const Memory *memory, Memory *larger)
 {
     for (int64_t row = 0; row < memory->keys.count; row++) {
-        if (memory->keys.at[row] == 0)
+        if (AT(memory->keys, row) == 0)
             continue;
         const float *from = values_of(memory, row);
-        float *to = values_of(larger, row_of(larger, memory->keys.at[row]));
+        float *to = values_of(larger, row_of(larger, AT(memory->keys, row)));
         for (int action = 0; action < ACTIONS; action++)
             to[action] = from[action];
     }
@@ -63,14 +63,14 @@ uint64_t observe(const Ground *ground, const Board *board, const SarsaParameters
 {
     const uint64_t prime = UINT64_C(0x9E3779B97F4A7C15);
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     int64_t radius = parameters->window_radius_squares;
     uint64_t key = (uint64_t)(previous + 1) << 32; /* above the squares of any row of M */
     for (int64_t row = -radius; row <= radius; row++) {
         uint64_t packed = 0;
         int64_t first = square + row * ground->stride - radius;
         for (int64_t q = first; q <= first + 2 * radius; q++)
-            packed = (packed << 3) | (uint64_t)(cells[q] + 1);
+            packed = (packed << 3) | (uint64_t)(AT(cells, q) + 1);
         key = (key ^ packed) * prime;
         key ^= key >> 29;
     }
@@ -79,7 +79,7 @@ uint64_t observe(const Ground *ground, const Board *board, const SarsaParameters
         for (int way = 0; way < 4; way++) {
             int64_t q = square + steps[way];
             uint64_t far = 0;
-            while (cells[q] == FREE || cells[q] == LANE) {
+            while (AT(cells, q) == FREE || AT(cells, q) == LANE) {
                 q += steps[way];
                 far++;
             }

@@ -207,7 +207,7 @@ static bool expand(Room *room, const Task *task, int64_t number, double full, in
             z = from.z - steering * radius * (to.sine - headings[0].sine);
             need = task->margin + full;
         }
-        if (fabs(x - task->start.at[0]) > task->reach || fabs(z - task->start.at[1]) > task->reach)
+        if (fabs(x - AT(task->start, 0)) > task->reach || fabs(z - AT(task->start, 1)) > task->reach)
             continue;
         double paid = from.cost + length;
         if (is_change)
@@ -240,9 +240,9 @@ static bool expand(Room *room, const Task *task, int64_t number, double full, in
 /* Steps of the way found, 0 where there is none, GAVE_UP where `max_nodes` did not do. */
 static int64_t look(Room *room, const Task *task, int64_t *touched, double *steps)
 {
-    const double *start = task->start.at;
+    const DoubleRow start = task->start;
     double full = bulge(task->radius, TURN, task->scene.body.at);
-    room->nodes[0] = (Node){.x = start[0], .z = start[1], .yaw = start[2], .parent = -1};
+    room->nodes[0] = (Node){.x = AT(start, 0), .z = AT(start, 1), .yaw = AT(start, 2), .parent = -1};
     room->count = 1;
     push(room, (Open){0.0, 0});
     while (room->open_count > 0) {

@@ -32,7 +32,7 @@ static int64_t *at_line(const Int64Table *table, int64_t axis, int64_t line)
 static int64_t place_of(const Sizes *sizes, int64_t side_mm)
 {
     int64_t place = 0;
-    while (sizes->sides_mm.at[place] != side_mm)
+    while (AT(sizes->sides_mm, place) != side_mm)
         place++;
     return place;
 }
@@ -50,42 +50,42 @@ static void set_capacity(const Ground *ground, const Sizes *sizes, int64_t q)
     int64_t width = *at_line(&sizes->place, 1, *at_line(&sizes->line_of, 1, q));
     const int32_t *held = held_by(sizes, depth, width);
     for (int64_t edges = 0; edges < 16; edges++)
-        ground->capacity.at[q * 16 + edges] = held[edges];
+        IN(ground->capacity, q, edges) = held[edges];
 }
 
 /* Set `change` to what another side of a line would add; returns the floor that it would add, in m2. */
 double weigh(const Ground *ground, const Board *board, const Sizes *sizes, int64_t axis, int64_t line, int64_t side_mm)
 {
-    const int8_t *cells = board->cells.at;
+    const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    int64_t *change = sizes->change.at;
-    change[STALLS] = change[TIME] = change[UNUSED] = 0;
+    Int64Row change = sizes->change;
+    AT(change, STALLS) = AT(change, TIME) = AT(change, UNUSED) = 0;
     Line squares = line_at(ground, axis, line);
     int64_t across = 0, place = place_of(sizes, side_mm);
     for (int64_t index = 0; index < squares.count; index++) {
         int64_t q = squares.first + index * squares.step;
-        if (!sizes->is_floor.at[q])
+        if (!AT(sizes->is_floor, q))
             continue;
         /* the index on a line is the number of the line across */
         across += *at_line(&sizes->actual_mm, 1 - axis, index);
-        if (cells[q] != FREE)
+        if (AT(cells, q) != FREE)
             continue;
         int64_t edges = 0, near = FAR;
         for (int64_t way = 0; way < 4; way++) {
             int64_t p = q + steps[way];
-            if (cells[p] == LANE) {
+            if (AT(cells, p) == LANE) {
                 edges |= 1 << way;
-                near = least(near, board->hops.at[p]);
+                near = least(near, AT(board->hops, p));
             }
         }
         if (edges == 0)
             continue;
-        int64_t before = ground->capacity.at[q * 16 + edges];
+        int64_t before = IN(ground->capacity, q, edges);
         int64_t other = *at_line(&sizes->place, 1 - axis, index);
         int64_t after = (axis == 0 ? held_by(sizes, place, other) : held_by(sizes, other, place))[edges];
-        change[STALLS] += after - before;
-        change[TIME] += (after - before) * (1 + near);
-        change[UNUSED] += (after == 0) - (before == 0);
+        AT(change, STALLS) += after - before;
+        AT(change, TIME) += (after - before) * (1 + near);
+        AT(change, UNUSED) += (after == 0) - (before == 0);
     }
     return (double)((side_mm - *at_line(&sizes->actual_mm, axis, line)) * across) / MM2_PER_M2;
 }
@@ -100,12 +100,12 @@ void resize(const Ground *ground, const Sizes *sizes, int64_t axis, int64_t line
     *at_line(&sizes->place, axis, line) = place_of(sizes, side_mm);
     for (int64_t index = 0; index < squares.count; index++) {
         int64_t q = squares.first + index * squares.step;
-        if (sizes->is_floor.at[q]) {
+        if (AT(sizes->is_floor, q)) {
             set_capacity(ground, sizes, q);
             across += *at_line(&sizes->actual_mm, 1 - axis, index);
         }
     }
-    sizes->area_m2.at[0] += (double)(longer * across) / MM2_PER_M2;
+    AT(sizes->area_m2, 0) += (double)(longer * across) / MM2_PER_M2;
 }
 
 /* Count where cars drive on some squares. */
@@ -113,9 +113,9 @@ static void count_driven(const Ground *ground, const Board *board, const Sizes *
 {
     for (int64_t index = 0; index < squares->count; index++) {
         int64_t q = squares->at[index];
-        if (board->cells.at[q] < LANE)
+        if (AT(board->cells, q) < LANE)
             continue;
-        int64_t ways = driven_ways(board->cells.at, ground->stride, q);
+        int64_t ways = driven_ways(board->cells, ground->stride, q);
         *at_line(&sizes->driven, 0, *at_line(&sizes->line_of, 0, q)) += ways & ALONG_X;
         *at_line(&sizes->driven, 1, *at_line(&sizes->line_of, 1, q)) += ways >> 1;
     }
@@ -127,13 +127,13 @@ void sync_sides(const Ground *ground, const Board *board, const Sizes *sizes)
     if (!is_sized(sizes))
         return;
     for (int64_t index = 0; index < 2 * sizes->driven.columns; index++)
-        sizes->driven.at[index] = 0;
+        PLACE(sizes->driven, index) = 0;
     count_driven(ground, board, sizes, &ground->squares);
     count_driven(ground, board, sizes, &ground->portals);
-    double *area = &sizes->area_m2.at[0];
+    double *area = &AT(sizes->area_m2, 0);
     bool is_new = *area == 0;
     for (int64_t axis = 0; axis < 2; axis++) {
-        if (!sizes->is_chosen.at[axis])
+        if (!AT(sizes->is_chosen, axis))
             continue;
         for (int64_t line = 0; line < lines_along(ground, axis); line++) {
             int64_t side = side_now(sizes, axis, line), *actual = at_line(&sizes->actual_mm, axis, line);
@@ -150,7 +150,7 @@ void sync_sides(const Ground *ground, const Board *board, const Sizes *sizes)
     if (!is_new)
         return;
     for (int64_t q = ground->stride; q < board->cells.count - ground->stride; q++) {
-        if (!sizes->is_floor.at[q])
+        if (!AT(sizes->is_floor, q))
             continue;
         set_capacity(ground, sizes, q);
         int64_t depth = *at_line(&sizes->actual_mm, 0, *at_line(&sizes->line_of, 0, q));
@@ -170,15 +170,15 @@ void copy_sides(const Int64Table *target, const Int64Table *source)
 void foresee(const Ground *ground, const Board *board, const Sizes *sizes)
 {
     for (int64_t axis = 0; axis < 2; axis++) {
-        if (!sizes->is_chosen.at[axis])
+        if (!AT(sizes->is_chosen, axis))
             continue;
         for (int64_t line = 0; line < lines_along(ground, axis); line++) {
             bool is_driven = *at_line(&sizes->driven, axis, line) != 0;
             int64_t other = is_driven ? *at_line(&sizes->kept_mm, axis, line) : sizes->aisle_mm;
             other = most(other, *at_line(&sizes->least_mm, axis, line));
             double area = weigh(ground, board, sizes, axis, line, other);
-            sizes->hint.at[axis * sizes->hint.columns + line] =
-                ground->weights.at[0] * (double)sizes->change.at[STALLS] - sizes->price.at[0] * area;
+            IN(sizes->hint, axis, line) =
+                AT(ground->weights, 0) * (double)AT(sizes->change, STALLS) - AT(sizes->price, 0) * area;
         }
     }
 }
@@ -191,7 +191,7 @@ void settle(const Ground *ground, const Board *board, const Sizes *sizes, int64_
     sync_sides(ground, board, sizes);
     for (int64_t pass = 0; pass < passes; pass++)
         for (int64_t axis = 0; axis < 2; axis++) {
-            if (!sizes->is_chosen.at[axis])
+            if (!AT(sizes->is_chosen, axis))
                 continue;
             for (int64_t line = 0; line < lines_along(ground, axis); line++) {
                 if (*at_line(&sizes->driven, axis, line) > 0)
@@ -200,9 +200,9 @@ void settle(const Ground *ground, const Board *board, const Sizes *sizes, int64_
                 int64_t door = *at_line(&sizes->least_mm, axis, line);
                 double best = 0.0;
                 for (int64_t index = 0; index < sizes->free_mm.count; index++) {
-                    int64_t side = sizes->free_mm.at[index];
+                    int64_t side = AT(sizes->free_mm, index);
                     double area = weigh(ground, board, sizes, axis, line, most(side, door));
-                    double gain = (double)sizes->change.at[STALLS] - sizes->price.at[0] * area;
+                    double gain = (double)AT(sizes->change, STALLS) - AT(sizes->price, 0) * area;
                     if (gain > best + 1e-9) {
                         best = gain;
                         chosen = side;

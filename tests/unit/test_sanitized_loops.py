@@ -13,7 +13,9 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.native import LIBRARY
 
-FLAGS = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+SANITIZED = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+CHECKED = (*SANITIZED, "-UNDEBUG")
+"""With the bounds of arrays, which `AT` and `IN` check."""
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +34,7 @@ def runtimes(tmp_path_factory):
     return " ".join(found)
 
 
-def run_of(folder, runtimes, fault=None):
+def run_of(folder, runtimes, fault=None, flags=CHECKED):
     for path in LIBRARY.parent.iterdir():
         if path.suffix in {".c", ".h"}:
             shutil.copy(path, folder)
@@ -41,7 +43,7 @@ def run_of(folder, runtimes, fault=None):
         text = (folder / name).read_text()
         assert text.count(old) == 1
         (folder / name).write_text(text.replace(old, new))
-    compile_loops(folder / LIBRARY.name, folder, FLAGS)
+    compile_loops(folder / LIBRARY.name, folder, flags)
     environment = os.environ | {"LD_PRELOAD": runtimes, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONPATH": str(REPOSITORY)}
     command = [sys.executable, "-m", "support.sanitized_loops", str(folder / LIBRARY.name)]
     return subprocess.run(
@@ -55,7 +57,20 @@ def test_planning_and_driving_are_clean(tmp_path, runtimes):
 
 
 def test_a_write_past_an_array_is_found(tmp_path, runtimes):
-    old = "q < ground->cells.count; q++) {\n        board->cells.at[q]"
-    run = run_of(tmp_path, runtimes, fault=("board.c", old, old.replace("q < ", "q <= ")))
+    old = "q < ground->cells.count; q++) {\n        AT(board->cells, q)"
+    run = run_of(tmp_path, runtimes, ("board.c", old, old.replace("q < ", "q <= ")), SANITIZED)
     assert run.returncode != 0
     assert "AddressSanitizer: heap-buffer-overflow" in run.stderr
+
+
+READ_PAST_A_ROW = "board.c", "square, AT(edges, square))", "square, 16 + AT(edges, square))"
+"""Takes the stalls of the square beside, which the sanitizers find nothing wrong with."""
+
+
+def test_a_read_past_a_row_is_found_by_its_bounds_alone(tmp_path, runtimes):
+    (tmp_path / "checked").mkdir()
+    (tmp_path / "sanitized").mkdir()
+    checked = run_of(tmp_path / "checked", runtimes, READ_PAST_A_ROW)
+    assert checked.returncode != 0
+    assert "of columns of ground->capacity, which has 16" in checked.stderr
+    assert run_of(tmp_path / "sanitized", runtimes, READ_PAST_A_ROW, SANITIZED).stdout == "clean\n"

@@ -79,7 +79,11 @@ MUTANTS = (
     # what it sees
     Mutant("last action unseen", "(uint64_t)(previous + 1)", "(uint64_t)1"),
     Mutant("window shifted", "first = square + row * ground->stride - radius", "first = square + row * ground->stride"),
-    Mutant("distances through portals", "while (cells[q] == FREE || cells[q] == LANE)", "while (cells[q] >= FREE)"),
+    Mutant(
+        "distances through portals",
+        "while (AT(cells, q) == FREE || AT(cells, q) == LANE)",
+        "while (AT(cells, q) >= FREE)",
+    ),
     Mutant("distances unseen", "if (parameters->sees_distances)", "if (false)"),
     # how it chooses
     Mutant("epsilon as worded", "if (uniform(random) < epsilon)", "if (uniform(random) >= epsilon)"),
@@ -100,6 +104,13 @@ MUTANTS = (
     Mutant("goes on from the whole", "share * (double)AT", "(double)AT"),
     Mutant("replays from its own entrance", "        episode.start = AT(archive->starts, entry);\n", ""),
     Mutant("keeps no better plan once full", "if (full && value <= ", "if (full || value <= ", "archive"),
-    Mutant("keeps a plan twice", "if (archive->keys.at[index] == key)", "if (archive->keys.at[index] == 0)", "archive"),
-    Mutant("drops the best", "values[entry] < values[count[1]]", "values[entry] > values[count[1]]", "archive"),
+    Mutant(
+        "keeps a plan twice", "if (AT(archive->keys, index) == key)", "if (AT(archive->keys, index) == 0)", "archive"
+    ),
+    Mutant(
+        "drops the best",
+        "AT(values, entry) < AT(values, AT(count, 1))",
+        "AT(values, entry) > AT(values, AT(count, 1))",
+        "archive",
+    ),
 )
