@@ -9,7 +9,7 @@ from garage2usd.errors import GenerationError
 from garage2usd.planning import Plan, evaluate
 from garage2usd.planning.board import NO_VALUE, Board, measure, new_board
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
-from garage2usd.planning.polishing import polish
+from garage2usd.planning.local_search import polish
 from garage2usd.planning.ranking import Ranked, lanes_on, put_lanes, ranked_plans
 from garage2usd.planning.repair import connect
 from garage2usd.randomness import Step, generator

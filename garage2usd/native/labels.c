@@ -1,5 +1,5 @@
 /* Labels of lanes: driven through, or so many squares deep in a dead end. */
-#include "draft.h"
+#include "trial_move.h"
 
 /* Label the lanes on the board: short dead ends by their depth, all else as driven through. */
 void label_lanes(const Ground *ground, Board *board, Draft *draft)

@@ -1,5 +1,5 @@
 /* Moves of the annealing under rules, drawn at random: squares, connectors, paths, runs and whole lines. */
-#include "draft.h"
+#include "trial_move.h"
 
 /* Longest leg of a connector, share of bent ones, longest path taken out and longest run shifted: moves stay small, so
  * that each is judged in a short time. */

@@ -276,7 +276,7 @@ FROM_PYTHON
 int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, int32_t *hops, int64_t q, int64_t p,
                     double enough);
 
-/* polish.c */
+/* local_search.c */
 FROM_PYTHON
 double improve(const Ground *ground, Board *board, const Sizes *sizes, const PolishRoom *room, uint64_t *random,
                int64_t passes, int64_t flips, double hottest, double coldest);

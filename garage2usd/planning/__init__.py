@@ -1,7 +1,7 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
 from garage2usd.planning.bound import counting_bound
-from garage2usd.planning.dimensioning import area_per_stall_m2, dimension, dimensioned
+from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
 from garage2usd.planning.measured import MeasuredCirculation, measured_circulation, neither_share
 from garage2usd.planning.optimum import Optimum, find_optimum
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan

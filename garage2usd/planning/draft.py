@@ -1,4 +1,4 @@
-"""A draft of lanes under annealing: labels, and one move that is judged before it is made. In C, `draft.c`."""
+"""A draft of lanes under annealing: labels, and one move that is judged before it is made. In C, `trial_move.c`."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. In C, `drift.c`."""
+"""Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. In C, `flip_annealing.c`."""
 
 from garage2usd.native import Int8s, UInt64s, in_c
 from garage2usd.planning.board import Board

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning.dimensioning import dimensioned
+from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.structure.grid import Structure
 

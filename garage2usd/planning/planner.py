@@ -7,11 +7,11 @@ from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
 from garage2usd.planning.board import NO_VALUE, Board, measure, new_board, value_now
 from garage2usd.planning.circulation import circulation
-from garage2usd.planning.dimensioning import dimensioned
+from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.plan import ArchivedPlan, Plan
-from garage2usd.planning.polishing import polish
+from garage2usd.planning.local_search import polish
 from garage2usd.planning.ranking import (
     Ranked,
     faults_of,

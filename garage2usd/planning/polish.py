@@ -1,4 +1,4 @@
-"""Polish of lanes: flips of squares that raise the value, in climbing and in annealing. In C, `polish.c`."""
+"""Polish of lanes: flips of squares that raise the value, in climbing and in annealing. In C, `local_search.c`."""
 
 from typing import NamedTuple
 

@@ -7,7 +7,7 @@ import numpy as np
 from garage2usd.config import BayConfig
 from garage2usd.planning.board import FAULTS, Board, measure
 from garage2usd.planning.circulation import circulation
-from garage2usd.planning.dimensioning import area_per_stall_m2, dimensioned
+from garage2usd.planning.dimensions import area_per_stall_m2, dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of
 from garage2usd.structure.grid import Cell, Structure
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from garage2usd.config import BayConfig
 from garage2usd.native import Bools, Float64s, Int32s, Int64s
-from garage2usd.planning.dimensioning import aisle_side_mm, free_sides_mm
+from garage2usd.planning.dimensions import aisle_side_mm, free_sides_mm
 from garage2usd.planning.ground import Ground, capacity_by_edges
 from garage2usd.structure.grid import Cell, Structure
 

@@ -7,7 +7,7 @@ from support.inner_loops import resize, settle, sync_sides, weigh
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
 from garage2usd.planning.board import FAULTS, measure, new_board
-from garage2usd.planning.circuit import anneal_labels
+from garage2usd.planning.annealing import anneal_labels
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.draft import new_draft
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of

@@ -1,6 +1,6 @@
-/* Moves of simulated annealing under rules (`circuit.c`): a draft is one move of several squares, which is made and
+/* Moves of simulated annealing under rules (`label_annealing.c`): a draft is one move of several squares, which is made and
  * taken back, so that only the squares around it are judged (delta evaluation). */
-#include "draft.h"
+#include "trial_move.h"
 
 /* Have a square in the move; false if there is no room for it. */
 bool add_square(Draft *draft, int64_t q, int64_t label)

@@ -1,6 +1,6 @@
 """Annealing of large plans that circulate: every rule is judged around a move, by labels of the lanes.
 
-In C, `circuit.c`, `labels.c` and `moves.c`.
+In C, `label_annealing.c`, `labels.c` and `moves.c`.
 """
 
 import numpy as np

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning.board import Board
-from garage2usd.planning.circuit import anneal_labels
+from garage2usd.planning.annealing import anneal_labels
 from garage2usd.planning.draft import new_draft
 from garage2usd.planning.drift import drift
 from garage2usd.planning.ground import Ground, Lanes

@@ -1,6 +1,6 @@
 /* What the files of annealing under rules share: labels of lanes, and one move that is judged before it is made. */
-#ifndef GARAGE2USD_DRAFT_H
-#define GARAGE2USD_DRAFT_H
+#ifndef GARAGE2USD_TRIAL_MOVE_H
+#define GARAGE2USD_TRIAL_MOVE_H
 
 #include "planning.h"
 
@@ -11,7 +11,7 @@ enum { MOVED = 0, AROUND = 1, LINES = 2, FAULTY = 3 };
 /* Whose marks `Draft.marks` and `Draft.stamp` have where. */
 enum { SQUARES_MET = 0, BLOCKS_MET = 1, SEARCHED = 2 };
 
-/* draft.c */
+/* trial_move.c */
 bool add_square(Draft *draft, int64_t q, int64_t label);
 void gather(Draft *draft, int64_t stride);
 void apply(const Ground *ground, Board *board, Draft *draft);

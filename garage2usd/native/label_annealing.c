@@ -1,7 +1,7 @@
 /* Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983) of large plans that circulate. Faults are priced, and the
  * prices rise as the temperature falls (a penalty method). Every rule is judged around a move, by labels of the lanes:
  * the rounds of pruning (k-core decomposition, Seidman 1983). */
-#include "draft.h"
+#include "trial_move.h"
 
 /* Shares of the moves that are of a side, and that start at what is broken. */
 #define RESIZED_SHARE 0.02
