@@ -7,11 +7,9 @@ import numpy as np
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.errors import GenerationError
 from garage2usd.planning import Plan, evaluate
-from garage2usd.planning.board import NO_VALUE, Board, measure, new_board
+from garage2usd.planning.board import NO_VALUE, Board, connect, lanes_on, measure, new_board, put_lanes
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of, lanes_of
-from garage2usd.planning.local_search import polish
-from garage2usd.planning.ranking import Ranked, lanes_on, put_lanes, ranked_plans
-from garage2usd.planning.repair import connect
+from garage2usd.planning.local_search import Ranked, local_search, ranked_plans
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Structure
 
@@ -43,7 +41,7 @@ def anneal_alone(
     if not ranked:
         raise GenerationError("plan", "no way joins all portals", seed=seed, attempts=len(given))
     if plan.polishes:
-        ranked = polish(site, ground, board, ranked, plan, bay, random)
+        ranked = local_search(site, ground, board, ranked, plan, bay, random)
     structure = site.with_cells(cells_of(ground, ranked[0][1]))
     return Plan(structure, evaluate(structure, bay=bay, plan=plan))
 

@@ -6,7 +6,7 @@
 
 #define FORBIDDEN (-1.0e18)
 
-/* garage2usd.planning.broken_profile.SquareTable */
+/* garage2usd.planning.frontier.SquareTable */
 typedef struct {
     int64_t cols;
     int64_t bits;

@@ -90,7 +90,7 @@ static void count_in(const Ground *ground, const Board *board, const int64_t *ar
  * which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such measurements take no
  * more than a share of the time. */
 FROM_PYTHON
-double drift(const Ground *ground, Board *board, int8_t *best_cells, uint64_t *random, int64_t flips, double hottest,
+double anneal_flips(const Ground *ground, Board *board, int8_t *best_cells, uint64_t *random, int64_t flips, double hottest,
              double coldest, int64_t refresh)
 {
     Int8Row cells = board->cells;

@@ -2,18 +2,18 @@
 #include "trial_move.h"
 
 /* Label the lanes on the board: short dead ends by their depth, all else as driven through. */
-void label_lanes(const Ground *ground, Board *board, Draft *draft)
+void label_lanes(const Ground *ground, Board *board, TrialMove *move)
 {
     const Int8Row cells = board->cells;
     const Int32Row state = board->state;
-    Int8Row label = draft->label;
-    Int64Row queue = draft->queue;
+    Int8Row label = move->label;
+    Int64Row queue = move->queue;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t deepest = ground->rules.dead_end_squares;
     Survey found;
     survey(ground->squares.at, ground->squares.count, ground->stride, cells.at, board->state.at, board->queue.at,
            deepest, 0, &found);
-    for (int64_t q = 0; q < draft->label.count; q++)
+    for (int64_t q = 0; q < move->label.count; q++)
         AT(label, q) = OFF;
     for (int64_t index = 0; index < ground->squares.count; index++)
         if (AT(cells, AT(ground->squares, index)) == LANE)
@@ -61,7 +61,7 @@ int64_t fault(Int8Row cells, Int8Row label, int64_t stride, int64_t q)
 }
 
 /* List the lanes around which rules are broken, by the last survey and the labels. */
-void find_faults(const Ground *ground, const Board *board, Draft *draft)
+void find_faults(const Ground *ground, const Board *board, TrialMove *move)
 {
     const Int8Row cells = board->cells;
     const CirculationRules *rules = &ground->rules;
@@ -71,11 +71,11 @@ void find_faults(const Ground *ground, const Board *board, Draft *draft)
         if (AT(cells, q) != LANE)
             continue;
         if (AT(board->state, q) < -rules->dead_end_squares || is_long(board, rules->stretch_squares, q) ||
-            fault(cells, draft->label, stride, q) > 0 ||
+            fault(cells, move->label, stride, q) > 0 ||
             (AT(cells, q + 1) == LANE && AT(cells, q + stride) == LANE && AT(cells, q + stride + 1) == LANE))
-            AT(draft->faulty, count++) = q;
+            AT(move->faulty, count++) = q;
     }
-    AT(draft->size, FAULTY) = count;
+    AT(move->size, FAULTY) = count;
 }
 
 /* The last lane of a walk from the tip of a dead end to its root, which ends one lane beyond the depth allowed. */

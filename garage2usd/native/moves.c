@@ -23,9 +23,9 @@ enum { LONGEST_LEG = 6, LONGEST_PATH = 20, LONGEST_RUN = 40 };
 #define ENDS_STAY_SHARE 0.3
 
 /* A label that suits a new lane on a square, mostly. */
-static int64_t new_label(const Ground *ground, const Board *board, const Draft *draft, uint64_t *random, int64_t q)
+static int64_t new_label(const Ground *ground, const Board *board, const TrialMove *move, uint64_t *random, int64_t q)
 {
-    const Int8Row label = draft->label;
+    const Int8Row label = move->label;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     int64_t deepest = ground->rules.dead_end_squares;
     int64_t passing = through(board->cells, label, ground->stride, q);
@@ -41,82 +41,82 @@ static int64_t new_label(const Ground *ground, const Board *board, const Draft *
 }
 
 /* A lane goes, or a free square beside a lane becomes one. */
-static bool flip_square(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
+static bool flip_square(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
     if (AT(board->cells, q) == LANE)
-        return add_square(draft, q, OFF);
+        return add_square(move, q, OFF);
     bool touched = false;
     for (int way = 0; way < 4; way++)
         touched |= AT(board->cells, q + steps[way]) >= LANE;
-    return touched && add_square(draft, q, new_label(ground, board, draft, random, q));
+    return touched && add_square(move, q, new_label(ground, board, move, random, q));
 }
 
 /* A lane gets another label. */
-static bool relabel(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
+static bool relabel(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t q)
 {
     if (AT(board->cells, q) != LANE)
         return false;
     int64_t fresh = 1 + below(random, ground->rules.dead_end_squares + 1);
-    return fresh != AT(draft->label, q) && add_square(draft, q, fresh);
+    return fresh != AT(move->label, q) && add_square(move, q, fresh);
 }
 
 /* A lane moves to the free square beside it. */
-static bool exchange(const Board *board, Draft *draft, int64_t q, int64_t p)
+static bool exchange(const Board *board, TrialMove *move, int64_t q, int64_t p)
 {
     if (AT(board->cells, q) != LANE || AT(board->cells, p) != FREE)
         return false;
-    return add_square(draft, q, OFF) && add_square(draft, p, AT(draft->label, q));
+    return add_square(move, q, OFF) && add_square(move, p, AT(move->label, q));
 }
 
 /* Two lanes side by side go, or two free squares become lanes that lead on or end. */
-static bool flip_pair(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q, int64_t p)
+static bool flip_pair(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t q, int64_t p)
 {
     const Int8Row cells = board->cells;
     if (AT(cells, q) == LANE && AT(cells, p) == LANE)
-        return add_square(draft, q, OFF) && add_square(draft, p, OFF);
-    if (AT(cells, q) != FREE || AT(cells, p) != FREE || through(cells, draft->label, ground->stride, q) == 0)
+        return add_square(move, q, OFF) && add_square(move, p, OFF);
+    if (AT(cells, q) != FREE || AT(cells, p) != FREE || through(cells, move->label, ground->stride, q) == 0)
         return false;
     bool ends = ground->rules.dead_end_squares >= 2 && uniform(random) < 0.5;
-    return add_square(draft, q, ends ? TIP : THROUGH) && add_square(draft, p, ends ? TIP + 1 : THROUGH);
+    return add_square(move, q, ends ? TIP : THROUGH) && add_square(move, p, ends ? TIP + 1 : THROUGH);
 }
 
 /* Whether a square is in the move. */
-static bool is_moved(const Draft *draft, int64_t q)
+static bool is_moved(const TrialMove *move, int64_t q)
 {
-    for (int64_t index = 0; index < AT(draft->size, MOVED); index++)
-        if (AT(draft->moved, index) == q)
+    for (int64_t index = 0; index < AT(move->size, MOVED); index++)
+        if (AT(move->moved, index) == q)
             return true;
     return false;
 }
 
 /* Have a dead end and all that hangs on it go with the move. */
-static bool drop(const Ground *ground, Draft *draft, int64_t q)
+static bool drop(const Ground *ground, TrialMove *move, int64_t q)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    const Int8Row label = draft->label;
-    if (is_moved(draft, q))
+    const Int8Row label = move->label;
+    if (is_moved(move, q))
         return true;
-    if (!add_square(draft, q, OFF))
+    if (!add_square(move, q, OFF))
         return false;
     for (int way = 0; way < 4; way++) {
         int64_t p = q + steps[way];
-        if (AT(label, p) > AT(label, q) && !is_moved(draft, p) && !add_square(draft, p, OFF))
+        if (AT(label, p) > AT(label, q) && !is_moved(move, p) && !add_square(move, p, OFF))
             return false;
     }
     return true;
 }
 
 /* The path between two junctions goes, but for dead ends beside these. */
-static bool take_path(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t q)
+static bool take_path(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t q)
 {
-    const Int8Row cells = board->cells, label = draft->label;
+    const Int8Row cells = board->cells, label = move->label;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    Int64Row lengths = draft->lengths;
+    Int64Row lengths = move->lengths;
     int64_t stride = ground->stride, deepest = ground->rules.dead_end_squares;
     if (AT(label, q) != THROUGH || through(cells, label, stride, q) != 2)
         return false;
-    add_square(draft, q, OFF);
+    add_square(move, q, OFF);
     AT(lengths, 0) = AT(lengths, 1) = 0;
     for (int side = 0; side < 2; side++) {
         int64_t previous = q, here = q, found = 0;
@@ -130,7 +130,7 @@ static bool take_path(const Ground *ground, const Board *board, Draft *draft, ui
         }
         while (AT(label, here) == THROUGH && through(cells, label, stride, here) == 2 && here != q &&
                AT(lengths, side) < LONGEST_PATH) {
-            add_square(draft, here, OFF);
+            add_square(move, here, OFF);
             int64_t onward = here;
             for (int way = 0; way < 4; way++) {
                 int64_t p = here + steps[way];
@@ -144,19 +144,19 @@ static bool take_path(const Ground *ground, const Board *board, Draft *draft, ui
         if (AT(lengths, side) >= LONGEST_PATH || here == q || AT(cells, here) >= ENTRANCE)
             return false;
     }
-    int64_t last = AT(draft->size, MOVED) - 1;
+    int64_t last = AT(move->size, MOVED) - 1;
     for (int side = 0; side < 2; side++) {
         int64_t kept = least(below(random, deepest + 1), AT(lengths, side));
         for (int64_t place = 0; place < kept; place++)
-            AT(draft->fresh, (side == 1 ? last : AT(lengths, 0)) - place) = (int8_t)(place + TIP);
+            AT(move->fresh, (side == 1 ? last : AT(lengths, 0)) - place) = (int8_t)(place + TIP);
     }
     /* dead ends that hang on the path go with it */
     for (int64_t index = 0; index <= last; index++) {
-        if (AT(draft->fresh, index) != OFF)
+        if (AT(move->fresh, index) != OFF)
             continue;
         for (int way = 0; way < 4; way++) {
-            int64_t p = AT(draft->moved, index) + steps[way];
-            if (AT(label, p) > THROUGH && !drop(ground, draft, p))
+            int64_t p = AT(move->moved, index) + steps[way];
+            if (AT(label, p) > THROUGH && !drop(ground, move, p))
                 return false;
         }
     }
@@ -174,9 +174,9 @@ static bool is_run(Int8Row cells, Int8Row label, int64_t stride, int64_t q, int6
 }
 
 /* A straight run between two junctions shifts to the side. */
-static bool shift_run(const Ground *ground, const Board *board, Draft *draft, int64_t q, int64_t step)
+static bool shift_run(const Ground *ground, const Board *board, TrialMove *move, int64_t q, int64_t step)
 {
-    const Int8Row cells = board->cells, label = draft->label;
+    const Int8Row cells = board->cells, label = move->label;
     int64_t stride = ground->stride, along = step_along(stride, step);
     if (!is_run(cells, label, stride, q, along))
         return false;
@@ -195,21 +195,21 @@ static bool shift_run(const Ground *ground, const Board *board, Draft *draft, in
         int64_t p = first + place * along;
         if (AT(cells, p + step) != FREE)
             return false;
-        add_square(draft, p, OFF);
-        add_square(draft, p + step, THROUGH);
+        add_square(move, p, OFF);
+        add_square(move, p + step, THROUGH);
     }
     return true;
 }
 
 /* Lead a new lane from one on over free squares to the next lane, straight or with one bend. */
-static bool lead_on(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t start,
+static bool lead_on(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t start,
                     int64_t step)
 {
     const Int8Row cells = board->cells;
     int64_t p = start + step, length = 0;
     int64_t turn = uniform(random) < BENT_SHARE ? 1 + below(random, LONGEST_LEG) : 0;
     while (AT(cells, p) == FREE && length <= 2 * LONGEST_LEG) {
-        if (!add_square(draft, p, THROUGH))
+        if (!add_square(move, p, THROUGH))
             return false;
         length++;
         if (length == turn) {
@@ -222,16 +222,16 @@ static bool lead_on(const Ground *ground, const Board *board, Draft *draft, uint
         return false;
     const int64_t ends[2] = { start, p };
     for (int end = 0; end < 2; end++)
-        if (AT(draft->label, ends[end]) > THROUGH && !add_square(draft, ends[end], THROUGH))
+        if (AT(move->label, ends[end]) > THROUGH && !add_square(move, ends[end], THROUGH))
             return false;
     return true;
 }
 
 /* Shift all lanes of a line along which cars drive to the side, with the ends of what they join. */
-static bool shift_line(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, int64_t start,
+static bool shift_line(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, int64_t start,
                        int64_t step)
 {
-    const Int8Row cells = board->cells, label = draft->label;
+    const Int8Row cells = board->cells, label = move->label;
     int64_t along = step_along(ground->stride, step);
     if (AT(label, start) != THROUGH || !(AT(label, start - along) == THROUGH || AT(label, start + along) == THROUGH))
         return false;
@@ -245,29 +245,29 @@ static bool shift_line(const Ground *ground, const Board *board, Draft *draft, u
         if (AT(label, p) != THROUGH || !(AT(label, p - along) == THROUGH || AT(label, p + along) == THROUGH))
             continue;
         int64_t fresh = p + step, behind = p - step;
-        if (AT(cells, fresh) == FREE && !add_square(draft, fresh, THROUGH))
+        if (AT(cells, fresh) == FREE && !add_square(move, fresh, THROUGH))
             return false;
         if (AT(cells, fresh) < FREE || AT(cells, fresh) > LANE)
             continue;
         if (AT(label, behind) == OFF && AT(cells, behind) <= FREE) {
             bool ends = AT(cells, fresh) == LANE && keeps_ends;
-            if (!add_square(draft, p, ends ? TIP : OFF))
+            if (!add_square(move, p, ends ? TIP : OFF))
                 return false;
         }
     }
-    return AT(draft->size, MOVED) > 0;
+    return AT(move->size, MOVED) > 0;
 }
 
-/* Draw a move into the draft, some of them where rules are broken; false where what is drawn is not a move. */
-bool propose(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, double faulty_share)
+/* Draw a trial move, some of them where rules are broken; false where the draw is no move. */
+bool propose(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, double faulty_share)
 {
     const Int8Row cells = board->cells;
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    AT(draft->size, MOVED) = 0;
+    AT(move->size, MOVED) = 0;
     int64_t q = AT(ground->squares, below(random, ground->squares.count));
     int64_t step = steps[below(random, 4)];
-    if (AT(draft->size, FAULTY) > 0 && uniform(random) < faulty_share) {
-        q = AT(draft->faulty, below(random, AT(draft->size, FAULTY)));
+    if (AT(move->size, FAULTY) > 0 && uniform(random) < faulty_share) {
+        q = AT(move->faulty, below(random, AT(move->size, FAULTY)));
         for (int64_t left = below(random, 3); left > 0; left--) {
             q += steps[below(random, 4)];
             if (AT(cells, q) != FREE && AT(cells, q) != LANE)
@@ -276,18 +276,18 @@ bool propose(const Ground *ground, const Board *board, Draft *draft, uint64_t *r
     }
     double draw = uniform(random);
     if (draw < FLIPS)
-        return flip_square(ground, board, draft, random, q);
+        return flip_square(ground, board, move, random, q);
     if (draw < RELABELS)
-        return relabel(ground, board, draft, random, q);
+        return relabel(ground, board, move, random, q);
     if (draw < EXCHANGES)
-        return exchange(board, draft, q, q + step);
+        return exchange(board, move, q, q + step);
     if (draw < PAIRS)
-        return flip_pair(ground, board, draft, random, q, q + step);
+        return flip_pair(ground, board, move, random, q, q + step);
     if (draw < CONNECTORS)
-        return AT(cells, q) == LANE && lead_on(ground, board, draft, random, q, step);
+        return AT(cells, q) == LANE && lead_on(ground, board, move, random, q, step);
     if (draw < PATHS)
-        return take_path(ground, board, draft, random, q);
+        return take_path(ground, board, move, random, q);
     if (draw < SHIFTED_LINES)
-        return shift_line(ground, board, draft, random, q, step);
-    return shift_run(ground, board, draft, q, step);
+        return shift_line(ground, board, move, random, q, step);
+    return shift_run(ground, board, move, q, step);
 }

@@ -60,7 +60,7 @@ typedef struct {
     Int64Row tally;
 } Board;
 
-/* garage2usd.planning.survey.Survey */
+/* garage2usd.planning.circulation.Survey */
 typedef struct {
     int64_t deep;
     int64_t loops;
@@ -104,7 +104,7 @@ typedef struct {
     int64_t starts;
 } SarsaParameters;
 
-/* garage2usd.planning.sizes.Sizes */
+/* garage2usd.planning.dimensions.Sizes */
 typedef struct {
     BoolRow is_chosen;
     Int64Row free_mm;
@@ -124,16 +124,16 @@ typedef struct {
     Int64Row change;
 } Sizes;
 
-/* garage2usd.planning.polish.Room */
+/* garage2usd.planning.annealing.Workspace */
 typedef struct {
     Int8Row cells;
     Int64Table kept_mm;
     Int64Row order;
     Int64Row known;
     Int32Row hops;
-} PolishRoom;
+} Workspace;
 
-/* garage2usd.planning.draft.Draft */
+/* garage2usd.planning.annealing.TrialMove */
 typedef struct {
     Int8Row label;
     Int64Table stamp;
@@ -152,7 +152,7 @@ typedef struct {
     Int64Row lengths;
     Int64Row tally;
     Int64Row change;
-} Draft;
+} TrialMove;
 
 static inline int64_t least(int64_t one, int64_t other) { return other < one ? other : one; }
 static inline int64_t most(int64_t one, int64_t other) { return other > one ? other : one; }
@@ -276,9 +276,9 @@ FROM_PYTHON
 int64_t flip_within(const Ground *ground, Board *board, const int64_t *known, int32_t *hops, int64_t q, int64_t p,
                     double enough);
 
-/* local_search.c */
+/* annealing.c */
 FROM_PYTHON
-double improve(const Ground *ground, Board *board, const Sizes *sizes, const PolishRoom *room, uint64_t *random,
+double improve(const Ground *ground, Board *board, const Sizes *sizes, const Workspace *room, uint64_t *random,
                int64_t passes, int64_t flips, double hottest, double coldest);
 
 /* repair.c: connect all lanes and portals by shortest paths over free squares; false if there are none. */

@@ -1,7 +1,7 @@
 /* The survey of circulation on lanes: pruning of dead ends, loops, blocks, stretches. */
 #include "planning.h"
 
-/* Count where lanes break the rules of circulation; garage2usd.planning.survey says what is counted.
+/* Count where lanes break the rules of circulation; garage2usd.planning.circulation says what is counted.
  *
  * A round of pruning takes off all lanes with at most one neighbour, portals being neighbours that stay (k-core
  * decomposition, Seidman 1983, for k = 2 with the portals held). Without stretches, those lanes keep the state 2. */

@@ -1,57 +1,57 @@
-/* Moves of simulated annealing under rules (`label_annealing.c`): a draft is one move of several squares, which is made and
- * taken back, so that only the squares around it are judged (delta evaluation). */
+/* A trial move of simulated annealing by labels: several squares change at once, are judged by the squares around them
+ * (delta evaluation), and are taken back where the move is refused. */
 #include "trial_move.h"
 
 /* Have a square in the move; false if there is no room for it. */
-bool add_square(Draft *draft, int64_t q, int64_t label)
+bool add_square(TrialMove *move, int64_t q, int64_t label)
 {
-    int64_t *moved = &AT(draft->size, MOVED);
-    if (*moved >= draft->moved.count)
+    int64_t *moved = &AT(move->size, MOVED);
+    if (*moved >= move->moved.count)
         return false;
-    AT(draft->moved, *moved) = q;
-    AT(draft->fresh, *moved) = (int8_t)label;
+    AT(move->moved, *moved) = q;
+    AT(move->fresh, *moved) = (int8_t)label;
     (*moved)++;
     return true;
 }
 
 /* Find the squares that a move may touch. */
-void gather(Draft *draft, int64_t stride)
+void gather(TrialMove *move, int64_t stride)
 {
     const int64_t steps[5] = { 0, -stride, stride, -1, 1 };
-    int64_t mark = ++AT(draft->marks, SQUARES_MET), size = 0;
-    int64_t *stamp = draft->stamp.at + SQUARES_MET * draft->stamp.columns;
-    for (int64_t index = 0; index < AT(draft->size, MOVED); index++)
+    int64_t mark = ++AT(move->marks, SQUARES_MET), size = 0;
+    int64_t *stamp = move->stamp.at + SQUARES_MET * move->stamp.columns;
+    for (int64_t index = 0; index < AT(move->size, MOVED); index++)
         for (int way = 0; way < 5; way++) {
-            int64_t q = AT(draft->moved, index) + steps[way];
+            int64_t q = AT(move->moved, index) + steps[way];
             if (stamp[q] != mark) {
                 stamp[q] = mark;
-                AT(draft->around, size++) = q;
+                AT(move->around, size++) = q;
             }
         }
-    AT(draft->size, AROUND) = size;
+    AT(move->size, AROUND) = size;
 }
 
 /* Make the move; new lanes get their hops from what is around. */
-void apply(const Ground *ground, Board *board, Draft *draft)
+void apply(const Ground *ground, Board *board, TrialMove *move)
 {
     const int64_t steps[4] = STEPS_BESIDE(ground->stride);
-    Int8Row cells = board->cells, label = draft->label;
+    Int8Row cells = board->cells, label = move->label;
     Int32Row hops = board->hops;
-    int64_t size = AT(draft->size, MOVED);
+    int64_t size = AT(move->size, MOVED);
     for (int64_t index = 0; index < size; index++) {
-        int64_t q = AT(draft->moved, index);
-        AT(draft->old, index) = AT(label, q);
-        AT(draft->old_hops, index) = AT(hops, q);
-        AT(label, q) = AT(draft->fresh, index);
+        int64_t q = AT(move->moved, index);
+        AT(move->old, index) = AT(label, q);
+        AT(move->old_hops, index) = AT(hops, q);
+        AT(label, q) = AT(move->fresh, index);
         bool was_lane = AT(cells, q) == LANE;
-        AT(cells, q) = AT(draft->fresh, index) > OFF ? LANE : FREE;
+        AT(cells, q) = AT(move->fresh, index) > OFF ? LANE : FREE;
         if (!was_lane || AT(cells, q) == FREE)
             AT(hops, q) = FAR;
     }
     for (int turn = 0; turn < 2; turn++)
         for (int64_t place = 0; place < size; place++) {
-            int64_t index = turn == 0 ? place : size - 1 - place, q = AT(draft->moved, index);
-            if (AT(cells, q) != LANE || AT(draft->old, index) != OFF)
+            int64_t index = turn == 0 ? place : size - 1 - place, q = AT(move->moved, index);
+            if (AT(cells, q) != LANE || AT(move->old, index) != OFF)
                 continue;
             for (int way = 0; way < 4; way++) {
                 int64_t p = q + steps[way];
@@ -64,12 +64,12 @@ void apply(const Ground *ground, Board *board, Draft *draft)
 }
 
 /* Take the move back. */
-void revert(Board *board, Draft *draft)
+void revert(Board *board, TrialMove *move)
 {
-    for (int64_t index = AT(draft->size, MOVED) - 1; index >= 0; index--) {
-        int64_t q = AT(draft->moved, index);
-        AT(draft->label, q) = AT(draft->old, index);
-        AT(board->hops, q) = AT(draft->old_hops, index);
-        AT(board->cells, q) = AT(draft->old, index) > OFF ? LANE : FREE;
+    for (int64_t index = AT(move->size, MOVED) - 1; index >= 0; index--) {
+        int64_t q = AT(move->moved, index);
+        AT(move->label, q) = AT(move->old, index);
+        AT(board->hops, q) = AT(move->old_hops, index);
+        AT(board->cells, q) = AT(move->old, index) > OFF ? LANE : FREE;
     }
 }

@@ -6,21 +6,21 @@
 
 /* Labels of squares: free, a lane that is driven through, the first lane of a dead end; deeper ones count on. */
 enum { OFF = 0, THROUGH = 1, TIP = 2 };
-/* Where `Draft.size` has how many squares are moved, are around, lines get another side, and squares are faulty. */
+/* Where `TrialMove.size` has how many squares are moved, are around, lines get another side, and squares are faulty. */
 enum { MOVED = 0, AROUND = 1, LINES = 2, FAULTY = 3 };
-/* Whose marks `Draft.marks` and `Draft.stamp` have where. */
+/* Whose marks `TrialMove.marks` and `TrialMove.stamp` have where. */
 enum { SQUARES_MET = 0, BLOCKS_MET = 1, SEARCHED = 2 };
 
 /* trial_move.c */
-bool add_square(Draft *draft, int64_t q, int64_t label);
-void gather(Draft *draft, int64_t stride);
-void apply(const Ground *ground, Board *board, Draft *draft);
-void revert(Board *board, Draft *draft);
+bool add_square(TrialMove *move, int64_t q, int64_t label);
+void gather(TrialMove *move, int64_t stride);
+void apply(const Ground *ground, Board *board, TrialMove *move);
+void revert(Board *board, TrialMove *move);
 
 /* labels.c */
-void label_lanes(const Ground *ground, Board *board, Draft *draft);
+void label_lanes(const Ground *ground, Board *board, TrialMove *move);
 int64_t fault(Int8Row cells, Int8Row label, int64_t stride, int64_t q);
-void find_faults(const Ground *ground, const Board *board, Draft *draft);
+void find_faults(const Ground *ground, const Board *board, TrialMove *move);
 FROM_PYTHON
 void trim(const Ground *ground, Board *board);
 
@@ -41,6 +41,6 @@ static inline bool is_long(const Board *board, int64_t stretch_squares, int64_t 
 }
 
 /* moves.c */
-bool propose(const Ground *ground, const Board *board, Draft *draft, uint64_t *random, double faulty_share);
+bool propose(const Ground *ground, const Board *board, TrialMove *move, uint64_t *random, double faulty_share);
 
 #endif

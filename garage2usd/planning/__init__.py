@@ -1,9 +1,8 @@
 """Lanes on a site: the score, Sarsa, and the archive of the best plans."""
 
-from garage2usd.planning.bound import counting_bound
+from garage2usd.planning.circulation import MeasuredCirculation, measured_circulation, neither_share
 from garage2usd.planning.dimensions import area_per_stall_m2, dimension, dimensioned
-from garage2usd.planning.measured import MeasuredCirculation, measured_circulation, neither_share
-from garage2usd.planning.optimum import Optimum, find_optimum
+from garage2usd.planning.optimum import Optimum, counting_bound, find_optimum
 from garage2usd.planning.plan import ArchivedPlan, Plan, given_plan
 from garage2usd.planning.planner import plan_lanes
 from garage2usd.planning.principles import Principles, principles

@@ -1,13 +1,26 @@
-"""A board of lanes with its score: measured whole. In C, `board.c`."""
+"""A board of lanes: its score, and the repair of lanes that are not joined. In C, `board.c` and `repair.c`."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from garage2usd.native import Int8s, Int32s, Int64s, in_c
-from garage2usd.planning.ground import Ground
+from garage2usd.planning.ground import Ground, Lanes
+from garage2usd.structure.grid import Cell
 
-__all__ = ["FAR", "FAULTS", "NO_VALUE", "Board", "measure", "new_board", "value_now"]
+__all__ = [
+    "FAR",
+    "FAULTS",
+    "NO_VALUE",
+    "Board",
+    "connect",
+    "faults_of",
+    "lanes_on",
+    "measure",
+    "new_board",
+    "put_lanes",
+    "value_now",
+]
 
 FAR = 1 << 28
 NO_VALUE = -1.0e9
@@ -77,4 +90,37 @@ def measure(ground: Ground, board: Board, enough: float) -> float:
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
     """
+    raise NotImplementedError
+
+
+def faults_of(ground: Ground, board: Board, lanes: Lanes) -> int:
+    """How often lanes break the rules of circulation."""
+    put_lanes(ground, board, lanes)
+    measure(ground, board, -np.inf)
+    return int(board.tally[FAULTS])
+
+
+def lanes_on(ground: Ground, board: Board) -> Lanes:
+    """The lanes on the board."""
+    lanes: Lanes = board.cells[ground.squares] == Cell.LANE
+    return lanes
+
+
+def put_lanes(ground: Ground, board: Board, lanes: Lanes) -> None:
+    """Have these lanes on the board and no others; keeps no tally."""
+    board.cells[:] = ground.cells
+    board.cells[ground.squares[lanes]] = Cell.LANE
+
+
+def connect(ground: Ground, board: Board) -> bool:
+    """Connect all lanes and portals by shortest paths over free squares; False if there are none.
+
+    Starts at the first portal; lanes that no way reaches are taken off.
+    """
+    return _connect_lanes(ground, board)
+
+
+@in_c
+def _connect_lanes(ground: Ground, board: Board) -> bool:
+    """`connect`, whose own name is one of the C library."""
     raise NotImplementedError

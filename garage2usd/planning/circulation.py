@@ -1,5 +1,10 @@
-"""How traffic circulates on lanes: the rules R1 to R4, and what a structure has of each."""
+"""Circulation of traffic on lanes: the rules R1 to R4, faults against them, and lengths of dead ends and stretches.
 
+The survey of lanes is in C, `survey.c`.
+"""
+# Over 300 lines: rules in squares and lengths in metres are read off one survey.
+
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -7,15 +12,31 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.config import PlanConfig
+from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.planning.survey import STRETCH, survey
+from garage2usd.native import Int8s, Int32s, Int64s, in_c
 from garage2usd.structure.border import bordered
-from garage2usd.structure.grid import Cell, Mask, Structure
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Mask, Structure
 from garage2usd.structure.lane_graph import Square
 from garage2usd.structure.pieces import pieces_of
+from garage2usd.structure.stalls import square_capacity
 
-__all__ = ["Circulation", "CirculationRules", "circulation", "rules_of"]
+__all__ = [
+    "STRETCH",
+    "Circulation",
+    "CirculationRules",
+    "MeasuredCirculation",
+    "Run",
+    "Survey",
+    "circulation",
+    "measured_circulation",
+    "neither_share",
+    "rules_of",
+    "survey",
+]
+
+_MM_PER_M = 1000
+_MM2_PER_M2 = 1_000_000
 
 _STRETCH_SITE_SQUARES = 400
 """Free squares from which on R4 is asked for: there one long ring would satisfy R2."""
@@ -94,6 +115,83 @@ def rules_of(plan: PlanConfig, *, squares: int) -> CirculationRules:
         loopless_cost=5.0 * plan.stall_weight if asks_loops else 0.0,
         stretch_cost=plan.stall_weight if asks_loops and stretch else 0.0,
     )
+
+
+STRETCH = 4
+"""States above it are stretches: so much more than the squares that they have."""
+
+
+class Survey(NamedTuple):
+    """Figures of the lanes of a site.
+
+    Attributes
+    ----------
+    deep
+        Lanes that pruning takes off after the allowed rounds (R1).
+    loops
+        Independent circuits of lanes that form one piece, ``E - V + 1``, less the blocks (R2).
+    blocks
+        Blocks of two by two lanes (R3).
+    excess
+        Squares by which stretches without a junction exceed the allowed length, summed (R4).
+    """
+
+    deep: int
+    loops: int
+    blocks: int
+    excess: int
+
+
+def survey(
+    squares: Int64s,
+    stride: int,
+    cells: Int8s,
+    state: Int32s,
+    dead_end_squares: int,
+    stretch_squares: int,
+) -> Survey:
+    """Count where lanes break the rules of circulation.
+
+    Parameters
+    ----------
+    squares
+        int64: the squares that may be lanes.
+    stride
+        Step from a square to the one below.
+    cells
+        int8: the padded structure matrix.
+    state
+        int32, shape of `cells`, set on all lanes: minus the round in which a dead end is pruned; the number of
+        neighbours of a junction, 3 or 4; or `STRETCH` and the squares of the stretch that the lane belongs to.
+    dead_end_squares
+        R1: rounds of pruning that are free.
+    stretch_squares
+        R4: squares of a stretch that are free; below 1 stretches are not looked at.
+
+    Notes
+    -----
+    A round of pruning takes off all lanes with at most one neighbour, portals being neighbours that stay (k-core
+    decomposition, Seidman 1983, for k = 2 with the portals held). Without stretches, those lanes keep the state 2.
+    """
+    queue, found = np.empty(len(cells), np.int64), np.zeros(4, np.int64)
+    _survey(squares, len(squares), stride, cells, state, queue, dead_end_squares, stretch_squares, found)
+    return Survey(*found.tolist())
+
+
+@in_c
+def _survey(
+    squares: Int64s,
+    count: int,
+    stride: int,
+    cells: Int8s,
+    state: Int32s,
+    queue: Int64s,
+    dead_end_squares: int,
+    stretch_squares: int,
+    found: Int64s,
+) -> None:
+    """`survey` of the first `count` squares, with room for as many in `queue`; `found` takes the figures."""
+    raise NotImplementedError
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,3 +287,127 @@ def circulation(structure: Structure) -> Circulation:
         stretches=np.maximum(states - STRETCH, 0).astype(np.int32),
         blocks=tuple((row, col) for row, col in np.argwhere(blocks).tolist()),
     )
+
+
+@dataclass(frozen=True)
+class Run:
+    """Lanes that belong together: a dead end with all its branches, or a stretch between two junctions.
+
+    Attributes
+    ----------
+    squares
+        (row, col) of its lanes: of a dead end from the deepest one on, of a stretch in reading order.
+    length_m
+        Of a dead end from its deepest tip to the lane or portal where it begins, of a stretch from end to end.
+    length_squares
+        The same in squares.
+    """
+
+    squares: tuple[Square, ...]
+    length_m: float
+    length_squares: int
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredCirculation:
+    """How traffic circulates on a structure's lanes, in squares and in metres.
+
+    Attributes
+    ----------
+    circulation
+        The survey in squares.
+    dead_ends
+        Every dead end with its branches, by the square where it begins.
+    stretches
+        Every stretch of lanes without a junction.
+    """
+
+    circulation: Circulation
+    dead_ends: tuple[Run, ...]
+    stretches: tuple[Run, ...]
+
+    @cached_property
+    def dead_end_m(self) -> float:
+        """Depth of the deepest dead end; 0 without any."""
+        return max((run.length_m for run in self.dead_ends), default=0.0)
+
+    @cached_property
+    def stretch_m(self) -> float:
+        """Length of the longest stretch without a junction; 0 without any."""
+        return max((run.length_m for run in self.stretches), default=0.0)
+
+
+def measured_circulation(structure: Structure) -> MeasuredCirculation:
+    """Measure how traffic circulates on a complete structure.
+
+    Notes
+    -----
+    The lanes that pruning takes off form trees: each hangs on the one neighbour that outlasts it. The depth of a tree
+    is the length of its longest branch, measured from border to border. A stretch is measured along the middle of its
+    lanes, from the border of one junction to that of the next.
+    """
+    found = circulation(structure)
+    return MeasuredCirculation(found, tuple(_dead_ends(structure, found)), tuple(_stretches(structure, found)))
+
+
+def neither_share(structure: Structure, bay: BayConfig) -> float:
+    """Share of the floor inside the contour, obstacles apart, that is neither a lane or portal nor a stall."""
+    areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2
+    floor = float(areas[structure.cells != Cell.OBSTACLE].sum())
+    stalls = int(square_capacity(structure, bay).sum()) * bay.stall_width_m * bay.stall_length_m
+    used = float(areas[structure.cells >= Cell.LANE].sum()) + stalls
+    return max(0.0, 1.0 - used / floor) if floor else 0.0
+
+
+def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
+    """A tree of pruned lanes at a time."""
+    rounds = np.pad(found.rounds, 1)
+    drivable = bordered(structure.cells >= Cell.LANE)
+    root_of: dict[Square, Square] = {}
+    depth: dict[Square, tuple[int, int]] = {}
+    trees: dict[Square, list[Square]] = {}
+    pruned: list[Square] = [(row, col) for row, col in np.argwhere(found.rounds > 0).tolist()]
+    # a lane is pruned after all that hang on it, so that whatever it hangs on itself is measured before
+    for square in sorted(pruned, key=lambda square: -int(found.rounds[square])):
+        onward, side_mm = _onward(structure, rounds, drivable, square)
+        root_of[square] = square if onward is None else root_of[onward]
+        before_mm, before = (0, 0) if onward is None else depth[onward]
+        depth[square] = before_mm + side_mm, before + 1
+        trees.setdefault(root_of[square], []).append(square)
+    for root in sorted(trees):
+        squares = sorted(trees[root], key=lambda square: (-depth[square][0], square))
+        yield Run(tuple(squares), depth[squares[0]][0] / _MM_PER_M, max(depth[square][1] for square in squares))
+
+
+def _onward(
+    structure: Structure, rounds: NDArray[np.int32], drivable: NDArray[np.bool_], square: Square
+) -> tuple[Square | None, int]:
+    """The pruned lane that a pruned lane hangs on, None where it hangs on one that stays, and its length that way."""
+    row, col = square
+    sides = int(structure.row_depths_mm[row]), int(structure.column_widths_mm[col])
+    for dr, dc in NEIGHBOUR_STEPS:
+        at = row + 1 + dr, col + 1 + dc
+        if drivable[at] and rounds[at] == 0:
+            return None, sides[0] if dr else sides[1]
+    for dr, dc in NEIGHBOUR_STEPS:
+        at = row + 1 + dr, col + 1 + dc
+        if rounds[at] > rounds[row + 1, col + 1]:
+            return (row + dr, col + dc), sides[0] if dr else sides[1]
+    return None, max(sides)
+
+
+def _stretches(structure: Structure, found: Circulation) -> Iterator[Run]:
+    """A piece of lanes with two neighbours that stay at a time."""
+    stays = np.pad((structure.cells >= Cell.LANE) & (found.rounds == 0), 1)
+    up, down, left, right = stays[:-2, 1:-1], stays[2:, 1:-1], stays[1:-1, :-2], stays[1:-1, 2:]
+    along_mm = (
+        (up.astype(np.int64) + down) * structure.row_depths_mm[:, None]
+        + (left.astype(np.int64) + right) * structure.column_widths_mm
+    ) // 2
+    numbers, count = pieces_of(found.stretches > 0)
+    squares: list[list[Square]] = [[] for _ in range(count)]
+    for row, col in np.argwhere(numbers).tolist():
+        squares[numbers[row, col] - 1].append((row, col))
+    for run in squares:
+        length_mm = sum(int(along_mm[square]) for square in run)
+        yield Run(tuple(run), length_mm / _MM_PER_M, len(run))

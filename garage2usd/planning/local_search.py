@@ -1,6 +1,6 @@
 """Polish of the best plans that learning met: climbing and annealing, on equal squares or in metres."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -8,27 +8,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning.board import Board
-from garage2usd.planning.annealing import anneal_labels
-from garage2usd.planning.draft import new_draft
-from garage2usd.planning.drift import drift
-from garage2usd.planning.ground import Ground, Lanes
-from garage2usd.planning.learner import uses_aisles
-from garage2usd.planning.polish import Room, improve, new_room
-from garage2usd.planning.ranking import (
-    Ranked,
-    apart,
-    faults_of,
-    keeping_rules_first,
-    lanes_on,
-    least_floor_first,
-    put_lanes,
-    ranked_plans,
+from garage2usd.planning.annealing import (
+    Workspace,
+    anneal_flips,
+    anneal_labels,
+    improve,
+    new_trial_move,
+    new_workspace,
 )
-from garage2usd.planning.sizes import Sizes, sizes_of
+from garage2usd.planning.board import Board, faults_of, lanes_on, put_lanes
+from garage2usd.planning.circulation import circulation
+from garage2usd.planning.dimensions import Sizes, area_per_stall_m2, dimensioned, sizes_of
+from garage2usd.planning.ground import Ground, Lanes, cells_of
+from garage2usd.planning.learner import uses_aisles
 from garage2usd.structure.grid import Structure
 
-__all__ = ["polish"]
+__all__ = ["Ranked", "keeping_rules_first", "least_floor_first", "local_search", "ranked_plans"]
+
+Ranked = tuple[float, Lanes]
+"""A plan with its value."""
+
+_FINALISTS, _MOSTLY_COMMON = 12, 0.9
+"""Plans that are dimensioned to be compared in metres, which takes time; common share of lanes of plans too alike."""
 
 _FULL_EPISODES = 5000
 """The default, and the paper's; with fewer episodes there is less polish in proportion."""
@@ -73,7 +74,7 @@ _DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
 _DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
 
 
-def polish(
+def local_search(
     site: Structure,
     ground: Ground,
     board: Board,
@@ -93,24 +94,24 @@ def polish(
         # polish writes what squares hold by their sides
         ground = ground._replace(capacity=ground.capacity.copy())
         sizes.price[0] = ground.weights[0] / _STALL_M2
-    polisher = _Polisher(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
+    search = _LocalSearch(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
     if not uses_aisles(ground, plan):
-        ranked = polisher.annealed(polisher.climbed(polisher.valued(ranked), plan.climb_top))
+        ranked = search.annealed(search.climbed(search.valued(ranked), plan.climb_top))
     elif not ground.rules.is_asked and not is_sized:
-        ranked = polisher.drifted(ranked)
+        ranked = search.drifted(ranked)
     else:
         is_middle = len(ground.squares) <= _WHOLE_SQUARES
-        ranked = polisher.valued(ranked)
+        ranked = search.valued(ranked)
         if is_middle:
-            ranked = polisher.valued(polisher.annealed(ranked))
+            ranked = search.valued(search.annealed(ranked))
         if not is_middle or is_sized or faults_of(ground, board, ranked[0][1]):
-            ranked = polisher.annealed_under_rules(ranked)
+            ranked = search.annealed_under_rules(ranked)
     ranked = keeping_rules_first(ground, board, ranked)
     return least_floor_first(site, ground, ranked, bay) if is_sized else ranked
 
 
 @dataclass(frozen=True, eq=False)
-class _Polisher:
+class _LocalSearch:
     """Ways to improve plans of one site.
 
     Attributes
@@ -133,9 +134,9 @@ class _Polisher:
         return len(self.ground.squares)
 
     @cached_property
-    def room(self) -> Room:
+    def room(self) -> Workspace:
         """Room for plans."""
-        return new_room(self.ground, self.sizes)
+        return new_workspace(self.ground, self.sizes)
 
     @cached_property
     def is_sized(self) -> bool:
@@ -166,7 +167,7 @@ class _Polisher:
         if self.is_sized:
             flips = min(flips, int(_SIZED_FLIPS_A_SQUARE * self.effort * self.squares))
         annealing = partial(self._improve, flips=flips, heats=heats)
-        return self._improved(ranked, apart(ranked, count), annealing)
+        return self._improved(ranked, distinct_plans(ranked, count), annealing)
 
     def _improve(self, *, passes: int = 0, flips: int = 0, heats: tuple[float, float] = (1.0, 1.0)) -> float:
         """Climb and anneal the lanes on the board; their value."""
@@ -174,20 +175,20 @@ class _Polisher:
 
     def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
         """The best annealed under the rules of circulation by labels, and all as they were; best first."""
-        draft = new_draft(self.ground)
+        move = new_trial_move(self.ground)
         trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
         if self.is_sized:  # each takes longer
             trials //= 2
         refresh = _LABEL_REFRESH_ROUNDS * self.squares
         count = _LABELLED_LARGE if self.squares >= _LARGE_SQUARES else _LABELLED
-        starts = apart(ranked, count)
+        starts = distinct_plans(ranked, count)
         for number in range(_MOST_LABELLED):
             # more only where none has come to keep the rules
             if number >= count and not min(faults_of(self.ground, self.board, lanes) for _, lanes in ranked):
                 break
             prices = _LABEL_PRICES[number % len(_LABEL_PRICES)]
             annealing = partial(
-                anneal_labels, self.ground, self.board, draft, self.sizes, self.room, self.random,
+                anneal_labels, self.ground, self.board, move, self.sizes, self.room, self.random,
                 trials, _LABEL_HEATS, prices, refresh,
             )  # fmt: skip
             ranked = self._improved(ranked, [starts[number % len(starts)]], annealing)
@@ -198,7 +199,7 @@ class _Polisher:
         hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
         flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
         drifting = partial(
-            drift, self.ground, self.board, self.room.cells, self.random, flips, hottest, _DRIFT_COLDEST, refresh
+            anneal_flips, self.ground, self.board, self.room.cells, self.random, flips, hottest, _DRIFT_COLDEST, refresh
         )
         return self._improved(ranked, ranked[:_DRIFTED], drifting)
 
@@ -211,3 +212,39 @@ class _Polisher:
             improved = lanes_on(self.ground, self.board)
             best.setdefault(improved.tobytes(), (value, improved))
         return ranked_plans(best.values())
+
+
+def ranked_plans(plans: Iterable[Ranked]) -> list[Ranked]:
+    """Each once, best first; equal values by their lanes, so that no order of meeting matters."""
+    return sorted(
+        {lanes.tobytes(): (value, lanes) for value, lanes in plans}.values(),
+        key=lambda entry: (-entry[0], entry[1].tobytes()),
+    )
+
+
+def keeping_rules_first(ground: Ground, board: Board, ranked: list[Ranked]) -> list[Ranked]:
+    """The same, those that break the rules of circulation least often first."""
+    return sorted(ranked, key=lambda entry: faults_of(ground, board, entry[1])) if ground.rules.is_asked else ranked
+
+
+def least_floor_first(site: Structure, ground: Ground, ranked: list[Ranked], bay: BayConfig) -> list[Ranked]:
+    """The first few by the rules that they break and their floor for a stall, the rest as they are."""
+
+    def key(entry: Ranked) -> tuple[int, float, bytes]:
+        structure = dimensioned(site.with_cells(cells_of(ground, entry[1])), bay)
+        broken = circulation(structure).faults(ground.rules)
+        return len(broken), area_per_stall_m2(structure, bay), entry[1].tobytes()
+
+    return [*sorted(ranked[:_FINALISTS], key=key), *ranked[_FINALISTS:]]
+
+
+def distinct_plans(ranked: list[Ranked], count: int) -> list[Ranked]:
+    """The best few plans of which no two have most lanes in common; fewer where there are no more."""
+    chosen: list[Ranked] = []
+    for entry in ranked:
+        common = max((int((entry[1] & lanes).sum()) / max(1, int(lanes.sum())) for _, lanes in chosen), default=0.0)
+        if common < _MOSTLY_COMMON:
+            chosen.append(entry)
+        if len(chosen) == count:
+            break
+    return chosen

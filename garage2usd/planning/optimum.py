@@ -10,15 +10,24 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.planning.board import NO_VALUE, new_board
-from garage2usd.planning.broken_profile import FORBIDDEN, SquareTable, are_complete, column_bits, first_frontier
 from garage2usd.planning.circulation import CirculationRules, circulation
-from garage2usd.planning.frontier import advance, enumerate_layouts, new_enumeration, suffix_values
+from garage2usd.planning.frontier import (
+    FORBIDDEN,
+    SquareTable,
+    advance,
+    are_complete,
+    column_bits,
+    enumerate_layouts,
+    first_frontier,
+    new_enumeration,
+    suffix_values,
+)
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, CellArray, Structure
 
-__all__ = ["Optimum", "find_optimum", "free_hops"]
+__all__ = ["Optimum", "counting_bound", "find_optimum"]
 
 _MAX_FRONTIERS = 30_000_000
 """Frontiers kept at most: the 25 million of 9 x 9 squares with dead ends of two take 1.1 GB and 40 s."""
@@ -157,7 +166,7 @@ def _beat(ground: Ground, table: SquareTable, value: float, progress: Progress) 
     most = float(np.max(counts[are_complete(stalls, keys)], initial=0.0))
     if most == 0:
         return _Beaten(None, 0, 0)
-    hops, price = free_hops(ground), -float(ground.weights[1]) / most
+    hops, price = _free_hops(ground), -float(ground.weights[1]) / most
     table = table._replace(worth=_worth(ground, hops, price))
     layers = _frontiers(table, progress)
     suffixes = [np.where(are_complete(table, layers[-1][0]), 0.0, FORBIDDEN)]
@@ -215,7 +224,7 @@ def _worth(ground: Ground, hops: NDArray[np.int64], price: float) -> NDArray[np.
     return np.ascontiguousarray(worth)
 
 
-def free_hops(ground: Ground) -> NDArray[np.int64]:
+def _free_hops(ground: Ground) -> NDArray[np.int64]:
     """Hops from the nearest entrance if every free square were a lane; shape (padded,)."""
     hops = np.full(len(ground.cells), _FAR)
     queue: deque[int] = deque()
@@ -262,3 +271,33 @@ def _as_on(site: Structure, cells: CellArray) -> CellArray:
     """The matrix of an upright site as it is on the site."""
     flipped = cells[::-1] if _is_flipped(site) else cells
     return np.ascontiguousarray(flipped.T if _is_turned(site) else flipped)
+
+
+def counting_bound(site: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> float:
+    """A value of y' that no feasible structure on a site exceeds.
+
+    Notes
+    -----
+    L lanes have ``4 L`` edges; joined to one piece they spend ``2 (L - 1)`` on each other and at least one on each of
+    P portals, so they serve ``F <= 2 L + 2 - P`` squares. With ``F + L <= A`` free squares ``F <= (2 A + 2 - P) / 3``.
+
+    The same holds for the lanes within h hops of an entrance: their pieces, at most the K free squares beside an
+    entrance, serve ``F_h <= 2 L_h + K`` squares, and all of these are among the B squares that a way of h + 1 hops over
+    free squares reaches. So at most ``(2 B + K) / 3`` squares have a parking time of h + 1, which bounds T_S from
+    below; where squares hold different numbers of stalls, the least time does. U_S is at least 0.
+    """
+    ground = ground_of(site, bay=bay, plan=plan or PlanConfig())
+    squares = ground.squares
+    served = min(len(squares), max(0, (2 * len(squares) + 2 - len(ground.portals)) // 3))
+    most = np.sort(ground.capacity[squares].max(axis=1))[::-1][:served]
+    if not served or not most[0]:
+        return 0.0
+    stalls = np.cumsum(most)
+    if most[-1] == most[0]:
+        hops = _free_hops(ground)[squares]
+        reached = np.cumsum(np.bincount(hops[hops < len(ground.cells)]))
+        nearest = np.searchsorted((2 * reached + (hops == 1).sum()) // 3, np.arange(1, served + 1))
+        times = np.cumsum(np.maximum(nearest, 2)) / np.arange(1, served + 1)
+    else:
+        times = np.full(served, 2.0)
+    return float((ground.weights[0] * stalls + ground.weights[1] * times).max())

@@ -5,22 +5,23 @@ import numpy as np
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Choice
 from garage2usd.errors import GenerationError
-from garage2usd.planning.board import NO_VALUE, Board, measure, new_board, value_now
+from garage2usd.planning.board import (
+    NO_VALUE,
+    Board,
+    connect,
+    faults_of,
+    lanes_on,
+    measure,
+    new_board,
+    put_lanes,
+    value_now,
+)
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.dimensions import dimensioned
 from garage2usd.planning.ground import Ground, Lanes, cells_of, ground_of
 from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
+from garage2usd.planning.local_search import Ranked, keeping_rules_first, least_floor_first, local_search
 from garage2usd.planning.plan import ArchivedPlan, Plan
-from garage2usd.planning.local_search import polish
-from garage2usd.planning.ranking import (
-    Ranked,
-    faults_of,
-    keeping_rules_first,
-    lanes_on,
-    least_floor_first,
-    put_lanes,
-)
-from garage2usd.planning.repair import connect
 from garage2usd.planning.score import Score, evaluate
 from garage2usd.progress import Progress, silent
 from garage2usd.randomness import Step, generator
@@ -83,7 +84,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     best_learnt = _archived(site, ground, board, keeping_rules_first(ground, board, ranked)[0][1])
     met = {lanes.tobytes() for _, lanes in ranked}
     if plan.polishes:
-        ranked = polish(site, ground, board, ranked, plan, bay, random)
+        ranked = local_search(site, ground, board, ranked, plan, bay, random)
     elif any(bay.chosen_sides):
         ranked = least_floor_first(site, ground, keeping_rules_first(ground, board, ranked), bay)
     else:

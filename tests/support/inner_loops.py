@@ -2,8 +2,8 @@
 
 from garage2usd.native import Int8s, Int32s, Int64s, in_c
 from garage2usd.planning.board import Board
+from garage2usd.planning.dimensions import Sizes
 from garage2usd.planning.ground import Ground
-from garage2usd.planning.sizes import Sizes
 
 REFUSED, FLIPPED, TALLIED = 0, 1, 2
 """What became of a flip."""

@@ -11,12 +11,11 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.driving.search import Task
 from garage2usd.driving.sweep import Scene
 from garage2usd.native import LIBRARY, in_c, load, packed
-from garage2usd.planning import aisles, polish, sarsa
+from garage2usd.planning import aisles, annealing, sarsa
 from garage2usd.planning.archive import new_archive, next_random
 from garage2usd.planning.board import new_board
-from garage2usd.planning.draft import new_draft
+from garage2usd.planning.dimensions import sizes_of
 from garage2usd.planning.ground import ground_of
-from garage2usd.planning.sizes import sizes_of
 from garage2usd.structure.grid import Structure
 
 
@@ -41,8 +40,8 @@ def examples():
     sizes, runs = sizes_of(ground, BayConfig()), aisles.runs_of(ground)
     scene = Scene(np.zeros((2, 4, 2)), np.zeros((2, 4)), np.zeros(3))
     made = (
-        ground, new_board(ground), parameters, archive, sizes, runs, scene, new_draft(ground),
-        sarsa.new_memory(parameters, bits=4), sarsa.new_room(ground, archive), polish.new_room(ground, sizes),
+        ground, new_board(ground), parameters, archive, sizes, runs, scene, annealing.new_trial_move(ground),
+        sarsa.new_memory(parameters, bits=4), sarsa.new_room(ground, archive), annealing.new_workspace(ground, sizes),
         aisles.new_room(ground, runs), Task(scene, np.zeros(3), np.zeros((1, 5)), 6.0, 0.1, 9.0, 0.5, 3, 10),
     )  # fmt: skip
     return {type(value): value for value in made}

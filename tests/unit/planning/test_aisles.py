@@ -5,13 +5,11 @@ import pytest
 from support.planning_reference import BAY, G1, G2, G3, OPTIMUM, feasible, score, sown
 
 from garage2usd.config import PlanConfig, SiteConfig
-from garage2usd.planning import evaluate, plan_lanes
+from garage2usd.planning import counting_bound, evaluate, plan_lanes
 from garage2usd.planning.aisles import runs_of
-from garage2usd.planning.board import measure
-from garage2usd.planning.bound import counting_bound
-from garage2usd.planning.drift import drift
+from garage2usd.planning.annealing import anneal_flips
+from garage2usd.planning.board import connect, measure
 from garage2usd.planning.ground import cells_of, ground_of
-from garage2usd.planning.repair import connect
 from garage2usd.site import make_site
 
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
@@ -48,11 +46,11 @@ def test_runs_are_all_of_the_site():
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_drift_stays_feasible_and_never_loses(seed):
+def test_annealing_of_flips_stays_feasible_and_never_loses(seed):
     site, ground, board, _ = sown(seed, ALLOW)
     assert connect(ground, board)
     before = measure(ground, board, -np.inf)
-    after = drift(ground, board, board.cells.copy(), np.array([seed], np.uint64), 20_000, 1.0, 0.1, 50)
+    after = anneal_flips(ground, board, board.cells.copy(), np.array([seed], np.uint64), 20_000, 1.0, 0.1, 50)
     structure = site.with_cells(cells_of(ground, board.cells[ground.squares] == 1))
     assert after > before
     assert feasible(structure.cells)

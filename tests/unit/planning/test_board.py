@@ -6,9 +6,8 @@ from support.inner_loops import clear, dead_ends, lay, trim
 from support.planning_reference import BAY, drawn, feasible, random_site, score, sown
 
 from garage2usd.config import BayConfig, PlanConfig
-from garage2usd.planning.board import NO_VALUE, measure, new_board, value_now
+from garage2usd.planning.board import NO_VALUE, connect, measure, new_board, value_now
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
-from garage2usd.planning.repair import connect
 
 ALLOW = PlanConfig(circulation="allow", dead_ends="allow")
 FORBID = PlanConfig(circulation="allow", dead_ends="forbid")

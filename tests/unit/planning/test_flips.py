@@ -8,9 +8,8 @@ from support.inner_loops import FLIPPED, REFUSED, TALLIED, flip_within
 from support.planning_reference import BAY, random_site
 
 from garage2usd.config import PlanConfig
-from garage2usd.planning.board import NO_VALUE, measure, new_board
+from garage2usd.planning.board import NO_VALUE, connect, measure, new_board
 from garage2usd.planning.ground import ground_of
-from garage2usd.planning.repair import connect
 
 
 @pytest.mark.parametrize("circulation", ["allow", "loops"])

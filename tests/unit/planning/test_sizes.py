@@ -6,13 +6,11 @@ from support.inner_loops import resize, settle, sync_sides, weigh
 
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.planning import area_per_stall_m2, dimension, evaluate
+from garage2usd.planning.annealing import anneal_labels, improve, new_trial_move, new_workspace
 from garage2usd.planning.board import FAULTS, measure, new_board
-from garage2usd.planning.annealing import anneal_labels
 from garage2usd.planning.circulation import circulation
-from garage2usd.planning.draft import new_draft
+from garage2usd.planning.dimensions import sizes_of
 from garage2usd.planning.ground import cells_of, ground_of, lanes_of
-from garage2usd.planning.polish import improve, new_room
-from garage2usd.planning.sizes import sizes_of
 from garage2usd.structure.grid import Cell, Structure
 
 BAY = BayConfig()
@@ -92,11 +90,11 @@ def test_a_line_is_weighed_as_it_is_resized(seed):
 def test_annealed_lanes_keep_the_rules_and_the_books(seed, stretch_squares):
     site = ladder()
     ground, board, sizes = board_with(site, PlanConfig(longest_stretch_cells=stretch_squares))
-    random, room = np.array([seed + 1], np.uint64), new_room(ground, sizes)
+    random, room = np.array([seed + 1], np.uint64), new_workspace(ground, sizes)
     before = improve(ground, board, sizes, room, random, 0, 0, 1.0, 1.0)
     keeps_rules = board.tally[FAULTS] == 0
     value = anneal_labels(
-        ground, board, new_draft(ground), sizes, room, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
+        ground, board, new_trial_move(ground), sizes, room, random, 60_000, (0.6, 0.1), (4.0, 40.0, 5.0, 20.0),
         4 * len(ground.squares),
     )  # fmt: skip
     found = structure_of(site, ground, board, sizes)
