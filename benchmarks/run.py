@@ -102,7 +102,7 @@ def _compiled() -> str:
     rows = ["## Sarsa in C against plain Python", "", "| code | actions/s on 7x9, `paper` | ratio |", "|---|---|---|"]
     rows += [
         f"| `native/sarsa.c` | {fast:,.0f} | {ratio:.0f} |",
-        f"| `tests/support/sarsa/slow_sarsa.py` | {slow:,.0f} | 1 |",
+        f"| `garage2usd/planning/reference_sarsa.py` | {slow:,.0f} | 1 |",
     ]
     return "\n".join(rows)
 
@@ -122,9 +122,9 @@ print(json.dumps(steps / (time.perf_counter() - start)))
 """
 _LEARN_SLOWLY = f"""{_SITE}
 from garage2usd.planning.decision import DecisionProcess
-from support.sarsa.slow_sarsa import SlowSarsa, SplitMix64
+from garage2usd.planning.reference_sarsa import ReferenceSarsa, SplitMix64
 plan = PlanConfig(preset="paper", climb=False)
-slow = SlowSarsa(DecisionProcess(site, BayConfig(), plan.resolved()), plan, SplitMix64(1), 10)
+slow = ReferenceSarsa(DecisionProcess(site, BayConfig(), plan.resolved()), plan, SplitMix64(1), 10)
 start = time.perf_counter()
 for _ in range({PYTHON_EPISODES}):
     slow.episode()

@@ -1,1 +1,1 @@
-"""A slow Sarsa, the property that the compiled one follows it, and faults planted in that."""
+"""The property that the compiled Sarsa follows its reference, and faults planted in it."""

@@ -1,4 +1,4 @@
-"""Whether a compiled `learn` follows the decision process: the same numbers as slow Sarsa, on any site."""
+"""Whether a compiled `learn` follows the decision process: the same numbers as the reference, on any site."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -13,8 +13,8 @@ from garage2usd.planning.archive import new_archive
 from garage2usd.planning.board import new_board
 from garage2usd.planning.decision import Action, DecisionProcess, State, observe
 from garage2usd.planning.ground import PADDING, ground_of
+from garage2usd.planning.reference_sarsa import ReferenceSarsa, SplitMix64
 from garage2usd.structure.grid import Cell, Structure
-from support.sarsa.slow_sarsa import SlowSarsa, SplitMix64
 
 BAY = BayConfig(dimensioned=False)
 
@@ -98,7 +98,7 @@ def cases(draw):
 
 
 class Course(NamedTuple):
-    """What slow Sarsa does of a case.
+    """What the reference does of a case.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class Course(NamedTuple):
 def course_of(case):
     """Learn in plain Python."""
     process = DecisionProcess(case.site, BAY, case.plan.resolved())
-    slow = SlowSarsa(process, case.plan, SplitMix64(case.seed), case.plan.archive_size)
+    slow = ReferenceSarsa(process, case.plan, SplitMix64(case.seed), case.plan.archive_size)
     states = [_state_of(slow)]
     for _ in range(case.episodes):
         slow.episode()
@@ -159,7 +159,7 @@ def cases_of(examples):
 
 
 def compare(case, course):
-    """Learn compiled; compare with slow Sarsa what episodes leave behind, and at last what was learnt and kept."""
+    """Learn compiled; compare with the reference what episodes leave behind, and at last what was learnt and kept."""
     ground, parameters = ground_of(case.site, bay=BAY, plan=case.plan), case.plan.resolved()
     board, random = new_board(ground), np.array([case.seed], np.uint64)
     horizon = DecisionProcess(case.site, BAY, parameters).horizon
@@ -184,7 +184,7 @@ def compare(case, course):
 
 
 def check_states():
-    """The table tells two states apart where slow Sarsa does, over sites that have nothing to do with each other."""
+    """The table tells two states apart where the reference does, over sites that have nothing to do with each other."""
     hashes, keys = {}, {}
     for seed in range(150):
         rng = np.random.default_rng(seed)

@@ -70,7 +70,7 @@ def main() -> None:
     only = parser.parse_args().only or ""
     chosen = [mutant for mutant in MUTANTS if only in mutant.name]
     survivors = 0
-    # what slow Sarsa does is the same whatever the fault
+    # what the reference does is the same whatever the fault
     examples = [(case, course_of(case)) for case in cases_of(EXAMPLES)]
     with tempfile.TemporaryDirectory() as folder:
         control = failure_apart(library_of(Path(folder, "control")), examples)
