@@ -1,7 +1,7 @@
 """Measure building, planning and stages, and write the tables of ``benchmarks/results.md``.
 
-Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, rules, circulation, scale, stages,
-exports, datasets, workers, looks, lidar, unity and compiled.
+Usage: python benchmarks/run.py [SECTION ...], of waiting, building, planning, optimisers, rules, circulation, scale,
+stages, exports, datasets, workers, looks, lidar, unity and compiled.
 
 Without names all of it; with some, these sections are measured anew and the others stay. Where two figures are
 compared, they are measured in turns and given as a ratio too.
@@ -23,6 +23,7 @@ from datasets import datasets, workers
 from exports import exports
 from lidar import lidar
 from looks import looks
+from optimisers import optimisers
 from planning import planning
 from rules import rules
 from scale import scale
@@ -43,6 +44,7 @@ def main() -> None:
         "waiting": waiting,
         "building": _building,
         "planning": planning,
+        "optimisers": optimisers,
         "rules": rules,
         "circulation": circulation,
         "scale": scale,

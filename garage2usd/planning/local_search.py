@@ -23,7 +23,7 @@ from garage2usd.planning.ground import Ground, Lanes, cells_of
 from garage2usd.planning.learner import uses_aisles
 from garage2usd.structure.grid import Structure
 
-__all__ = ["Ranked", "keeping_rules_first", "least_floor_first", "local_search", "ranked_plans"]
+__all__ = ["LocalSearch", "Ranked", "keeping_rules_first", "least_floor_first", "local_search", "ranked_plans"]
 
 Ranked = tuple[float, Lanes]
 """A plan with its value."""
@@ -94,7 +94,7 @@ def local_search(
         # polish writes what squares hold by their sides
         ground = ground._replace(capacity=ground.capacity.copy())
         sizes.price[0] = ground.weights[0] / _STALL_M2
-    search = _LocalSearch(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
+    search = LocalSearch(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
     if not uses_aisles(ground, plan):
         ranked = search.annealed(search.climbed(search.valued(ranked), plan.climb_top))
     elif not ground.rules.is_asked and not is_sized:
@@ -111,7 +111,7 @@ def local_search(
 
 
 @dataclass(frozen=True, eq=False)
-class _LocalSearch:
+class LocalSearch:
     """Ways to improve plans of one site.
 
     Attributes
