@@ -60,10 +60,10 @@ def optimisers() -> str:
         f"## Optimisers, {SITES} held-out sites of each size, with and without",
         "",
         (
-            "Means over the sites of plans with all optimisers, and of plans with one left out; its gain in stalls, or in "
-            "floor for a stall where R and C are chosen; its share of the seconds of CPU. Without learning, local search "
-            "starts from shortest paths between the portals; without local search, the best plan learnt is taken. An "
-            f"optimiser pays if it gains {WORTH_PERCENT} % or takes at most {TIME_PERCENT:.0f} % of the time. Beside "
+            "Means over the sites of plans with all optimisers, and of plans with one left out; its gain in stalls, or "
+            "in floor for a stall where R and C are chosen; its share of the seconds of CPU. Without learning, local "
+            "search starts from shortest paths between the portals; without local search, the best plan learnt is "
+            f"taken. An optimiser pays if it gains {WORTH_PERCENT} % or takes at most {TIME_PERCENT:.0f} % of the time. Beside "
             "the gain: on how many sites there is one, and on how many a loss."
         ),
         "",
@@ -171,7 +171,8 @@ def _exact() -> Iterator[str]:
     """The exact programme, which plans take no part of, beside the planner on the smallest sites."""
     yield "The exact programme (`find_optimum`) beside the planner, on the sites of 7 x 9 squares of equal size:"
     yield ""
-    yield "| settings | stalls, optimum | planned | y', optimum | planned | planned the optimum | seconds, optimum | planned |"
+    headings = "stalls, optimum | planned | y', optimum | planned | planned the optimum | seconds, optimum | planned"
+    yield f"| settings | {headings} |"
     yield "|---|---|---|---|---|---|---|---|"
     for setting in ("rules, equal squares", "no rules, equal squares"):
         plan, bay = SETTINGS[setting]

@@ -1,4 +1,5 @@
-/* Sarsa over aisles: the agent sweeps the site and decides on whole aisles instead of squares. */
+/* Sarsa (Sutton and Barto, Reinforcement Learning, 2nd ed., 6.4) over aisles: the agent sweeps the site and decides
+ * over whole aisles instead of squares. */
 #include "planning.h"
 
 /* What becomes of a run, and what tells its states apart; see garage2usd.planning.aisles. */

@@ -143,7 +143,8 @@ static void keep_best(const Annealing *search)
 }
 
 /* Anneal from lanes of a value; leaves the best lanes met on the board. */
-static void anneal(const Annealing *search, uint64_t *random, double value, int64_t flips, double hottest, double coldest)
+static void anneal(const Annealing *search, uint64_t *random, double value, int64_t flips, double hottest,
+                   double coldest)
 {
     const Ground *ground = search->ground;
     const int64_t steps[4] = {0, 0, 1, ground->stride};

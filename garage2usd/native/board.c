@@ -1,4 +1,5 @@
-/* A board of lanes with its score: laid square by square, or measured whole. */
+/* A board of lanes with its score: laid square by square, with distances relaxed by breadth-first search, or measured
+ * whole. */
 #include "planning.h"
 
 /* Take all lanes off. */

@@ -1,9 +1,10 @@
-/* Dynamic programming over a broken profile, one square at a step: the frontiers of connectivity (Knuth, TAOCP
- * 4A, section 7.1.4, "simpath"). Here: the profile, and its step by one square.
+/* Dynamic programming over a broken profile, one square at a step: the profile, and its step by one square.
  *
- * What the squares decided so far mean for the rest is kept for the last square of each column only, the frontier: a
- * few bits each, in one number. Under the rules of circulation each lane is labelled: core, on which one drives on
- * through, or stub of a depth, in a dead end so many squares from the core. */
+ * The boundary between decided squares and squares to come keeps the pieces of lanes that reach it, as in Knuth's
+ * "simpath" (The Art of Computer Programming 4A, section 7.1.4), which became frontier-based search (Kawahara,
+ * Inoue, Iwashita and Minato 2017). The last square of each column stands for all decided ones: a few bits each, in
+ * one number, with pieces renumbered from the first column on. Under the rules of circulation each lane is labelled:
+ * core, driven on through, or stub of a depth, in a dead end so many squares from the core. */
 #include "broken_profile.h"
 
 /* Codes of a column: 0 nothing to come, 1 a portal that touches no lane yet, 2 + edges a free square, edges being the

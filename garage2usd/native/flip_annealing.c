@@ -1,4 +1,9 @@
-/* Annealing of large plans: a flip is judged by the squares around it, the whole only now and then. */
+/* Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983) of large plans without rules, by flips of one square or
+ * two.
+ *
+ * A flip is judged by the squares around it (delta evaluation) with the criterion of Metropolis et al. (1953),
+ * and the whole plan is measured now and then. Whether lanes stay joined is read off the eight neighbours of a
+ * square, as in digital topology (Kong and Rosenfeld 1989). */
 #include <string.h>
 
 #include "planning.h"
@@ -86,12 +91,12 @@ static void count_in(const Ground *ground, const Board *board, const int64_t *ar
  *
  * `best_cells` is room for as many.
  *
- * N_S and U_S change exactly; T_S is followed by the distances as of the last measurement, one every `refresh` flips, by
- * which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such measurements take no
- * more than a share of the time. */
+ * N_S and U_S change exactly; T_S is followed by the distances as of the last measurement, one every `refresh`
+ * flips, by which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such
+ * measurements take no more than a share of the time. */
 FROM_PYTHON
-double anneal_flips(const Ground *ground, Board *board, int8_t *best_cells, uint64_t *random, int64_t flips, double hottest,
-             double coldest, int64_t refresh)
+double anneal_flips(const Ground *ground, Board *board, int8_t *best_cells, uint64_t *random, int64_t flips,
+                    double hottest, double coldest, int64_t refresh)
 {
     Int8Row cells = board->cells;
     const DoubleRow weights = ground->weights;

@@ -1,4 +1,4 @@
-/* Flips of one square or two, judged by what is around them before the whole plan is measured. */
+/* Flips of one square or two with delta evaluation: a bound from the squares around comes before the whole plan. */
 #include "planning.h"
 
 #define ROUNDING 1e-9

@@ -1,6 +1,9 @@
-/* Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983) of large plans that circulate. Faults are priced, and the
- * prices rise as the temperature falls (a penalty method). Every rule is judged around a move, by labels of the lanes:
- * the rounds of pruning (k-core decomposition, Seidman 1983). */
+/* Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983) of large plans under the rules of circulation.
+ *
+ * Moves are judged by the criterion of Metropolis et al. (1953). Faults are priced, and the prices rise as the
+ * temperature falls (a penalty method). Each lane carries a label: core, which pruning leaves (k-core decomposition,
+ * Seidman 1983, for k = 2), or its depth in a dead end. By labels R1 and R3 are checked around a move alone (a proof
+ * labelling scheme, Korman, Kutten and Peleg 2005). */
 #include "trial_move.h"
 
 /* Shares of the moves that are of a side, and that start at what is broken. */
@@ -16,8 +19,8 @@ enum { MENDING_TRIALS = 60000, MENDING_REFRESH = 2000 };
 #define MENDING_HEAT 2.0
 #define MENDING_FAULTY_SHARE 1.0
 
-/* Where `TrialMove.tally` and `TrialMove.change` have the faults of labels, blocks and squares too long, after the STALLS, TIME
- * and UNUSED that a board's tally has, too. */
+/* Where `TrialMove.tally` and `TrialMove.change` have the faults of labels, blocks and squares too long, after the
+ * STALLS, TIME and UNUSED that a board's tally has, too. */
 enum { BAD = 3, BLOCKS = 4, EXCESS = 5 };
 enum { TAKEN_OFF = -1, PUT_ON = 1 };
 

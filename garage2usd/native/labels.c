@@ -1,4 +1,5 @@
-/* Labels of lanes: driven through, or so many squares deep in a dead end. */
+/* Labels of lanes: driven through, or so many squares deep in a dead end. Labels come from pruning (k-core
+ * decomposition, Seidman 1983), and a fault is a lane whose neighbours contradict its label. */
 #include "trial_move.h"
 
 /* Label the lanes on the board: short dead ends by their depth, all else as driven through. */

@@ -1,4 +1,4 @@
-/* Moves of the annealing under rules, drawn at random: squares, connectors, paths, runs and whole lines. */
+/* Proposals of annealing by labels, drawn at random: squares, connectors, paths, runs and whole lines. */
 #include "trial_move.h"
 
 /* Longest leg of a connector, share of bent ones, longest path taken out and longest run shifted: moves stay small, so

@@ -1,4 +1,5 @@
-/* Repair of lanes: joining what is apart. */
+/* Repair of lanes: all portals and pieces of lanes are joined by the shortest-path heuristic for Steiner trees
+ * (Takahashi and Matsuyama 1980), in which the network grows by the shortest way to the nearest piece outside it. */
 #include "planning.h"
 
 /* Whether every portal is reached from a square over squares that are free or lanes; takes `near` for marks. */

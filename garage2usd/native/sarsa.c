@@ -1,4 +1,5 @@
-/* Episodes of tabular Sarsa: an agent drives over the site and colours lanes. */
+/* Tabular Sarsa (Sutton and Barto, Reinforcement Learning, 2nd ed., 6.4): an agent drives over the site and colours
+ * lanes. */
 #include <stddef.h>
 
 #include "planning.h"

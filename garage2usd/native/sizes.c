@@ -1,4 +1,5 @@
-/* R and C while lanes are annealed: each line of squares is as wide as what it holds asks for. */
+/* Widths R and depths C while lanes are annealed: each line of squares takes the side that its use asks for, and lines
+ * without traffic descend one by one to the side that pays best (coordinate descent). */
 #include "planning.h"
 
 #define MM2_PER_M2 1.0e6

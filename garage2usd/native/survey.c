@@ -1,4 +1,5 @@
-/* The survey of circulation on lanes: pruning of dead ends, loops, blocks, stretches. */
+/* The survey of circulation: dead ends by pruning (k-core decomposition, Seidman 1983), loops by the circuit rank
+ * E - V + 1, blocks of two by two lanes, and stretches without a junction. */
 #include "planning.h"
 
 /* Count where lanes break the rules of circulation; garage2usd.planning.circulation says what is counted.
