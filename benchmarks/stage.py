@@ -27,7 +27,7 @@ from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.lane_curves import LANE_GRAPH_FILE
 from garage2usd.stage.prototypes import Prototype, name_prototypes
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
+from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
 
 __all__ = ["stages"]
 
@@ -100,7 +100,7 @@ def _row(rows: int, cols: int, form: str) -> str:
     )
 
 
-def _garage(rows: int, cols: int, form: str) -> tuple[Layout, LaneGraph, GarageConfig]:
+def _garage(rows: int, cols: int, form: str) -> tuple[Layout, LaneSquares, GarageConfig]:
     cells = np.full((rows, cols), Cell.FREE, dtype=np.int8)
     cells[:-1, 1::3] = Cell.LANE
     cells[-2, 1:-1] = Cell.LANE
@@ -160,9 +160,9 @@ def _lay_out(rows: int, cols: int, form: str, path: Path) -> dict[str, float]:
     return figures
 
 
-def _read(folder: Path) -> tuple[Layout, LaneGraph, GarageConfig]:
+def _read(folder: Path) -> tuple[Layout, LaneSquares, GarageConfig]:
     with (folder / _LAYOUT_FILE).open("rb") as file:
-        read: tuple[Layout, LaneGraph, GarageConfig] = pickle.load(file)  # noqa: S301 - our own
+        read: tuple[Layout, LaneSquares, GarageConfig] = pickle.load(file)  # noqa: S301 - our own
     return read
 
 

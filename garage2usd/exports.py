@@ -7,8 +7,8 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import NamedTuple
 
-from garage2usd.checks import Subject
-from garage2usd.checks.stage_reader import subject_of_stage
+from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
 from garage2usd.errors import ConfigError
 from garage2usd.extras import require
@@ -52,7 +52,7 @@ class _Source:
         if len(formats) > 1:
             _ = self.objects
         if len(of_lanes) > 1:
-            _ = self.subject.taken_stalls
+            _ = self.garage.taken_stalls
         if {_LANELET2, _MAP} <= {*of_lanes}:
             _ = self.network
 
@@ -62,14 +62,14 @@ class _Source:
         return placed_objects(self.stage, metres_y_up(self.stage))
 
     @cached_property
-    def subject(self) -> Subject:
+    def garage(self) -> BuiltGarage:
         """Its lanes, stalls and objects."""
-        return subject_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
+        return garage_of_stage(self.stage, source=self.name, objects=self.objects, is_judged=False)
 
     @cached_property
     def network(self) -> Network:
         """Its roads."""
-        return network_of(self.subject)
+        return network_of(self.garage)
 
 
 class _Asked(NamedTuple):
@@ -111,24 +111,24 @@ def _glb(source: _Source, path: Path, _asked: _Asked, remarks: Remarks) -> None:
 
 
 def _opendrive(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    write_opendrive(source.subject, path, asked.settings, network=source.network)
+    write_opendrive(source.garage, path, asked.settings, network=source.network)
 
 
 def _grid(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
-    write_grid(source.subject, path, asked.settings.grid, joint=asked.joint)
+    write_grid(source.garage, path, asked.settings.grid, joint=asked.joint)
 
 
 def _lanelet2(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.lanelet2 import write_lanelet2  # noqa: PLC0415 - other formats do without its extra
 
-    write_lanelet2(source.subject, path, asked.settings, network=source.network)
+    write_lanelet2(source.garage, path, asked.settings, network=source.network)
 
 
 def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> None:
     from garage2usd.maps.openscenario import write_scenario  # noqa: PLC0415 - other formats do without its extra
 
-    subject, driven = source.subject, asked.settings.scenario
-    planner = DrivePlanner(subject, asked.settings.drive)
+    garage, driven = source.garage, asked.settings.scenario
+    planner = DrivePlanner(garage, asked.settings.drive)
     drive = planner.drive(driven.stall, entrance=driven.entrance, exit=driven.exit, leg=driven.leg)
     seed = stage_facts(source.stage).get("seed")
     write_scenario(
@@ -137,7 +137,7 @@ def _scenario(source: _Source, path: Path, asked: _Asked, _remarks: Remarks) -> 
         car=drive.car,
         settings=drive.settings,
         road_file=asked.road_file,
-        parked=parked_cars(subject, free=[drive.route.stall]),
+        parked=parked_cars(garage, free=[drive.route.stall]),
         name=f"{drive.route.stall} {drive.leg}",
         seed=None if seed is None else int(seed),
     )

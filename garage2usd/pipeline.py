@@ -27,7 +27,7 @@ from garage2usd.site import make_site
 from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph, build_lane_graph
+from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
 from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
@@ -61,7 +61,7 @@ class Garage:
     config: GarageConfig
     site: Structure
     plan: Plan
-    graph: LaneGraph
+    graph: LaneSquares
     layout: Layout
 
 
@@ -270,7 +270,7 @@ def _site(config: GarageConfig) -> Structure:
     return site
 
 
-def _graph(plan: Plan, config: GarageConfig) -> LaneGraph:
+def _graph(plan: Plan, config: GarageConfig) -> LaneSquares:
     graph = build_lane_graph(plan.structure, config.bay)
     if not graph.stall_rows:
         raise ConfigError(
@@ -298,7 +298,7 @@ def _judged(garage: Garage) -> tuple[tuple[Finding, ...] | None, tuple[UnmetClau
     return tuple(findings), unmet
 
 
-def _driven(layout: Layout, graph: LaneGraph, config: GarageConfig, progress: Progress) -> Layout:
+def _driven(layout: Layout, graph: LaneSquares, config: GarageConfig, progress: Progress) -> Layout:
     """The layout with what is asked of stalls that no car gets into, and the truth beside cars over lines."""
     choice = config.plan.unreachable_stalls
     if choice.are_proven:

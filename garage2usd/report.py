@@ -34,7 +34,7 @@ from garage2usd.reading.report import (
     UnmetClause,
 )
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.version import VERSION
 
 __all__ = ["learning_figures", "make_report", "write_report"]
@@ -54,7 +54,7 @@ def make_report(
     *,
     config: GarageConfig,
     plan: Plan,
-    graph: LaneGraph,
+    graph: LaneSquares,
     layout: Layout,
     seconds: Mapping[str, float],
     learning: LearningFigures | None = None,

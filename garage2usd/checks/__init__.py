@@ -2,6 +2,10 @@
 
 from pathlib import Path
 
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.as_built.plan_reader import garage_of_plan
+from garage2usd.as_built.stage_reader import garage_of_file, profile_name
 from garage2usd.checks import (
     accessible,
     aisle,
@@ -20,11 +24,7 @@ from garage2usd.checks import (
     usd,
 )
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
-from garage2usd.checks.layout_reader import layout_subject
-from garage2usd.checks.plan_reader import plan_subject
 from garage2usd.checks.rule import Rule
-from garage2usd.checks.stage_reader import profile_name, stage_subject
-from garage2usd.checks.subject import Subject
 from garage2usd.checks.unmet import not_checked_lines, unmet_clauses
 from garage2usd.config import GarageConfig
 from garage2usd.documents import is_file
@@ -33,14 +33,14 @@ from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES
 from garage2usd.reading.report import UnmetClause
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "RULES",
+    "BuiltGarage",
     "Finding",
     "Rule",
     "Severity",
-    "Subject",
     "as_json",
     "as_table",
     "check",
@@ -49,7 +49,7 @@ __all__ = [
     "judged_layout",
     "not_checked",
     "not_checked_lines",
-    "read_subject",
+    "read_garage",
 ]
 
 RULES: tuple[Rule, ...] = tuple(
@@ -77,13 +77,13 @@ RULES: tuple[Rule, ...] = tuple(
 _LONG = (*usd.BOOK.rules, *swept_path.BOOK.rules)
 
 
-def check(subject: Subject, profile: Profile) -> list[Finding]:
+def check(garage: BuiltGarage, profile: Profile) -> list[Finding]:
     """What a garage misses of a profile and of the rules that need none, errors first."""
-    findings = (finding for rule in RULES for finding in rule.findings(subject, profile))
+    findings = (finding for rule in RULES for finding in rule.findings(garage, profile))
     return sorted(findings, key=Finding.sort_key)
 
 
-def not_checked(subject: Subject, profile: Profile) -> dict[str, str]:
+def not_checked(garage: BuiltGarage, profile: Profile) -> dict[str, str]:
     """The clauses of a profile that no rule can check on a garage, each with the reason.
 
     A clause that bounds what a garage has none of, as the slope of ramps, is kept.
@@ -91,13 +91,13 @@ def not_checked(subject: Subject, profile: Profile) -> dict[str, str]:
     reasons = {}
     for clause, _ in profile.clauses():
         rules = [rule for rule in RULES if clause in rule.clauses[: rule.asking]]
-        hindrances = [rule.hindrance(subject, profile) for rule in rules]
+        hindrances = [rule.hindrance(garage, profile) for rule in rules]
         if hindrances and all(hindrances):
             reasons[clause] = hindrances[0]
     return reasons
 
 
-def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list[Finding]:
+def check_layout(layout: Layout, graph: LaneSquares, config: GarageConfig) -> list[Finding]:
     """What a garage that was just made misses of its profile, errors first.
 
     Notes
@@ -108,13 +108,13 @@ def check_layout(layout: Layout, graph: LaneGraph, config: GarageConfig) -> list
 
 
 def judged_layout(
-    layout: Layout, graph: LaneGraph, config: GarageConfig
+    layout: Layout, graph: LaneSquares, config: GarageConfig
 ) -> tuple[list[Finding], tuple[UnmetClause, ...]]:
     """As `check_layout`, with the clauses that the garage is not designed to."""
-    subject = layout_subject(layout, graph, source="", kind="report")
-    found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(subject, config.standard))
+    garage = garage_of_layout(layout, graph, source="", kind="report")
+    found = (finding for rule in RULES if rule not in _LONG for finding in rule.findings(garage, config.standard))
     findings = sorted(found, key=Finding.sort_key)
-    return findings, unmet_clauses(findings, not_checked(subject, config.standard))
+    return findings, unmet_clauses(findings, not_checked(garage, config.standard))
 
 
 def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[list[Finding], Profile]:
@@ -138,20 +138,20 @@ def check_file(path: str | Path, *, profile: Profile | None = None) -> tuple[lis
     ConfigError, StageError
         If the file is none of these.
     """
-    subject, profile = read_subject(path, profile=profile)
-    return check(subject, profile), profile
+    garage, profile = read_garage(path, profile=profile)
+    return check(garage, profile), profile
 
 
-def read_subject(path: str | Path, *, profile: Profile | None = None) -> tuple[Subject, Profile]:
+def read_garage(path: str | Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, Profile]:
     """Read what is checked, and what it is checked against; as for `check_file`."""
     path = Path(path)
     if not is_file(path):
         raise ConfigError("PATH", str(path), "an existing file")
     if path.suffix.lower() in STAGE_SUFFIXES:
-        subject = stage_subject(path)
-        name = profile_name(subject.stage)
+        garage = garage_of_file(path)
+        name = profile_name(garage.stage)
         profile = profile or load_profile(name if name in PROFILE_NAMES else DEFAULT_PROFILE)
     else:
-        subject, config = plan_subject(path, profile=profile)
+        garage, config = garage_of_plan(path, profile=profile)
         profile = profile or config.standard
-    return subject, profile
+    return garage, profile

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_structure_is_known
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import LaneNode, Point
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import LaneNode, Point
 from garage2usd.structure.lane_graph import Square
 
 __all__ = ["BOOK"]
@@ -20,24 +20,24 @@ _BESIDE = ((0, 0), (0, 1), (1, 0), (1, 1))
     asks="no dead end with its branches is too deep",
     hindrance=where_structure_is_known,
 )
-def _depth(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.dead_end_depth is None or subject.circulation is None:
+def _depth(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if profile.dead_end_depth is None or garage.circulation is None:
         return
     required = profile.dead_end_depth.amount
-    for run in subject.circulation.dead_ends:
+    for run in garage.circulation.dead_ends:
         if run.length_m > required + ROUNDING_M:
             message = f"the dead end of {_lanes(len(run.squares))} is too deep"
-            yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
+            yield Miss(_name(run.squares[0]), _place(garage, run.squares[0]), message, run.length_m, required)
 
 
 @BOOK.rule(
     "loop", "loops", asks="the lanes of a garage with many stalls form a loop", hindrance=where_structure_is_known
 )
-def _loops(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.loops is None or subject.circulation is None:
+def _loops(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if profile.loops is None or garage.circulation is None:
         return
-    stalls = len(subject.parking_stalls)
-    required, measured = profile.loops.required(stalls), subject.circulation.circulation.loops
+    stalls = len(garage.parking_stalls)
+    required, measured = profile.loops.required(stalls), garage.circulation.circulation.loops
     if measured < required:
         message = f"who finds none of the {stalls} stalls free cannot drive round again"
         yield Miss("", None, message, measured, required)
@@ -49,27 +49,27 @@ def _loops(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="no stretch of lanes between two junctions is too long",
     hindrance=where_structure_is_known,
 )
-def _stretches(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.stretch_length is None or subject.circulation is None:
+def _stretches(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if profile.stretch_length is None or garage.circulation is None:
         return
     required = profile.stretch_length.amount
-    for run in subject.circulation.stretches:
+    for run in garage.circulation.stretches:
         if run.length_m > required + ROUNDING_M:
             message = f"a stretch of {_lanes(len(run.squares))} has no junction"
-            yield Miss(_name(run.squares[0]), _place(subject, run.squares[0]), message, run.length_m, required)
+            yield Miss(_name(run.squares[0]), _place(garage, run.squares[0]), message, run.length_m, required)
 
 
 @BOOK.rule("lane-field", "lane_field_width", asks="lanes do not lie side by side", hindrance=where_structure_is_known)
-def _fields(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.lane_field_width is None or subject.circulation is None:
+def _fields(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if profile.lane_field_width is None or garage.circulation is None:
         return
     required = profile.lane_field_width.amount
-    nodes = {node.name: node for node in subject.nodes}
-    for field in _joined(subject.circulation.circulation.blocks):
+    nodes = {node.name: node for node in garage.lanes.nodes}
+    for field in _joined(garage.circulation.circulation.blocks):
         measured = max(_clear_m(block, nodes) for block in field)
         if measured > required + ROUNDING_M:
             message = f"lanes lie side by side, {len(field)} times four of them in a block"
-            yield Miss(_name(field[0]), _place(subject, field[0]), message, measured, required)
+            yield Miss(_name(field[0]), _place(garage, field[0]), message, measured, required)
 
 
 def _clear_m(block: Square, nodes: dict[str, LaneNode]) -> float:
@@ -105,10 +105,10 @@ def _joined(blocks: Sequence[Square]) -> list[list[Square]]:
     return fields
 
 
-def _place(subject: Subject, square: Square) -> Point | None:
+def _place(garage: BuiltGarage, square: Square) -> Point | None:
     """Middle of a lane square as the lane graph has it, to the millimetre."""
     name = _name(square)
-    x_z = next((node.position for node in subject.nodes if node.name == name), None)
+    x_z = next((node.position for node in garage.lanes.nodes if node.name == name), None)
     return None if x_z is None else (round(x_z[0], 3), round(x_z[1], 3))
 
 

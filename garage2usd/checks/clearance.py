@@ -8,12 +8,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK"]
 
@@ -29,13 +29,13 @@ _FOOT_M = 0.5
 class _ParkedCars:
     """The design car in each stall that cars park in."""
 
-    subject: Subject
+    garage: BuiltGarage
     profile: Profile
 
     @property
-    def stalls(self) -> tuple[StallOutline, ...]:
+    def stalls(self) -> tuple[Stall, ...]:
         """The stalls."""
-        return self.subject.parking_stalls
+        return self.garage.parking_stalls
 
     def grounds(self, *, beside_m: float = 0.0, behind_m: float = 0.0) -> Grounds:
         """The ground of each car, and as much more on both sides and behind; shape (stalls,)."""
@@ -54,10 +54,10 @@ class _ParkedCars:
     asks="the design car in a stall keeps away from columns",
     hindrance=where_laid_out,
 )
-def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(subject, profile), profile.column_clearance
+def _columns(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(garage, profile), profile.column_clearance
     if clause:
-        near = subject.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
+        near = garage.solids.standing_at_each(cars.grounds(), within_m=clause.amount)
         yield from _closest(cars, near, {"column"}, clause.amount, "a column")
 
 
@@ -69,11 +69,11 @@ def _columns(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from the walls beside it",
     hindrance=where_laid_out,
 )
-def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(subject, profile), profile.wall_clearance
+def _walls(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(garage, profile), profile.wall_clearance
     if clause:
         # a wall that the rear touches is not beside the car
-        near = subject.solids.standing_at_each(cars.grounds(beside_m=clause.amount, behind_m=-ROUNDING_M))
+        near = garage.solids.standing_at_each(cars.grounds(beside_m=clause.amount, behind_m=-ROUNDING_M))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall beside")
 
 
@@ -85,10 +85,10 @@ def _walls(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the design car in a stall keeps away from what stands behind it",
     hindrance=where_laid_out,
 )
-def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    cars, clause = _ParkedCars(subject, profile), profile.end_clearance
+def _ends(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    cars, clause = _ParkedCars(garage, profile), profile.end_clearance
     if clause:
-        near = subject.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
+        near = garage.solids.standing_at_each(cars.grounds(behind_m=clause.amount))
         yield from _closest(cars, near, _WALLS, clause.amount, "the wall behind")
 
 
@@ -98,14 +98,14 @@ def _ends(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="columns stand as far apart as the grid wants where cars park between",
     hindrance=where_laid_out,
 )
-def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
+def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.column_spacing is None:
         return
     least, most = profile.column_spacing.bounds
     seen: set[float] = set()
-    columns = [solid for solid in subject.solids.standing("column") if solid.bottom_m < _FOOT_M]
+    columns = [solid for solid in garage.solids.standing("column") if solid.bottom_m < _FOOT_M]
     places = np.array([(column.footprint.centroid.x, column.footprint.centroid.y) for column in columns]).reshape(-1, 2)
-    for stall in subject.parking_stalls:
+    for stall in garage.parking_stalls:
         measured = _between_columns(stall, places)
         if (
             measured is None
@@ -119,7 +119,7 @@ def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
         yield Miss(stall.name, stall.mouth, "the columns beside the stalls keep another grid", measured, required)
 
 
-def _between_columns(stall: StallOutline, places: NDArray[np.float64]) -> float | None:
+def _between_columns(stall: Stall, places: NDArray[np.float64]) -> float | None:
     """Distance of the next columns on both sides of a stall's mouth, from middle to middle; None without two."""
     outwards = np.array(stall.outwards)
     offset = places - np.array(stall.mouth)
@@ -135,7 +135,7 @@ def _closest(
     """Each car whose least distance to pieces of some labels is too small, apart from those that stand in its stall."""
     rows: list[tuple[int, Solid]] = []
     for number, (stall, solids) in enumerate(zip(cars.stalls, near, strict=True)):
-        inside = {solid.name for solid in cars.subject.standing_in_stalls[stall]}
+        inside = {solid.name for solid in cars.garage.standing_in_stalls[stall]}
         rows += [(number, solid) for solid in solids if solid.label in labels and solid.name not in inside]
     beside = cars.grounds()[np.array([number for number, _ in rows], dtype=np.intp)]
     distances = shapely.distance(beside, [solid.footprint for _, solid in rows]).tolist()

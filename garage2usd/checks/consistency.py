@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterator
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 
 __all__ = ["BOOK"]
@@ -11,9 +11,9 @@ __all__ = ["BOOK"]
 BOOK = RuleBook()
 
 
-def _faults(name: str) -> Callable[[Subject, Profile], Iterator[Miss]]:
-    def find(subject: Subject, _: Profile) -> Iterator[Miss]:
-        for fault in subject.faults:
+def _faults(name: str) -> Callable[[BuiltGarage, Profile], Iterator[Miss]]:
+    def find(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+        for fault in garage.faults:
             if fault.rule == name:
                 yield Miss(fault.place, fault.position, fault.message)
 

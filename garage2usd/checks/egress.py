@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from garage2usd.checks.core_reader import core_doors
+from garage2usd.as_built.core_reader import core_doors
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out, where_structure_is_known
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Point
 from garage2usd.layout.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
-from garage2usd.reading.ground import Point
 from garage2usd.structure.grid import Cell
 
 __all__ = ["BOOK"]
@@ -20,22 +20,22 @@ BOOK = RuleBook()
 _MM2_PER_M2 = 1_000_000
 
 
-def _floor_is_told(subject: Subject, profile: Profile) -> str:
-    return where_laid_out(subject, profile) or where_structure_is_known(subject, profile)
+def _floor_is_told(garage: BuiltGarage, profile: Profile) -> str:
+    return where_laid_out(garage, profile) or where_structure_is_known(garage, profile)
 
 
-def _area_applies(subject: Subject, profile: Profile) -> str:
+def _area_applies(garage: BuiltGarage, profile: Profile) -> str:
     """A profile without a clause for no sprinklers asks for nothing there."""
-    told = _floor_is_told(subject, profile)
-    return told or _applies(subject, plain=profile.fire_compartment_area is not None)
+    told = _floor_is_told(garage, profile)
+    return told or _applies(garage, plain=profile.fire_compartment_area is not None)
 
 
-def _distance_applies(subject: Subject, profile: Profile) -> str:
-    return where_laid_out(subject, profile) or _applies(subject, plain=profile.exit_distance is not None)
+def _distance_applies(garage: BuiltGarage, profile: Profile) -> str:
+    return where_laid_out(garage, profile) or _applies(garage, plain=profile.exit_distance is not None)
 
 
-def _applies(subject: Subject, *, plain: bool) -> str:
-    return "" if plain or _has_sprinklers(subject) else "the garage has no sprinklers"
+def _applies(garage: BuiltGarage, *, plain: bool) -> str:
+    return "" if plain or _has_sprinklers(garage) else "the garage has no sprinklers"
 
 
 @BOOK.rule(
@@ -45,9 +45,9 @@ def _applies(subject: Subject, *, plain: bool) -> str:
     asks="each fire compartment, or the floor where none are declared, is small enough",
     hindrance=_floor_is_told,
 )
-def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if subject.things and not (_has_sprinklers(subject) and profile.fire_compartment_area_sprinklered):
-        yield from _too_large(subject, profile.fire_compartment_area)
+def _compartment(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if garage.things and not (_has_sprinklers(garage) and profile.fire_compartment_area_sprinklered):
+        yield from _too_large(garage, profile.fire_compartment_area)
 
 
 @BOOK.rule(
@@ -56,9 +56,9 @@ def _compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="each fire compartment, or the floor where none are declared, is small enough with sprinklers",
     hindrance=_area_applies,
 )
-def _sprinklered_compartment(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if _has_sprinklers(subject):
-        yield from _too_large(subject, profile.fire_compartment_area_sprinklered)
+def _sprinklered_compartment(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if _has_sprinklers(garage):
+        yield from _too_large(garage, profile.fire_compartment_area_sprinklered)
 
 
 @BOOK.rule(
@@ -67,12 +67,12 @@ def _sprinklered_compartment(subject: Subject, profile: Profile) -> Iterator[Mis
     asks="people have enough exits in each fire compartment",
     hindrance=where_laid_out,
 )
-def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if profile.personnel_exits is None or not subject.things:
+def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if profile.personnel_exits is None or not garage.things:
         return
-    doors = core_doors(subject)
-    for number, name in _compartments(subject):
-        count = sum(_compartment_at(subject.nodes[door.node].position, subject) == number for door in doors)
+    doors = core_doors(garage)
+    for number, name in _compartments(garage):
+        count = sum(_compartment_at(garage.lanes.nodes[door.node].position, garage) == number for door in doors)
         if count < profile.personnel_exits.amount:
             yield Miss(name, None, "too few doors of stair cores onto lanes", count, profile.personnel_exits.amount)
 
@@ -84,9 +84,9 @@ def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="no stall is too far from an exit for people",
     hindrance=where_laid_out,
 )
-def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if subject.things and not (_has_sprinklers(subject) and profile.exit_distance_sprinklered):
-        yield from _too_far(subject, profile.exit_distance, profile)
+def _distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if garage.things and not (_has_sprinklers(garage) and profile.exit_distance_sprinklered):
+        yield from _too_far(garage, profile.exit_distance, profile)
 
 
 @BOOK.rule(
@@ -95,19 +95,19 @@ def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="no stall is too far from an exit for people where there are sprinklers",
     hindrance=_distance_applies,
 )
-def _sprinklered_distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    if _has_sprinklers(subject):
-        yield from _too_far(subject, profile.exit_distance_sprinklered, profile)
+def _sprinklered_distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    if _has_sprinklers(garage):
+        yield from _too_far(garage, profile.exit_distance_sprinklered, profile)
 
 
-def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
-    if clause is None or subject.structure is None:
+def _too_large(garage: BuiltGarage, clause: Area | None) -> Iterator[Miss]:
+    if clause is None or garage.structure is None:
         return
-    structure = subject.structure
+    structure = garage.structure
     areas = np.outer(structure.row_depths_mm, structure.column_widths_mm) / _MM2_PER_M2
     inside = structure.cells != Cell.OBSTACLE
-    for number, name in _compartments(subject):
-        own = inside if subject.compartments is None else inside & (subject.compartments == number)
+    for number, name in _compartments(garage):
+        own = inside if garage.compartments is None else inside & (garage.compartments == number)
         measured = float(areas[own].sum())
         if measured > clause.amount:
             parts = math.ceil(measured / clause.amount)
@@ -115,16 +115,16 @@ def _too_large(subject: Subject, clause: Area | None) -> Iterator[Miss]:
             yield Miss(name, None, f"{what} needs {parts} fire compartments", measured, clause.amount)
 
 
-def _too_far(subject: Subject, clause: Length | None, profile: Profile) -> Iterator[Miss]:
+def _too_far(garage: BuiltGarage, clause: Length | None, profile: Profile) -> Iterator[Miss]:
     """The stall of each compartment that is farthest from its exits, as the crow flies, if it is too far."""
-    if clause is None or not subject.stalls:
+    if clause is None or not garage.stalls:
         return
     exits = defaultdict(list)
-    for door in core_doors(subject):
-        exits[_compartment_at(subject.nodes[door.node].position, subject)].append(door.position)
+    for door in core_doors(garage):
+        exits[_compartment_at(garage.lanes.nodes[door.node].position, garage)].append(door.position)
     stalls = defaultdict(list)
-    for stall in subject.stalls:
-        stalls[_compartment_at(stall.centre, subject)].append(stall)
+    for stall in garage.stalls:
+        stalls[_compartment_at(stall.centre, garage)].append(stall)
     for number, own in stalls.items():
         doors = exits[number]
         if not doors:
@@ -143,23 +143,23 @@ def _nearest(place: Point, exits: list[Point]) -> float:
     return min(math.dist(place, door) for door in exits)
 
 
-def _compartments(subject: Subject) -> list[tuple[int, str]]:
+def _compartments(garage: BuiltGarage) -> list[tuple[int, str]]:
     """Number and name of each fire compartment; floor that belongs to none is one without a name."""
-    if subject.compartments is None or subject.structure is None:
+    if garage.compartments is None or garage.structure is None:
         return [(0, "")]
-    numbers = np.unique(subject.compartments[subject.structure.cells != Cell.OBSTACLE]).tolist()
+    numbers = np.unique(garage.compartments[garage.structure.cells != Cell.OBSTACLE]).tolist()
     return [(number, compartment_name(number) if number > 0 else "") for number in numbers]
 
 
-def _compartment_at(place: Point, subject: Subject) -> int:
+def _compartment_at(place: Point, garage: BuiltGarage) -> int:
     """Number of the fire compartment that a place lies in; 0 where none are declared."""
-    if subject.compartments is None or subject.structure is None:
+    if garage.compartments is None or garage.structure is None:
         return 0
-    structure = subject.structure
+    structure = garage.structure
     edges = (structure.row_edges_m, place[1]), (structure.column_edges_m, place[0])
     row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
-    return int(subject.compartments[row, col])
+    return int(garage.compartments[row, col])
 
 
-def _has_sprinklers(subject: Subject) -> bool:
-    return "sprinkler" in subject.solids.labels
+def _has_sprinklers(garage: BuiltGarage) -> bool:
+    return "sprinkler" in garage.solids.labels

@@ -3,10 +3,10 @@
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Stall
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import StallOutline
 
 __all__ = ["BOOK", "way_in", "way_out"]
 
@@ -16,29 +16,29 @@ _BESIDE_M = 0.75
 
 
 @BOOK.rule("entrance-missing", asks="there is an entrance")
-def _entrance(subject: Subject, _: Profile) -> Iterator[Miss]:
-    if subject.nodes and not subject.portals("entrance"):
+def _entrance(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    if garage.lanes.nodes and not garage.lanes.portals("entrance"):
         yield Miss("", None, "no car can get in: there is no entrance")
 
 
 @BOOK.rule("exit-missing", asks="there is an exit")
-def _exit(subject: Subject, _: Profile) -> Iterator[Miss]:
-    if subject.nodes and not subject.portals("exit"):
+def _exit(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    if garage.lanes.nodes and not garage.lanes.portals("exit"):
         yield Miss("", None, "no car can get out: there is no exit")
 
 
 @BOOK.rule("portal-cut-off", asks="every portal joins a lane")
-def _cut_off(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for number in subject.portals("entrance", "exit"):
-        if subject.has_whole_graph and not subject.beside[number]:
-            node = subject.nodes[number]
+def _cut_off(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for number in garage.lanes.portals("entrance", "exit"):
+        if garage.has_whole_graph and not garage.lanes.beside[number]:
+            node = garage.lanes.nodes[number]
             yield Miss(node.name, node.position, f"the {node.kind} joins no lane")
 
 
 @BOOK.rule("stall-detached", asks="a stall's mouth opens onto the lane that serves it")
-def _detached(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for stall in subject.stalls:
-        node = subject.nodes[stall.access]
+def _detached(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for stall in garage.stalls:
+        node = garage.lanes.nodes[stall.access]
         if node.is_portal:
             yield Miss(stall.name, stall.mouth, f"the stall opens onto the {node.kind} {node.name}")
         elif any(
@@ -49,15 +49,13 @@ def _detached(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("stall-route", asks="each stall has a route from an entrance and to an exit that keeps to lanes")
-def _routes(subject: Subject, _: Profile) -> Iterator[Miss]:
-    entrances, exits = (
-        [portal for portal in subject.portals(kind) if subject.beside[portal]] for kind in ("entrance", "exit")
-    )
-    if not entrances or not exits or not subject.has_whole_graph:
+def _routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    entrances, exits = garage.lanes.joined_portals("entrance"), garage.lanes.joined_portals("exit")
+    if not entrances or not exits or not garage.has_whole_graph:
         return  # that itself is found by other rules
-    reached = _reached(entrances, subject.onward, subject)
-    left = _reached(exits, subject.backward, subject)
-    for stall in subject.stalls:
+    reached = _reached(entrances, garage.lanes.onward, garage)
+    left = _reached(exits, garage.lanes.backward, garage)
+    for stall in garage.stalls:
         missing = [
             words for nodes, words in ((reached, "from an entrance"), (left, "to an exit")) if stall.access not in nodes
         ]
@@ -66,34 +64,34 @@ def _routes(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("portal-route", asks="each entrance leads to an exit, and each exit is reached from an entrance")
-def _portal_routes(subject: Subject, _: Profile) -> Iterator[Miss]:
-    entrances, exits = subject.portals("entrance"), subject.portals("exit")
-    served = {stall.access for stall in subject.stalls}
+def _portal_routes(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    entrances, exits = garage.lanes.portals("entrance"), garage.lanes.portals("exit")
+    served = {stall.access for stall in garage.stalls}
     for starts, goals, ways, words in (
-        (entrances, exits, subject.onward, "no exit is reached from the entrance"),
-        (exits, entrances, subject.backward, "no entrance leads to the exit"),
+        (entrances, exits, garage.lanes.onward, "no exit is reached from the entrance"),
+        (exits, entrances, garage.lanes.backward, "no entrance leads to the exit"),
     ):
-        for start in starts if goals and subject.has_whole_graph else ():
-            found = _reached([start], ways, subject)
+        for start in starts if goals and garage.has_whole_graph else ():
+            found = _reached([start], ways, garage)
             # stalls on the way are named by their own rule, and a portal without a lane by its own
-            if found.isdisjoint(goals) and found.isdisjoint(served) and subject.beside[start]:
-                node = subject.nodes[start]
+            if found.isdisjoint(goals) and found.isdisjoint(served) and garage.lanes.beside[start]:
+                node = garage.lanes.nodes[start]
                 yield Miss(node.name, node.position, words)
 
 
-def way_in(subject: Subject, stall: StallOutline) -> list[int]:
+def way_in(garage: BuiltGarage, stall: Stall) -> list[int]:
     """Nodes of a shortest way from an entrance to a stall's lane, from the entrance on; empty without one."""
-    return _shortest(subject.portals("entrance"), stall.access, subject.onward, subject)
+    return _shortest(garage.lanes.portals("entrance"), stall.access, garage.lanes.onward, garage)
 
 
-def way_out(subject: Subject, stall: StallOutline) -> list[int]:
+def way_out(garage: BuiltGarage, stall: Stall) -> list[int]:
     """Nodes of a shortest way from a stall's lane to an exit, ending there; empty without one."""
-    return _shortest(subject.portals("exit"), stall.access, subject.backward, subject)[::-1]
+    return _shortest(garage.lanes.portals("exit"), stall.access, garage.lanes.backward, garage)[::-1]
 
 
-def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], subject: Subject) -> list[int]:
+def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], garage: BuiltGarage) -> list[int]:
     """Fewest nodes from any start to a goal."""
-    came_from = _search(starts, ways, subject)
+    came_from = _search(starts, ways, garage)
     if goal not in came_from:
         return []
     path = [goal]
@@ -102,18 +100,18 @@ def _shortest(starts: Iterable[int], goal: int, ways: Sequence[Sequence[int]], s
     return path[::-1]
 
 
-def _reached(starts: Iterable[int], ways: Sequence[Sequence[int]], subject: Subject) -> set[int]:
-    return set(_search(starts, ways, subject))
+def _reached(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: BuiltGarage) -> set[int]:
+    return set(_search(starts, ways, garage))
 
 
-def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], subject: Subject) -> dict[int, int]:
+def _search(starts: Iterable[int], ways: Sequence[Sequence[int]], garage: BuiltGarage) -> dict[int, int]:
     """Breadth first over lanes: for each node found, the one before it, and for a start itself; portals end a way."""
     came_from = {start: start for start in starts}
     queue = deque(came_from)
     first = set(came_from)
     while queue:
         node = queue.popleft()
-        if subject.nodes[node].is_portal and node not in first:
+        if garage.lanes.nodes[node].is_portal and node not in first:
             continue
         for other in ways[node]:
             if other not in came_from:

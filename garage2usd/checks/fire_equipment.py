@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.checks.subject import Subject
 from garage2usd.layout.nearness import Points, distances_m
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.profiles import Length, Profile
 
 if TYPE_CHECKING:
-    from garage2usd.reading.ground import Point
+    from garage2usd.garage import Point
 
 __all__ = ["BOOK"]
 
@@ -22,14 +22,14 @@ BOOK = RuleBook()
 _HYDRANT = "hydrant_cabinet"
 
 
-def _out_of_reach(mounted: Mounted, subject: Subject, profile: Profile) -> Iterator[Miss]:
+def _out_of_reach(mounted: Mounted, garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     """The stall or lane that is farthest from what serves it, if that is too far."""
     clause: Length | None = getattr(profile, mounted.clause)
-    places = [(stall.name, stall.centre) for stall in subject.stalls]
-    places += [(node.name, node.position) for node in subject.nodes if not node.is_portal]
-    if clause is None or not subject.things or not places:
+    places = [(stall.name, stall.centre) for stall in garage.stalls]
+    places += [(node.name, node.position) for node in garage.lanes.nodes if not node.is_portal]
+    if clause is None or not garage.things or not places:
         return
-    hung = _places_of(subject, mounted.kind.label)
+    hung = _places_of(garage, mounted.kind.label)
     what = mounted.kind.label.replace("_", " ")
     if len(hung) < mounted.count:
         yield Miss("", None, f"{len(hung)} objects of the class {what} are too few")
@@ -62,8 +62,8 @@ for _mounted in MOUNTED:
     asks="a fire hydrant is near enough to the next one",
     hindrance=where_laid_out,
 )
-def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    hydrants = _places_of(subject, _HYDRANT)
+def _spacing(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    hydrants = _places_of(garage, _HYDRANT)
     if profile.hydrant_spacing is None or len(hydrants) < 2:  # noqa: PLR2004 - one has no next one
         return
     apart = np.array([np.sort(distances_m(hydrant, hydrants))[1] for hydrant in hydrants])
@@ -74,9 +74,9 @@ def _spacing(subject: Subject, profile: Profile) -> Iterator[Miss]:
         yield Miss("", place, "the next fire hydrant is too far", measured, required)
 
 
-def _places_of(subject: Subject, label: str) -> NDArray[np.float64]:
+def _places_of(garage: BuiltGarage, label: str) -> NDArray[np.float64]:
     """The middle of the lowest piece of each object of a class; float64, shape (n, 2)."""
     middles: dict[str, Point] = {}
-    for solid in subject.solids.standing(label):
+    for solid in garage.solids.standing(label):
         middles.setdefault(solid.name, solid.centre)
     return np.array(list(middles.values())).reshape(-1, 2)

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.checks.subject import Subject
 from garage2usd.profiles import Profile
 
 __all__ = ["BOOK"]
@@ -12,15 +12,15 @@ BOOK = RuleBook()
 _ROUNDING = 0.99
 
 
-def _dark(what: str, subject: Subject) -> str:
+def _dark(what: str, garage: BuiltGarage) -> str:
     """That something is too dark, and how many lamps are dead, which may be why."""
-    because = f": {subject.dead_lamps} of {subject.lamps} lamps give no light" if subject.dead_lamps else ""
+    because = f": {garage.dead_lamps} of {garage.lamps} lamps give no light" if garage.dead_lamps else ""
     return f"the {what} are too dark{because}"
 
 
-def _lights_are_told(subject: Subject, _: Profile) -> str:
+def _lights_are_told(garage: BuiltGarage, _: Profile) -> str:
     """A plan that could not be laid out has no lights, and not every stage of others has."""
-    return "" if subject.lane_lux is not None else "no illuminance of the floor is known"
+    return "" if garage.lane_lux is not None else "no illuminance of the floor is known"
 
 
 @BOOK.rule(
@@ -29,10 +29,10 @@ def _lights_are_told(subject: Subject, _: Profile) -> str:
     asks="the lanes' floor is bright enough",
     hindrance=_lights_are_told,
 )
-def _lanes(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    required, measured = profile.lane_illuminance, subject.lane_lux
+def _lanes(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    required, measured = profile.lane_illuminance, garage.lane_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, _dark("lanes", subject), measured, required.amount)
+        yield Miss("", None, _dark("lanes", garage), measured, required.amount)
 
 
 @BOOK.rule(
@@ -41,7 +41,7 @@ def _lanes(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="the stalls' floor is bright enough",
     hindrance=_lights_are_told,
 )
-def _stalls(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    required, measured = profile.stall_illuminance, subject.stall_lux
+def _stalls(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    required, measured = profile.stall_illuminance, garage.stall_lux
     if required and measured is not None and measured < required.amount * _ROUNDING:
-        yield Miss("", None, _dark("stalls", subject), measured, required.amount)
+        yield Miss("", None, _dark("stalls", garage), measured, required.amount)

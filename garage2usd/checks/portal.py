@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 from itertools import combinations
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Point
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import Point
 from garage2usd.site.portals import outer_squares
 
 __all__ = ["BOOK"]
@@ -17,24 +17,24 @@ _DOOR_REACH_M = 12.0
 
 
 @BOOK.rule("portal-count", "portals", asks="there are enough vehicle entrances and exits for the stalls")
-def _count(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    portals = subject.portals("entrance", "exit")
+def _count(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    portals = garage.lanes.portals("entrance", "exit")
     # none of one kind is found by a rule of its own
-    if profile.portals is None or not subject.portals("entrance") or not subject.portals("exit"):
+    if profile.portals is None or not garage.lanes.portals("entrance") or not garage.lanes.portals("exit"):
         return
-    stalls = len(subject.parking_stalls)
+    stalls = len(garage.parking_stalls)
     required = profile.portals.required(stalls)
     if len(portals) < required:
         yield Miss("", None, f"too few entrances and exits for {stalls} stalls", len(portals), required)
 
 
 @BOOK.rule("portal-distance", "portal_distance", asks="vehicle entrances and exits are far enough apart")
-def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
+def _distance(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.portal_distance is None:
         return
-    portals = [subject.nodes[number] for number in subject.portals("entrance", "exit")]
+    portals = [garage.lanes.nodes[number] for number in garage.lanes.portals("entrance", "exit")]
     for first, second in combinations(portals, 2):
-        doors = [_door_of(node.position, subject) for node in (first, second)]
+        doors = [_door_of(node.position, garage) for node in (first, second)]
         measured = math.dist(*doors)
         if measured <= profile.portal_distance.amount + ROUNDING_M:
             message = f"{first.kind} and {second.kind} {second.name} are too close"
@@ -42,39 +42,39 @@ def _distance(subject: Subject, profile: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("portal-width", "portal_width", asks="a vehicle entrance or exit is wide enough", hindrance=where_laid_out)
-def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
+def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     if profile.portal_width is None:
         return
     required = profile.portal_width.amount
-    for door in subject.doors:
+    for door in garage.doors:
         if door.clear_width_m is not None and door.clear_width_m < required - ROUNDING_M:
             yield Miss(door.name, door.position, "the door is too narrow", door.clear_width_m, required)
 
 
 @BOOK.rule("portal-shut", asks="no vehicle door is shut where others are open or ramps lead up")
-def _shut(subject: Subject, _: Profile) -> Iterator[Miss]:
+def _shut(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
     # a garage that ends at its doors, without any ramp, has all of them shut
-    if all(door.is_shut for door in subject.doors) and not subject.ramps:
+    if all(door.is_shut for door in garage.doors) and not garage.ramps:
         return
-    for door in subject.doors:
+    for door in garage.doors:
         if door.is_shut:
             yield Miss(door.name, door.position, "the vehicle door is shut, no ramp leads to it")
 
 
 @BOOK.rule("portal-inside", asks="every portal lies on the contour's edge, where its door opens")
-def _inside(subject: Subject, _: Profile) -> Iterator[Miss]:
-    structure = subject.structure
-    if structure is None or subject.kind == "stage":
+def _inside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    structure = garage.structure
+    if structure is None or garage.kind == "stage":
         return
     on_edge = outer_squares(structure.cells)
-    for number in subject.portals("entrance", "exit"):
-        node = subject.nodes[number]
+    for number in garage.lanes.portals("entrance", "exit"):
+        node = garage.lanes.nodes[number]
         row, col = (int(part) for part in node.name.strip("[]").split(","))
         if not on_edge[row, col]:
             yield Miss(node.name, node.position, f"the {node.kind} lies inside the garage")
 
 
-def _door_of(position: Point, subject: Subject) -> Point:
+def _door_of(position: Point, garage: BuiltGarage) -> Point:
     """Middle of a portal's door, or of its square where no door is known."""
-    near = [door.position for door in subject.doors if math.dist(door.position, position) < _DOOR_REACH_M]
+    near = [door.position for door in garage.doors if math.dist(door.position, position) < _DOOR_REACH_M]
     return min(near, key=lambda door: math.dist(door, position), default=position)

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.finding import Finding, Severity
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Point
 from garage2usd.profiles import Clause, Length, LengthRange, Profile
-from garage2usd.reading.ground import Point
 
 __all__ = ["ROUNDING_M", "Miss", "Rule", "RuleBook", "always", "where_laid_out", "where_structure_is_known"]
 
@@ -32,24 +32,24 @@ class Miss(NamedTuple):
     things: tuple[str, ...] = ()
 
 
-Find = Callable[[Subject, Profile], Iterable[Miss]]
-Hindrance = Callable[[Subject, Profile], str]
+Find = Callable[[BuiltGarage, Profile], Iterable[Miss]]
+Hindrance = Callable[[BuiltGarage, Profile], str]
 """Why a rule cannot be checked; empty where it can."""
 
 
-def always(_: Subject, __: Profile) -> str:
+def always(_: BuiltGarage, __: Profile) -> str:
     """Nothing hinders it."""
     return ""
 
 
-def where_laid_out(subject: Subject, _: Profile) -> str:
+def where_laid_out(garage: BuiltGarage, _: Profile) -> str:
     """A plan that could not be laid out has no objects."""
-    return "" if subject.things else "there are no objects, only a plan"
+    return "" if garage.things else "there are no objects, only a plan"
 
 
-def where_structure_is_known(subject: Subject, _: Profile) -> str:
+def where_structure_is_known(garage: BuiltGarage, _: Profile) -> str:
     """The stages of others have no S, R and C."""
-    return "" if subject.structure is not None else "the stage does not tell S, R and C"
+    return "" if garage.structure is not None else "the stage does not tell S, R and C"
 
 
 @dataclass(frozen=True)
@@ -96,12 +96,12 @@ class Rule:
         """How grave it is to miss it."""
         return next((clause.severity for clause in self.asked_by(profile).values()), self.severity)
 
-    def findings(self, subject: Subject, profile: Profile) -> Iterator[Finding]:
+    def findings(self, garage: BuiltGarage, profile: Profile) -> Iterator[Finding]:
         """What misses the rule."""
         if not self.applies(profile):
             return
         name, clause = next(iter(self.asked_by(profile).items()), ("", None))
-        for miss in self.find(subject, profile):
+        for miss in self.find(garage, profile):
             yield Finding(
                 rule=self.name,
                 severity=self.severity_in(profile),

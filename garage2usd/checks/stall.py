@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
-from garage2usd.checks.subject import Subject
+from garage2usd.garage import Stall
 from garage2usd.profiles import Length, Profile
-from garage2usd.reading.ground import StallOutline
 
 if TYPE_CHECKING:
-    from garage2usd.checks.solids import Solid
+    from garage2usd.as_built.solids import Solid
 
 __all__ = ["BOOK"]
 
@@ -25,28 +25,28 @@ _BELONGS = {"car", "traffic_cone", "wheel_stop", "charger", "speed_bump", "colum
 
 
 @BOOK.rule("stall-width", "stall_width", asks="a stall that cars park in is wide enough")
-def _width(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    return _short(subject, profile.stall_width, "width_m", "narrow")
+def _width(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage, profile.stall_width, "width_m", "narrow")
 
 
 @BOOK.rule("stall-length", "stall_length", asks="a stall that cars park in is long enough")
-def _length(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    return _short(subject, profile.stall_length, "length_m", "short")
+def _length(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _short(garage, profile.stall_length, "length_m", "short")
 
 
-def _short(subject: Subject, clause: Length | None, side: str, word: str) -> Iterator[Miss]:
+def _short(garage: BuiltGarage, clause: Length | None, side: str, word: str) -> Iterator[Miss]:
     if clause is None:
         return
-    for stall in subject.parking_stalls:
+    for stall in garage.parking_stalls:
         measured = getattr(stall, side)
         if measured < clause.amount - ROUNDING_M:
             yield Miss(stall.name, stall.centre, f"the stall is too {word}", measured, clause.amount)
 
 
 @BOOK.rule("stall-overlap", asks="stalls do not overlap")
-def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
-    stalls = subject.stalls
-    shrunk = shapely.buffer(subject.stall_grounds.polygons, -_TOUCH_M)
+def _overlap(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    stalls = garage.stalls
+    shrunk = shapely.buffer(garage.stall_grounds.polygons, -_TOUCH_M)
     first, second = shapely.STRtree(shrunk).query(shrunk, predicate="intersects")
     for one, other in zip(first.tolist(), second.tolist(), strict=True):
         if one < other:
@@ -54,18 +54,18 @@ def _overlap(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("column-in-stall", asks="no column stands in a stall")
-def _column(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for stall in subject.stalls:
-        for solid in subject.standing_in_stalls[stall]:
+def _column(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for stall in garage.stalls:
+        for solid in garage.standing_in_stalls[stall]:
             if solid.label == "column":
                 yield Miss(stall.name, stall.centre, f"{solid.name} stands in the stall", things=(solid.name,))
                 break
 
 
 @BOOK.rule("stall-blocked", asks="nothing but a car, a wheel stop, a charger or a cone stands in a stall for cars")
-def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for stall in subject.parking_stalls:
-        for solid in subject.standing_in_stalls[stall]:
+def _blocked(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for stall in garage.parking_stalls:
+        for solid in garage.standing_in_stalls[stall]:
             if solid.label not in _BELONGS:
                 message = f"a {solid.kind} stands in the stall: {solid.name}"
                 yield Miss(stall.name, stall.centre, message, things=(solid.name,))
@@ -73,13 +73,13 @@ def _blocked(subject: Subject, _: Profile) -> Iterator[Miss]:
 
 
 @BOOK.rule("car-outside-stall", asks="a parked car stands between the lines of its stall, or 10 cm over one at most")
-def _outside(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for name, (ground, stall) in subject.cars.items():
+def _outside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for name, (ground, stall) in garage.cars.items():
         if stall is not None and not _with_lines(stall).covers(ground):
             yield Miss(name, _centre(ground), f"the car stands out of {stall.name}", things=(name,))
 
 
-def _with_lines(stall: StallOutline) -> shapely.Geometry:
+def _with_lines(stall: Stall) -> shapely.Geometry:
     """The ground of a stall with what a car may stand over its lines."""
     x, z = stall.outwards
     across = np.array([z, -x]) * (_OVER_LINE_M - _TOUCH_M)
@@ -88,17 +88,17 @@ def _with_lines(stall: StallOutline) -> shapely.Geometry:
 
 
 @BOOK.rule("stall-kept-free", asks="no car stands where cars turn or wheelchairs pass")
-def _kept_free(subject: Subject, _: Profile) -> Iterator[Miss]:
-    for name, (_, stall) in subject.cars.items():
+def _kept_free(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
+    for name, (_, stall) in garage.cars.items():
         if stall is not None and not stall.takes_cars:
             message = f"{name} stands in a stall of the use {stall.use.value}"
             yield Miss(stall.name, stall.centre, message, things=(name,))
 
 
 @BOOK.rule("stall-two-cars", asks="a stall holds one car at most")
-def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
+def _two_cars(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
     first: dict[str, str] = {}
-    for name, (_, stall) in subject.cars.items():
+    for name, (_, stall) in garage.cars.items():
         if stall is not None and first.setdefault(stall.name, name) != name:
             both = first[stall.name], name
             yield Miss(stall.name, stall.centre, f"{both[0]} and {both[1]} stand in one stall", things=both)
@@ -110,8 +110,8 @@ def _two_cars(subject: Subject, _: Profile) -> Iterator[Miss]:
     asks="a wheel stop is low enough for a car's front",
     hindrance=where_laid_out,
 )
-def _wheel_stops(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    return _too_high(subject, profile.wheel_stop_height, "wheel_stop")
+def _wheel_stops(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _too_high(garage, profile.wheel_stop_height, "wheel_stop")
 
 
 @BOOK.rule(
@@ -120,15 +120,15 @@ def _wheel_stops(subject: Subject, profile: Profile) -> Iterator[Miss]:
     asks="a speed bump is low enough for a car's floor",
     hindrance=where_laid_out,
 )
-def _speed_bumps(subject: Subject, profile: Profile) -> Iterator[Miss]:
-    return _too_high(subject, profile.speed_bump_height, "speed_bump")
+def _speed_bumps(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    return _too_high(garage, profile.speed_bump_height, "speed_bump")
 
 
-def _too_high(subject: Subject, clause: Length | None, label: str) -> Iterator[Miss]:
+def _too_high(garage: BuiltGarage, clause: Length | None, label: str) -> Iterator[Miss]:
     if clause is None:
         return
     highest: dict[str, Solid] = {}
-    for solid in subject.solids.standing(label):
+    for solid in garage.solids.standing(label):
         if solid.name not in highest or solid.top_m > highest[solid.name].top_m:
             highest[solid.name] = solid
     for name, solid in highest.items():

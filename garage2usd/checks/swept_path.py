@@ -2,12 +2,11 @@
 
 from collections.abc import Iterator
 
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks import aisle, clearance, feasibility, stall
-from garage2usd.checks.aisle import edge_name
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
-from garage2usd.checks.subject import Subject
 from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
 from garage2usd.profiles import Length, Profile
 
@@ -20,21 +19,22 @@ _EXPLAINED = 10
 
 
 @BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
-def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
+def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     """Leaves out what other rules report: stalls that have an error, and the things that are at fault elsewhere."""
-    entrances, exits = ([at for at in subject.portals(kind) if subject.beside[at]] for kind in ("entrance", "exit"))
-    if not (entrances and exits and subject.has_whole_graph and subject.things):
+    lanes = garage.lanes
+    has_way = lanes.joined_portals("entrance") and lanes.joined_portals("exit")
+    if not (has_way and garage.has_whole_graph and garage.things):
         return
-    faults = _reported(subject, profile)
+    faults = _reported(garage, profile)
     places = {fault.place for fault in faults}
-    lanes = {node for edge in subject.edges if edge_name(subject, edge) in places for node in (edge.start, edge.end)}
+    missed = {node for edge in lanes.edges if lanes.edge_name(edge) in places for node in (edge.start, edge.end)}
     height_m = _amount(profile.design_car_height, CAR_HEIGHT_M)
     things = {name for fault in faults for name in fault.things}
-    garage = driven_garage(subject, height_m=height_m, left_out=things)
-    asked = [at for at in garage.stalls if at.name not in places and at.access not in lanes]
+    driven = driven_garage(garage, height_m=height_m, left_out=things)
+    asked = [at for at in driven.stalls if at.name not in places and at.access not in missed]
     limits = Limits()
     proofs = prove_garage(
-        garage,
+        driven,
         asked,
         car=design_car(profile),
         limits=limits,
@@ -44,7 +44,7 @@ def _swept(subject: Subject, profile: Profile) -> Iterator[Miss]:
     for at, proof in zip(asked, proofs, strict=True):
         if not proof.is_proven:
             required = None if proof.clearance_m is None else limits.margin_m
-            yield Miss(proof.stall, at.centre_m, _message(proof), proof.clearance_m, required)
+            yield Miss(proof.stall, rounded(at.centre), _message(proof), proof.clearance_m, required)
 
 
 def design_car(profile: Profile) -> DesignCar:
@@ -67,12 +67,12 @@ def design_car(profile: Profile) -> DesignCar:
     )
 
 
-def _reported(subject: Subject, profile: Profile) -> list[Miss]:
+def _reported(garage: BuiltGarage, profile: Profile) -> list[Miss]:
     """What the rules of stalls, aisles, clearances and routes report as errors."""
     faults = []
     for rule in (rule for module in (stall, aisle, clearance, feasibility) for rule in module.BOOK.rules):
         if rule.applies(profile) and rule.severity_in(profile) is Severity.ERROR:
-            faults += rule.find(subject, profile)
+            faults += rule.find(garage, profile)
     return faults
 
 

@@ -36,8 +36,8 @@ def check(ctx: click.Context, *, path: Path, profile: str | None, as_json: bool)
     from garage2usd.profiles import load_profile  # noqa: PLC0415
 
     with Bars(sys.stderr):
-        subject, against = checks.read_subject(path, profile=None if profile is None else load_profile(profile))
-        findings, not_checked = checks.check(subject, against), checks.not_checked(subject, against)
+        garage, against = checks.read_garage(path, profile=None if profile is None else load_profile(profile))
+        findings, not_checked = checks.check(garage, against), checks.not_checked(garage, against)
     counts = Counter(finding.severity.value for finding in findings)
     if as_json:
         document = {

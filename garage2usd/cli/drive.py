@@ -14,7 +14,7 @@ from garage2usd.errors import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from garage2usd.checks import Subject
+    from garage2usd.as_built import BuiltGarage
     from garage2usd.config.maps import DriveConfig
     from garage2usd.driving import StallProof
     from garage2usd.maps.drives import Drive
@@ -114,8 +114,8 @@ def _drive_to(
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
 
     with Bars(sys.stderr) as progress:
-        subject, settings = _subject_of(path, seed, progress)
-        driven = DrivePlanner(subject, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
+        garage, settings = _garage_of(path, seed, progress)
+        driven = DrivePlanner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
         _write_drive(output, driven)
     route, states = driven.route, driven.trajectory
@@ -131,19 +131,19 @@ def _drive_to(
         click.echo(f"{route.stall}: only while the stalls that are empty now stay empty")
 
 
-def _subject_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[Subject, DriveConfig]":
+def _garage_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[BuiltGarage, DriveConfig]":
     """The garage, and the settings of drives."""
-    from garage2usd.checks.layout_reader import layout_subject  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.as_built.layout_reader import garage_of_layout  # noqa: PLC0415 - keeps --help instant
 
     if path is not None and _is_made(path):
         return _read(path, seed)
-    garage = _generated(path, seed, progress)
-    subject = layout_subject(garage.layout, garage.graph, source=str(path or ""), kind="plan")
-    return subject, garage.config.maps.drive
+    made = _generated(path, seed, progress)
+    garage = garage_of_layout(made.layout, made.graph, source=str(path or ""), kind="plan")
+    return garage, made.config.maps.drive
 
 
 def _proofs_of(path: Path | None, seed: int | None, progress: "Progress") -> "tuple[StallProof, ...]":
-    from garage2usd.checks.driven_ground import driven_garage  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.as_built.driven_ground import driven_garage  # noqa: PLC0415 - keeps --help instant
     from garage2usd.driving import prove_garage, prove_stalls  # noqa: PLC0415
 
     if path is not None and _is_made(path):
@@ -159,18 +159,18 @@ def _is_made(path: Path) -> bool:
     return path.suffix.lower() in {*STAGE_SUFFIXES, ".json"}
 
 
-def _read(path: Path, seed: int | None) -> "tuple[Subject, DriveConfig]":
+def _read(path: Path, seed: int | None) -> "tuple[BuiltGarage, DriveConfig]":
     """The garage of a stage or a report, and the settings of drives: the report's own; a stage says nothing of them."""
-    from garage2usd.checks import read_subject  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.checks.plan_reader import plan_subject  # noqa: PLC0415
+    from garage2usd.as_built.plan_reader import garage_of_plan  # noqa: PLC0415
+    from garage2usd.checks import read_garage  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import DriveConfig  # noqa: PLC0415
     from garage2usd.reading.files import STAGE_SUFFIXES  # noqa: PLC0415
 
     refuse_seed(seed)
     if path.suffix.lower() in STAGE_SUFFIXES:
-        return read_subject(path)[0], DriveConfig()
-    subject, config = plan_subject(path)
-    return subject, config.maps.drive
+        return read_garage(path)[0], DriveConfig()
+    garage, config = garage_of_plan(path)
+    return garage, config.maps.drive
 
 
 def _generated(path: Path | None, seed: int | None, progress: "Progress") -> "Garage":

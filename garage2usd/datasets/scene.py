@@ -15,8 +15,8 @@ from garage2usd.datasets.plans import DrawnPlan, replanned
 from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
+from garage2usd.garage import StallUse
 from garage2usd.json_text import json_text
-from garage2usd.layout import StallUse
 from garage2usd.pipeline import Garage, generate, stage_metadata
 from garage2usd.planning import measured_circulation
 from garage2usd.reading.report import Report

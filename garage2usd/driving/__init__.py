@@ -5,8 +5,7 @@ whole garage `prove_garage` takes a `DrivenGarage`, and `prove_stalls` a layout 
 """
 
 from garage2usd.driving.car import DesignCar, Pose
-from garage2usd.driving.garage import DrivenGarage, DrivenStall, Nose, StallProof, prove_garage
-from garage2usd.driving.lane_poses import LaneDirections, LaneSquare, SquareUse
+from garage2usd.driving.garage import DrivenGarage, Nose, StallProof, prove_garage
 from garage2usd.driving.layout_garage import (
     prove_stalls,
     with_clutter,
@@ -22,11 +21,8 @@ __all__ = [
     "DesignCar",
     "DrivenGarage",
     "DrivenRoad",
-    "DrivenStall",
     "Gear",
-    "LaneDirections",
     "LanePose",
-    "LaneSquare",
     "Limits",
     "Manoeuvre",
     "Move",
@@ -36,7 +32,6 @@ __all__ = [
     "Pose",
     "RampFloor",
     "Search",
-    "SquareUse",
     "StallProof",
     "Waypoint",
     "find_way",

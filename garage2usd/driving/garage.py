@@ -4,24 +4,26 @@ A garage is plain geometry here: stalls, lanes by direction, and obstacles.
 """
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
 
-from garage2usd.driving.car import DesignCar, Point, Pose
-from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, families
+from garage2usd.driving.car import DesignCar, Pose
+from garage2usd.driving.lane_poses import families, lane_poses
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m, touched_parked
+from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
 from garage2usd.progress import Progress, silent
 
-__all__ = ["DrivenGarage", "DrivenStall", "Nose", "StallProof", "absent_cars", "prove_garage"]
+__all__ = ["DrivenGarage", "Nose", "StallProof", "middle_of", "prove_garage"]
 
 _SUSPECTS = 8
+_NEAR_EDGES, _DIGITS = 2, 4
 _FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
 
 
@@ -80,37 +82,6 @@ class StallProof:
         return self.way_in is not None and self.way_out is not None
 
 
-@dataclass(frozen=True, slots=True)
-class DrivenStall:
-    """A stall that takes a car.
-
-    Attributes
-    ----------
-    name
-        Its name.
-    centre_m, yaw_rad
-        Its middle (x, z), and the yaw of a car that stands in it nose in.
-    access
-        Number of the square that its mouth opens onto.
-    absent
-        Name for the car that is thought to stand there for the proofs of the others; None where one stands.
-    own
-        Names of obstacles that are not in the way of a car that parks there: its car, wheel stop and cones.
-    """
-
-    name: str
-    centre_m: Point
-    yaw_rad: float
-    access: int
-    absent: str | None
-    own: tuple[str, ...] = ()
-
-    @property
-    def unseen(self) -> tuple[str, ...]:
-        """What is not in the way of a car that parks there: its own, and the car that is thought to stand there."""
-        return self.own if self.absent is None else (*self.own, self.absent)
-
-
 @dataclass(frozen=True, eq=False)
 class DrivenGarage:
     """A garage as far as a car drives in it.
@@ -119,20 +90,58 @@ class DrivenGarage:
     ----------
     stalls
         Those that take cars.
-    directions
+    lanes
         Its lanes.
     standing
         What a car could touch, the parked cars included.
+    taken
+        Names of the stalls in which cars stand.
+    own
+        For the name of a stall, names of obstacles that are not in the way of a car that parks there: its car, wheel
+        stop and cones.
     """
 
-    stalls: tuple[DrivenStall, ...]
-    directions: LaneDirections
+    stalls: tuple[Stall, ...]
+    lanes: LaneGraph
     standing: Obstacles
+    taken: frozenset[str] = frozenset()
+    own: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    @cached_property
+    def backing(self) -> frozenset[Arc]:
+        """Arcs into dead ends that cars may back out of."""
+        return self.lanes.into_dead_ends(DEAD_END_LIMIT_M)
+
+    def near(self, node: int) -> list[Arc]:
+        """The arcs at most two edges from a node, the nearest first."""
+        return self.lanes.near(node, _NEAR_EDGES)
+
+    def unseen(self, stall: Stall) -> tuple[str, ...]:
+        """Names of what is not in the way of a car that parks in a stall: its belongings, and the car assumed there."""
+        own = self.own.get(stall.name, ())
+        return own if stall.name in self.taken else (*own, _absent(stall))
+
+    def absent_cars(self, car: DesignCar) -> Obstacles:
+        """A car in the middle of each stall that holds none."""
+        empty = [stall for stall in self.stalls if stall.name not in self.taken]
+        corners = [car.corners(car.centred(middle_of(stall), stall.yaw_rad)) for stall in empty]
+        grounds = shapely.polygons(np.array(corners).reshape(-1, 4, 2))
+        return Obstacles.of(zip(map(_absent, empty), grounds, strict=True))
+
+
+def middle_of(stall: Stall) -> Point:
+    """(x, z) of the middle of a stall, to a tenth of a millimetre, as single precision keeps it."""
+    x, z = stall.centre
+    return round(x, _DIGITS), round(z, _DIGITS)
+
+
+def _absent(stall: Stall) -> str:
+    return f"a car in {stall.name}"
 
 
 def prove_garage(
     garage: DrivenGarage,
-    stalls: Iterable[DrivenStall] | None = None,
+    stalls: Iterable[Stall] | None = None,
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
@@ -186,24 +195,24 @@ class _Prover:
 
     def __init__(self, garage: DrivenGarage, car: DesignCar, limits: Limits) -> None:
         self.car, self.limits = car, limits
-        self.directions = garage.directions
+        self.garage = garage
         self.as_it_stands = garage.standing
-        self.full = garage.standing.joined(absent_cars(garage.stalls, car))
+        self.full = garage.standing.joined(garage.absent_cars(car))
         self.poses_at = lru_cache(maxsize=None)(self._poses_at)
 
-    def _poses_at(self, square: int, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
-        """Lane poses near a square: those that serve both ways, and those that serve the asked one alone."""
-        directions = self.directions
-        arriving = directions.arriving
-        leaving = directions.leaving | (directions.backing if backing else frozenset())
-        near = directions.near(square)
+    def _poses_at(self, node: int, *, to_leave: bool, backing: bool) -> tuple[list[LanePose], list[LanePose]]:
+        """Lane poses near a node: those that serve both ways, and those that serve the asked one alone."""
+        lanes = self.garage.lanes
+        arriving = lanes.arriving
+        leaving = lanes.leaving | (self.garage.backing if backing else frozenset())
+        near = self.garage.near(node)
 
-        def poses(edges: frozenset[DirectedEdge]) -> list[LanePose]:
-            return directions.poses([edge for edge in near if edge in edges], self.car)
+        def poses(arcs: frozenset[Arc]) -> list[LanePose]:
+            return lane_poses(lanes, [arc for arc in near if arc in arcs], self.car)
 
         return poses(arriving & leaving), poses(leaving if to_leave else arriving)
 
-    def proof_of(self, stall: DrivenStall, *, with_all_taken_only: bool) -> StallProof:
+    def proof_of(self, stall: Stall, *, with_all_taken_only: bool) -> StallProof:
         """The ways of one stall, or what was touched."""
         full = self._seen_from(stall, self.full)
         touched: list[str] = []
@@ -220,7 +229,7 @@ class _Prover:
                     touched += in_the_way
         return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)))
 
-    def explained(self, stall: DrivenStall, proof: StallProof) -> StallProof:
+    def explained(self, stall: Stall, proof: StallProof) -> StallProof:
         """The failed proof of a stall with what alone is in the way, if there is such a thing."""
         full, suspects = self._seen_from(stall, self.full), proof.touched
         without = {name: self._ways_without(stall, name, full) for name in suspects[:_SUSPECTS]}
@@ -231,16 +240,16 @@ class _Prover:
         clearance_m = min(least_clearance_m(self.car, way, cause) for way in without[causes[0]])
         return StallProof(stall.name, touched=causes, is_single_cause=True, clearance_m=clearance_m)
 
-    def _has_backing(self, stall: DrivenStall) -> bool:
+    def _has_backing(self, stall: Stall) -> bool:
         """Whether backing out of a dead end gives more lane poses near a stall."""
         forward, backing = (self.poses_at(stall.access, to_leave=True, backing=backing)[1] for backing in (False, True))
         return len(backing) > len(forward)
 
-    def _seen_from(self, stall: DrivenStall, obstacles: Obstacles) -> Obstacles:
-        near = obstacles.near(stall.centre_m, 1.5 * (self.limits.reach_m + self.car.length_m))
-        return near.without(stall.unseen)
+    def _seen_from(self, stall: Stall, obstacles: Obstacles) -> Obstacles:
+        near = obstacles.near(middle_of(stall), 1.5 * (self.limits.reach_m + self.car.length_m))
+        return near.without(self.garage.unseen(stall))
 
-    def _ways_without(self, stall: DrivenStall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
+    def _ways_without(self, stall: Stall, name: str, obstacles: Obstacles) -> tuple[Manoeuvre, ...]:
         """The ways in and out where one thing is left out, looked for roughly; none if there are not both."""
         limits = replace(self.limits, is_thorough=False)
         for nose in Nose:
@@ -249,20 +258,18 @@ class _Prover:
                 return way_in, way_out
         return ()
 
-    def _parked(self, stall: DrivenStall, nose: Nose, obstacles: Obstacles) -> Pose:
+    def _parked(self, stall: Stall, nose: Nose, obstacles: Obstacles) -> Pose:
         """In the middle of the stall, or as little further out as keeps the car off what stands behind."""
-        sin, cos = math.sin(stall.yaw_rad), math.cos(stall.yaw_rad)
+        (x, z), yaw_rad = middle_of(stall), stall.yaw_rad
+        sin, cos = math.sin(yaw_rad), math.cos(yaw_rad)
         poses = [
-            self.car.centred(
-                (stall.centre_m[0] + sin * out_m, stall.centre_m[1] + cos * out_m), stall.yaw_rad + nose.turn_rad
-            )
-            for out_m in _FURTHER_OUT_M
+            self.car.centred((x + sin * out_m, z + cos * out_m), yaw_rad + nose.turn_rad) for out_m in _FURTHER_OUT_M
         ]
         clear = (pose for pose in poses if not touched_parked(self.car, pose, obstacles, self.limits.margin_m))
         return next(clear, poses[0])
 
     def _ways(
-        self, stall: DrivenStall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
+        self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
     ) -> tuple[Manoeuvre | None, Manoeuvre | None, Sequence[str]]:
         """The way in, the way out, and what was touched where one is missing."""
         parked = self._parked(stall, nose, obstacles)
@@ -286,14 +293,3 @@ class _Prover:
             return None, None, touched
         into, touched = way(arrive) if len(arrive) > len(both) else (None, touched)
         return into.reversed() if into else None, out, touched
-
-
-def absent_cars(stalls: Iterable[DrivenStall], car: DesignCar) -> Obstacles:
-    """A car in the middle of each stall that holds none."""
-    named = [
-        (stall.absent, car.corners(car.centred(stall.centre_m, stall.yaw_rad)))
-        for stall in stalls
-        if stall.absent is not None
-    ]
-    grounds = shapely.polygons(np.array([corners for _, corners in named]).reshape(-1, 4, 2))
-    return Obstacles.of((name, ground) for (name, _), ground in zip(named, grounds, strict=True))

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from itertools import count, pairwise
 
 from garage2usd.driving.car import Pose
-from garage2usd.driving.lane_poses import DirectedEdge
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.road import Portal
 from garage2usd.driving.roadmap import Grain, Roadmap, Spot
+from garage2usd.garage import Arc
 
 __all__ = ["path_from_entrance", "path_to_exit"]
 
@@ -23,7 +23,7 @@ _Place = Spot | int | None
 
 def path_to_exit(roadmap: Roadmap, start: Pose, exits: Sequence[Portal], grain: Grain) -> tuple[Path, Portal] | None:
     """The shortest path found from a pose in line with a lane to where a car stands after one of some exits."""
-    edges = roadmap.edges_at(start, roadmap.directions.leaving)
+    edges = roadmap.edges_at(start, roadmap.lanes.leaving)
     return _Growth(roadmap, start, exits, grain, is_back=False).grown(edges)
 
 
@@ -31,7 +31,7 @@ def path_from_entrance(
     roadmap: Roadmap, end: Pose, entrances: Sequence[Portal], grain: Grain
 ) -> tuple[Path, Portal] | None:
     """The shortest path found to a pose in line with a lane from where a car stands before one of some entrances."""
-    edges = roadmap.edges_at(end, roadmap.directions.arriving)
+    edges = roadmap.edges_at(end, roadmap.lanes.arriving)
     return _Growth(roadmap, end, entrances, grain, is_back=True).grown(edges)
 
 
@@ -63,13 +63,13 @@ class _Growth:
 
     def __init__(self, roadmap: Roadmap, root: Pose, portals: Sequence[Portal], grain: Grain, *, is_back: bool) -> None:
         self._roadmap, self._grain, self._is_back = roadmap, grain, is_back
-        self._portals = {portal.square: portal for portal in portals}
-        self._poses: dict[_Place, Pose] = {None: root, **{portal.square: portal.pose for portal in portals}}
+        self._portals = {portal.node: portal for portal in portals}
+        self._poses: dict[_Place, Pose] = {None: root, **{portal.node: portal.pose for portal in portals}}
         self._done: dict[_Place, tuple[Piece, ...]] = {}
         self._waiting: list[_Candidate] = []
         self._numbers = count()
 
-    def grown(self, edges: Iterable[DirectedEdge]) -> tuple[Path, Portal] | None:
+    def grown(self, edges: Iterable[Arc]) -> tuple[Path, Portal] | None:
         """The path, and the portal that it begins or ends at."""
         self._done[None] = ()
         self._grow_from(None, edges, 0.0)
@@ -99,7 +99,7 @@ class _Growth:
             return None
         return (*pieces, *there) if self._is_back else (*there, *pieces)
 
-    def _grow_from(self, origin: "_Place", edges: Iterable[DirectedEdge], driven_m: float) -> None:
+    def _grow_from(self, origin: "_Place", edges: Iterable[Arc], driven_m: float) -> None:
         usual = 2 if origin is None else 1
         for first in edges:
             for walk in self._roadmap.walks(first, is_back=self._is_back):
@@ -117,7 +117,7 @@ class _Growth:
                     self._poses.setdefault(spot, pose)
                     self._offer(spot, origin, over_m, walk[:-1])
 
-    def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[DirectedEdge] = ()) -> None:
+    def _offer(self, target: "_Place", origin: "_Place", driven_m: float, over: Sequence[Arc] = ()) -> None:
         """Wait for a target, over edges all of which are driven whole."""
         if target in self._done:
             return
@@ -126,7 +126,7 @@ class _Growth:
         estimate_m = driven_m + self._left_m(target)
         heapq.heappush(self._waiting, _Candidate(estimate_m, next(self._numbers), target, origin, driven_m))
 
-    def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[DirectedEdge]) -> float:
+    def _over_m(self, origin: "_Place", target: "_Place", over: Sequence[Arc]) -> float:
         """Way along the middle lines, from turn to turn."""
         turns = [self._roadmap.middle_m(edge[0 if self._is_back else 1]) for edge in over]
         ends = [(pose.x_m, pose.z_m) for pose in (self._poses[origin], self._poses[target])]

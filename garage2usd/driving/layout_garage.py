@@ -13,10 +13,10 @@ from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits
 from garage2usd.layout import Layout, Placement, lay_out
+from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.grounds import Grounds
 from garage2usd.progress import Progress, silent
-from garage2usd.structure.dead_ends import dead_ends
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "layout_garage",
@@ -34,7 +34,7 @@ _STEP_M = 0.25
 
 def prove_stalls(
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     *,
     car: DesignCar | None = None,
     limits: Limits | None = None,
@@ -60,7 +60,7 @@ def prove_stalls(
 
 
 def without_unreachable(
-    layout: Layout, graph: LaneGraph, config: GarageConfig, *, progress: Progress = silent
+    layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
 ) -> Layout:
     """The layout anew, with the stalls marked or left out that cars do not get into and out of.
 
@@ -90,7 +90,7 @@ def without_unreachable(
 
 
 def with_truth_of_misparked(
-    layout: Layout, graph: LaneGraph, config: GarageConfig, *, progress: Progress = silent
+    layout: Layout, graph: LaneSquares, config: GarageConfig, *, progress: Progress = silent
 ) -> Layout:
     """The layout with what is proven of the stalls that cars reach into from the next stall.
 
@@ -134,7 +134,7 @@ def _with_cars_between_lines(config: GarageConfig) -> GarageConfig:
 
 def with_clutter(
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     config: GarageConfig,
     *,
     cars: Iterable[DesignCar] = (DesignCar(),),
@@ -184,17 +184,9 @@ def _swept(way: Manoeuvre, car: DesignCar) -> Grounds:
     return hulls
 
 
-def layout_garage(layout: Layout, graph: LaneGraph) -> DrivenGarage:
+def layout_garage(layout: Layout, graph: LaneSquares) -> DrivenGarage:
     """The stalls that take cars, the lanes, and what stands on the floor, each by its `object_name`."""
-    number_of = graph.number_of
-    stalls = (stall for stall in layout.stalls if stall.use.takes_cars)
-    return assembled(
-        ((stall.name, stall.centre_m, stall.yaw_rad, number_of[stall.access_square]) for stall in stalls),
-        zip(graph.middles_m.tolist(), graph.sides_m.tolist(), map(graph.kind, number_of), strict=True),
-        graph.edges,
-        (([number_of[square] for square in end.squares], end.length_m) for end in dead_ends(graph.structure)),
-        _standing(layout),
-    )
+    return assembled(garage_stalls(layout.stalls, graph), graph.lanes, _standing(layout))
 
 
 def object_name(place: Placement) -> str:

@@ -8,7 +8,7 @@ from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
 from garage2usd.progress import Progress, silent
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["refuse_undrivable"]
 
@@ -16,7 +16,7 @@ _MOST_TRIED, _NAMED = 24, 5
 
 
 def refuse_undrivable(
-    layout: Layout, graph: LaneGraph, config: GarageConfig, tight: Sequence[Stall], *, progress: Progress = silent
+    layout: Layout, graph: LaneSquares, config: GarageConfig, tight: Sequence[Stall], *, progress: Progress = silent
 ) -> None:
     """Refuse a garage if a car does not get into one of the stalls in doubt, and out again.
 

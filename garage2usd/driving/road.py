@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from garage2usd.driving.car import Point, Pose
 from garage2usd.driving.garage import DrivenGarage
-from garage2usd.driving.lane_poses import SquareUse
 from garage2usd.driving.obstacles import Obstacles
+from garage2usd.garage import LaneKind
 
 __all__ = ["DrivenRoad", "Portal", "RampFloor", "heights_m"]
 
@@ -22,19 +22,19 @@ class Portal:
 
     Attributes
     ----------
-    square
-        Number of its square.
+    node
+        Number of its node.
     name
         Its name.
-    use
+    kind
         Which of the two it is.
     pose
         Where a car stands before it enters or after it has left.
     """
 
-    square: int
+    node: int
     name: str
-    use: SquareUse
+    kind: LaneKind
     pose: Pose
 
 

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.driving.car import DesignCar, Point, Pose
-from garage2usd.driving.lane_poses import DirectedEdge, LaneDirections, SquareUse
+from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.proof import LanePose
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.turns import Steering, joining_pieces
+from garage2usd.garage import Arc, LaneGraph, Point
 
 __all__ = ["GRAINS", "Grain", "Roadmap", "Spot"]
 
@@ -90,32 +90,31 @@ class Roadmap:
     def __init__(
         self, road: DrivenRoad, standing: Obstacles, car: DesignCar, steerings: Sequence[Steering], margin_m: float
     ) -> None:
-        self._directions = road.garage.directions
+        self._lanes = road.garage.lanes
         self._standing, self._car, self._steerings, self._margin_m = standing, car, tuple(steerings), margin_m
         self._known: dict[tuple[Pose, Pose], tuple[Piece, ...] | None] = {}
 
     @property
-    def directions(self) -> LaneDirections:
+    def lanes(self) -> LaneGraph:
         """The garage's lanes."""
-        return self._directions
+        return self._lanes
 
-    def edges_at(self, pose: Pose, edges: Iterable[DirectedEdge]) -> list[DirectedEdge]:
+    def edges_at(self, pose: Pose, edges: Iterable[Arc]) -> list[Arc]:
         """Those of some edges that a car is in line with and on."""
         x, z = _middle(self._car, pose)
         found = []
         for edge in edges:
-            one = self._directions.squares[edge[0]].middle_m
+            one = self._lanes.nodes[edge[0]].position
             along, length = self._along[edge]
             run = (x - one[0]) * along[0] + (z - one[1]) * along[1]
             aside = abs((x - one[0]) * along[1] - (z - one[1]) * along[0])
-            beyond = self._directions.squares[edge[1]].sides_m
-            far = length + abs(along[0]) * beyond[0] / 2 + abs(along[1]) * beyond[1] / 2
+            far = length + self._lanes.nodes[edge[1]].reach_m(along)
             same = -math.sin(pose.yaw_rad) * along[0] - math.cos(pose.yaw_rad) * along[1]
-            if same > _SAME_WAY and aside <= self._directions.widths_m[edge] / 2 and -0.01 <= run <= far:  # noqa: PLR2004
+            if same > _SAME_WAY and aside <= self._lanes.arcs[edge].width_m / 2 and -0.01 <= run <= far:  # noqa: PLR2004
                 found.append(edge)
         return found
 
-    def roomy_poses(self, edges: Iterable[DirectedEdge], *, is_back: bool) -> list[LanePose]:
+    def roomy_poses(self, edges: Iterable[Arc], *, is_back: bool) -> list[LanePose]:
         """Where a car has room to turn at the end of some edges, or has turned at their starts, its middle on them.
 
         Notes
@@ -124,7 +123,7 @@ class Roadmap:
         traffic may drive straight on, or come straight, the whole edge counts.
         """
         tangent_m = float(abs(self._steerings[-1].chords(np.array([math.pi / 2]))[0])) / math.sqrt(2) + _ROOM_TO_TURN_M
-        used = self._directions.arriving if is_back else self._directions.leaving
+        used = self._lanes.arriving if is_back else self._lanes.leaving
         poses = []
         for edge in edges:
             along, length_m = self._along[edge]
@@ -134,44 +133,43 @@ class Roadmap:
                 low, high = (tangent_m, high) if is_back else (low, high - tangent_m)
             if high < low:
                 continue
-            x, z = self._directions.squares[edge[0]].middle_m
+            x, z = self._lanes.nodes[edge[0]].position
             ahead = (low + high) / 2 + self._car.length_m / 2 - self._car.rear_overhang_m
-            room = min(_BESIDE_M, self._directions.widths_m[edge] - self._car.width_m)
+            room = min(_BESIDE_M, self._lanes.arcs[edge].width_m - self._car.width_m)
             if room >= 0:
                 yaw = math.atan2(-along[0] + 0.0, -along[1] + 0.0)
                 poses.append(LanePose((x + ahead * along[0], z + ahead * along[1]), yaw, high - low, room))
         return poses
 
     @cached_property
-    def _along(self) -> dict[DirectedEdge, tuple[Point, float]]:
+    def _along(self) -> dict[Arc, tuple[Point, float]]:
         """Direction and length of each edge."""
-        squares = self._directions.squares
         along = {}
-        for edge in self._directions.widths_m:
-            (x, z), (to_x, to_z) = (squares[number].middle_m for number in edge)
+        for edge in self._lanes.arcs:
+            (x, z), (to_x, to_z) = (self._lanes.nodes[number].position for number in edge)
             length = math.hypot(to_x - x, to_z - z)
             along[edge] = (round((to_x - x) / length, _DIGITS) + 0.0, round((to_z - z) / length, _DIGITS) + 0.0), length
         return along
 
     @cached_property
-    def _joins(self) -> tuple[dict[DirectedEdge, tuple[DirectedEdge, ...]], ...]:
+    def _joins(self) -> tuple[dict[Arc, tuple[Arc, ...]], ...]:
         """The edges that follow each, and those that it follows, without turning round or through a portal."""
-        entering: dict[int, list[DirectedEdge]] = {}
-        leaving: dict[int, list[DirectedEdge]] = {}
-        for edge in self._directions.widths_m:
+        entering: dict[int, list[Arc]] = {}
+        leaving: dict[int, list[Arc]] = {}
+        for edge in self._lanes.arcs:
             leaving.setdefault(edge[0], []).append(edge)
             entering.setdefault(edge[1], []).append(edge)
-        lanes = {number for number, square in enumerate(self._directions.squares) if square.use is SquareUse.LANE}
+        lanes = {number for number, node in enumerate(self._lanes.nodes) if not node.is_portal}
 
-        def beside(edge: DirectedEdge, square: int, others: dict[int, list[DirectedEdge]]) -> tuple[DirectedEdge, ...]:
+        def beside(edge: Arc, square: int, others: dict[int, list[Arc]]) -> tuple[Arc, ...]:
             return tuple(other for other in others.get(square, ()) if set(other) != set(edge) and square in lanes)
 
         return (
-            {edge: beside(edge, edge[1], leaving) for edge in self._directions.widths_m},
-            {edge: beside(edge, edge[0], entering) for edge in self._directions.widths_m},
+            {edge: beside(edge, edge[1], leaving) for edge in self._lanes.arcs},
+            {edge: beside(edge, edge[0], entering) for edge in self._lanes.arcs},
         )
 
-    def walks(self, first: DirectedEdge, *, is_back: bool) -> Iterator[list[DirectedEdge]]:
+    def walks(self, first: Arc, *, is_back: bool) -> Iterator[list[Arc]]:
         """Walks over few edges that begin with one, or end with it where they are walked back."""
         waiting = [[first]]
         while waiting:
@@ -180,13 +178,13 @@ class Roadmap:
             if len(walk) < _MOST_EDGES:
                 waiting += [[*walk, following] for following in self._joins[is_back][walk[-1]]]
 
-    def is_straight(self, walk: Sequence[DirectedEdge]) -> bool:
+    def is_straight(self, walk: Sequence[Arc]) -> bool:
         """Whether a walk turns nowhere."""
         return len({self._along[edge][0] for edge in walk}) == 1
 
-    def spots(self, edge: DirectedEdge, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
+    def spots(self, edge: Arc, grain: "Grain", *, is_back: bool) -> Iterator[tuple[Spot, Pose]]:
         """The places on an edge and at its end, or at its start where it is walked back."""
-        room_m = min((self._directions.widths_m[edge] - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
+        room_m = min((self._lanes.arcs[edge].width_m - self._car.width_m) / 2 - _ROOM_KEPT_M, _MOST_ASIDE_M)
         along, length_m = self._along[edge]
         for share in grain.asides:
             aside_m = round(share * max(room_m, 0.0), _DIGITS)
@@ -196,26 +194,26 @@ class Roadmap:
 
     def door_spots(self, portal: Portal) -> Iterator[tuple[Spot, Pose]]:
         """Places between the middle of a portal's square and where cars stand outside, in line with that."""
-        x, z = self._directions.squares[portal.square].middle_m
+        x, z = self._lanes.nodes[portal.node].position
         along = -math.sin(portal.pose.yaw_rad), -math.cos(portal.pose.yaw_rad)
         length_m = (portal.pose.x_m - x) * along[0] + (portal.pose.z_m - z) * along[1]
         for ahead_m in np.arange(0.0, min(abs(length_m), _DOOR_SPOTS_M), _DOOR_SPOT_M).tolist():
-            yield self._placed(Spot(portal.square, along, 0.0, math.copysign(ahead_m, length_m)))
+            yield self._placed(Spot(portal.node, along, 0.0, math.copysign(ahead_m, length_m)))
 
     def _placed(self, spot: Spot) -> tuple[Spot, Pose]:
-        x, z = self._directions.squares[spot.square].middle_m
+        x, z = self._lanes.nodes[spot.square].position
         (along_x, along_z), aside_m, ahead_m = spot.along, spot.aside_m, spot.ahead_m
         yaw = math.atan2(-along_x + 0.0, -along_z + 0.0)
         return spot, Pose(x + aside_m * -along_z + ahead_m * along_x, z + aside_m * along_x + ahead_m * along_z, yaw)
 
-    def edges_from(self, spot: Spot, *, is_back: bool) -> list[DirectedEdge]:
+    def edges_from(self, spot: Spot, *, is_back: bool) -> list[Arc]:
         """The edges in line with a place that lead on from it, or to it where they are walked back."""
         at = 1 if is_back and not spot.ahead_m else 0
         return [edge for edge, (along, _) in self._along.items() if edge[at] == spot.square and along == spot.along]
 
     def middle_m(self, square: int) -> Point:
         """(x, z) of the middle of a square."""
-        return self._directions.squares[square].middle_m
+        return self._lanes.nodes[square].position
 
     def joined(self, start: Pose, end: Pose) -> tuple[Piece, ...] | None:
         """A clear path from pose to pose in at most two turns."""

@@ -6,8 +6,8 @@ from functools import lru_cache
 from itertools import chain
 
 from garage2usd.driving.car import DesignCar
-from garage2usd.driving.garage import DrivenStall, Nose, StallProof, absent_cars, prove_garage
-from garage2usd.driving.lane_poses import SquareUse, families
+from garage2usd.driving.garage import Nose, StallProof, prove_garage
+from garage2usd.driving.lane_poses import families
 from garage2usd.driving.lane_search import path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
@@ -16,6 +16,7 @@ from garage2usd.driving.proof import LanePose, Limits, find_way
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap
 from garage2usd.driving.turns import Steering
+from garage2usd.garage import LaneKind, Stall
 
 __all__ = ["Route", "Router"]
 
@@ -76,13 +77,13 @@ class Router:
         self._standing = lru_cache(maxsize=2)(self._stood)
         self._roadmap = lru_cache(maxsize=2)(self._mapped)
 
-    def portals(self, use: SquareUse) -> tuple[Portal, ...]:
+    def portals(self, kind: LaneKind) -> tuple[Portal, ...]:
         """The entrances or the exits, in reading order."""
-        return tuple(portal for portal in self._road.portals if portal.use is use)
+        return tuple(portal for portal in self._road.portals if portal.kind is kind)
 
     def route(
         self,
-        stall: DrivenStall,
+        stall: Stall,
         *,
         proof: StallProof | None = None,
         entrances: Iterable[Portal] | None = None,
@@ -103,8 +104,8 @@ class Router:
             (proof,) = prove_garage(self._road.garage, [stall], car=self._car, limits=self._limits)
         if proof.nose is None or proof.way_in is None or proof.way_out is None:
             return proof
-        entrances = self.portals(SquareUse.ENTRANCE) if entrances is None else tuple(entrances)
-        exits = self.portals(SquareUse.EXIT) if exits is None else tuple(exits)
+        entrances = self.portals(LaneKind.ENTRANCE) if entrances is None else tuple(entrances)
+        exits = self.portals(LaneKind.EXIT) if exits is None else tuple(exits)
         arrival = self._led(stall, proof, proof.way_in, entrances, is_back=True)
         departure = self._led(stall, proof, proof.way_out, exits, is_back=False)
         if arrival is None or departure is None:
@@ -114,15 +115,15 @@ class Router:
         return Route(stall.name, proof.nose, arrival[1], departure[1], arrival[0], departure[0], proof.is_full)
 
     def _led(
-        self, stall: DrivenStall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool
+        self, stall: Stall, proof: StallProof, proven: Manoeuvre, portals: Sequence[Portal], *, is_back: bool
     ) -> tuple[Path, Portal] | None:
         """The proven way led on to a portal, or back to one; else another way from the same parked pose."""
         roadmap = self._roadmap(proof.is_full)
         parked = proven.end if is_back else proven.start
-        directions = self._road.garage.directions
-        used = directions.arriving if is_back else directions.leaving
-        poses = roadmap.roomy_poses([edge for edge in directions.near(stall.access) if edge in used], is_back=is_back)
-        standing = self._standing(proof.is_full).without(stall.unseen)
+        garage = self._road.garage
+        used = garage.lanes.arriving if is_back else garage.lanes.leaving
+        poses = roadmap.roomy_poses([arc for arc in garage.near(stall.access) if arc in used], is_back=is_back)
+        standing = self._standing(proof.is_full).without(garage.unseen(stall))
         further = replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)
 
         def ways(limits: Limits, lanes: Iterable[Sequence[LanePose]]) -> Iterator[Manoeuvre]:
@@ -150,7 +151,7 @@ class Router:
 
     def _stood(self, is_full: bool) -> Obstacles:  # noqa: FBT001
         standing = self._road.standing
-        return standing.joined(absent_cars(self._road.garage.stalls, self._car)) if is_full else standing
+        return standing.joined(self._road.garage.absent_cars(self._car)) if is_full else standing
 
     def _mapped(self, is_full: bool) -> Roadmap:  # noqa: FBT001
         return Roadmap(self._road, self._standing(is_full), self._car, self._steerings, self._limits.margin_m)

@@ -55,7 +55,7 @@ from garage2usd.objects.number_plate import NumberPlateSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.dead_ends import DEAD_END_LIMIT_MM, dead_ends
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = [
     "Layout",
@@ -195,7 +195,7 @@ class Layout:
 
 def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     structure: Structure,
-    graph: LaneGraph,
+    graph: LaneSquares,
     config: GarageConfig,
     *,
     unreachable: Collection[str] = (),
@@ -324,7 +324,7 @@ def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collecti
 
 
 def _used_stalls(
-    grid: TileGrid, graph: LaneGraph, cores: Sequence[Core], config: GarageConfig, unreachable: Collection[str]
+    grid: TileGrid, graph: LaneSquares, cores: Sequence[Core], config: GarageConfig, unreachable: Collection[str]
 ) -> tuple[Stall, ...]:
     """All stalls, each with its use."""
     stalls = tuple(

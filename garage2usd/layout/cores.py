@@ -13,7 +13,7 @@ from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.outline import Box, Point
 from garage2usd.profiles import Profile
 from garage2usd.structure.grid import Cell, Structure, outside_squares
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = ["Core", "core_candidates", "core_placements", "obstacle_cores"]
@@ -129,7 +129,7 @@ def core_placements(structure: Structure, cores: list[Core], height_m: float, lo
     return placements
 
 
-def core_candidates(structure: Structure, graph: LaneGraph, config: GarageConfig) -> Iterator[Core]:
+def core_candidates(structure: Structure, graph: LaneSquares, config: GarageConfig) -> Iterator[Core]:
     """Every place for a core beside a lane: on a free square without stalls, or at the end of a row of stalls.
 
     One takes the place of as many stalls as it needs; the car in the next one keeps its distance from the wall.

@@ -12,7 +12,7 @@ from garage2usd.layout.cores import Core, core_candidates, obstacle_cores
 from garage2usd.layout.placement import box_inside
 from garage2usd.profiles import Length
 from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = ["Egress", "plan_egress"]
@@ -54,7 +54,7 @@ class _Places(NamedTuple):
     price_m: NDArray[np.float64]
 
 
-def plan_egress(structure: Structure, graph: LaneGraph, config: GarageConfig, *, sprinklered: bool) -> Egress:
+def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, *, sprinklered: bool) -> Egress:
     """Divide the floor into fire compartments, and place as many stair cores as each needs.
 
     Parameters
@@ -148,7 +148,7 @@ def _reach_m(clause: Length | None) -> float:
 
 
 def _stalls_by_compartment(
-    structure: Structure, graph: LaneGraph, config: GarageConfig, compartments: NDArray[np.int32]
+    structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
 ) -> dict[int, Points]:
     """Middles of the stalls in each compartment."""
     points: dict[int, list[tuple[float, float]]] = defaultdict(list)
@@ -170,7 +170,7 @@ def _middles(structure: Structure, row: StallRow, config: GarageConfig) -> list[
 
 
 def _places_by_compartment(
-    structure: Structure, graph: LaneGraph, config: GarageConfig, compartments: NDArray[np.int32]
+    structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
 ) -> dict[int, _Places]:
     """The candidates whose doors open onto each compartment."""
     found: dict[int, list[Core]] = defaultdict(list)
@@ -193,7 +193,7 @@ def _places_by_compartment(
     }
 
 
-def _is_straight(graph: LaneGraph, lane: Square, edge: Edge) -> bool:
+def _is_straight(graph: LaneSquares, lane: Square, edge: Edge) -> bool:
     """Whether cars drive over a lane square along an edge of it, and not across that edge."""
     joined = set(graph.graph[lane])
     return bool(joined) and joined <= {end.beyond(lane) for end in edge.ends}

@@ -6,6 +6,7 @@ from collections.abc import Collection, Container, Mapping
 import numpy as np
 
 from garage2usd.config import FittingsConfig
+from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
@@ -18,7 +19,7 @@ from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
 from garage2usd.profiles import Profile
 from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = ["TUBE_DEPTH_M", "cones", "speed_bumps", "tube_lights"]
 
@@ -76,7 +77,7 @@ def _tube_along_x(tile: Tile, grid: TileGrid) -> bool:
 
 def speed_bumps(
     grid: TileGrid,
-    graph: LaneGraph,
+    graph: LaneSquares,
     fittings: FittingsConfig,
     profile: Profile,
     *,

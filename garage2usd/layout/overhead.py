@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 import networkx as nx
 
 from garage2usd.config import FittingsConfig
+from garage2usd.garage import LaneKind
 from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.fittings import TUBE_DEPTH_M
 from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed
@@ -15,7 +16,7 @@ from garage2usd.objects.exit_sign import ExitSignSpec, Turn
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.outline import Point
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
-from garage2usd.structure.lane_graph import LaneGraph, LaneKind
+from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.structure.stalls import Edge
 
 __all__ = ["exit_signs", "mirrors"]
@@ -33,7 +34,7 @@ _CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side 
 _JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
 
 
-def exit_signs(grid: TileGrid, graph: LaneGraph, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
     """Lit signs over the lanes into each junction, which point along the shortest route to an exit.
 
     A ceiling without room over the clear height has no signs.

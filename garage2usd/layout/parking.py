@@ -20,7 +20,7 @@ from garage2usd.objects.stall import StallSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WheelStopSpec
 from garage2usd.profiles import Profile
 from garage2usd.structure.dead_ends import DeadEnd
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = ["WHEEL_STOP_FROM_REAR_M", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
 
@@ -43,7 +43,7 @@ _HATCHES = {
 }
 
 
-def stalls_of(grid: TileGrid, graph: LaneGraph, bay: BayConfig) -> tuple[Stall, ...]:
+def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     return tuple(
         Stall(

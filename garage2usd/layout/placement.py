@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import TypeVar
 
+from garage2usd.garage import StallUse
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Box, Point, Polygon
 from garage2usd.structure.lane_graph import Square, StallType
@@ -26,27 +26,6 @@ __all__ = [
 ]
 
 _S = TypeVar("_S", bound=Spec)
-
-
-class StallUse(StrEnum):
-    """What a stall is for."""
-
-    STANDARD = "standard"
-    TURNING = "turning"
-    """Kept free, so that cars turn at the end of a long dead-end aisle."""
-    EV = "ev"
-    """With a charger."""
-    ACCESSIBLE = "accessible"
-    """For people with a disability, beside an access aisle."""
-    ACCESS_AISLE = "access_aisle"
-    """Hatched and kept free, so that wheelchairs get to the accessible stalls beside it."""
-    UNREACHABLE = "unreachable"
-    """Hatched and kept free, because cars do not get into it and out of it."""
-
-    @property
-    def takes_cars(self) -> bool:
-        """Whether cars park there."""
-        return self not in {StallUse.TURNING, StallUse.ACCESS_AISLE, StallUse.UNREACHABLE}
 
 
 @dataclass(frozen=True, slots=True)

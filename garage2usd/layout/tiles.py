@@ -13,7 +13,7 @@ from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.outline import Point, Polygon, rectangle
 from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import Cell, Structure
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.structure.stalls import Edge, StallRow
 
 __all__ = [
@@ -111,7 +111,7 @@ class TileGrid:
     """All tiles of a structure, by square."""
 
     def __init__(
-        self, structure: Structure, graph: LaneGraph, bay: BayConfig, *, left_out: Collection[str] = ()
+        self, structure: Structure, graph: LaneSquares, bay: BayConfig, *, left_out: Collection[str] = ()
     ) -> None:
         """Place every square of `structure` and look at what surrounds it; `left_out` names stalls to leave out."""
         self.structure, self.bay = structure, bay

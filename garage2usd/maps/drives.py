@@ -4,16 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from garage2usd.checks.driven_road import driven_road
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.driven_road import driven_road
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.config.maps import DriveConfig, Leg
-from garage2usd.driving import DesignCar, DrivenStall, Portal, SquareUse, StallProof
+from garage2usd.driving import DesignCar, Portal, StallProof
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.timing import Motion, timed
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
 from garage2usd.errors import ConfigError
-from garage2usd.reading.ground import StallOutline
+from garage2usd.garage import LaneKind, Stall
 from garage2usd.spelling import called
 
 __all__ = ["Drive", "DrivePlanner"]
@@ -68,7 +68,7 @@ class DrivePlanner:
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     settings, car
         Limits of the car's motion, and the car.
@@ -79,21 +79,23 @@ class DrivePlanner:
         If the garage's file tells of no lanes that lead from an entrance to an exit.
     """
 
-    def __init__(self, subject: Subject, settings: DriveConfig | None = None, *, car: DesignCar | None = None) -> None:
+    def __init__(
+        self, garage: BuiltGarage, settings: DriveConfig | None = None, *, car: DesignCar | None = None
+    ) -> None:
         self._settings, self._car = settings or DriveConfig(), car or DesignCar()
-        if not subject.has_whole_graph or not subject.portals("entrance") or not subject.portals("exit"):
-            raise ConfigError("PATH", subject.source, "a garage whose lanes join an entrance and an exit")
-        self.road = driven_road(subject, car=self._car)
+        if not garage.has_whole_graph or not garage.lanes.portals("entrance") or not garage.lanes.portals("exit"):
+            raise ConfigError("PATH", garage.source, "a garage whose lanes join an entrance and an exit")
+        self.road = driven_road(garage, car=self._car)
         curvature, wheelbase_m = 1 / self._car.rear_axle_radius_m, self._car.wheelbase_m
         # as fast as on a lane, or so slowly that the wheels turn on less way
         rate, fast_m_s = self._settings.steering_rate_rad_s, self._settings.lane_speed_m_s
         speeds_m_s = (fast_m_s, min(fast_m_s, self._settings.parking_speed_m_s))
         steerings = [Steering(curvature, rate / (wheelbase_m * speed)) for speed in speeds_m_s]
         self._router = Router(self.road, steerings, car=self._car)
-        self._outlines = {stall.name: stall for stall in subject.parking_stalls}
-        self._taken = {stall.name for stall in subject.taken_stalls}
+        self._outlines = {stall.name: stall for stall in garage.parking_stalls}
+        self._taken = {stall.name for stall in garage.taken_stalls}
         self._driven = {stall.name: stall for stall in self.road.garage.stalls}
-        self._others = {stall.name: _names(stall) for stall in subject.stalls if stall.name not in self._outlines}
+        self._others = {stall.name: _names(stall) for stall in garage.stalls if stall.name not in self._outlines}
 
     def drive(
         self,
@@ -121,8 +123,8 @@ class DrivePlanner:
         ConfigError
             If there is no such stall, entrance or exit, or no way is found between them.
         """
-        entrances = self._chosen("entrance", entrance, SquareUse.ENTRANCE)
-        exits = self._chosen("exit", exit, SquareUse.EXIT)
+        entrances = self._chosen("entrance", entrance, LaneKind.ENTRANCE)
+        exits = self._chosen("exit", exit, LaneKind.EXIT)
         candidates = self._in_order() if stall is None else [self._stall(stall)]
         route: Route | StallProof | None = None
         for candidate in candidates:
@@ -142,7 +144,7 @@ class DrivePlanner:
             path, parked_after = route.arrival.then(route.departure.pieces), len(route.arrival.pieces)
         return timed(path, self._settings, car=self._car, ramps=self.road.ramps, parked_after=parked_after)
 
-    def _stall(self, asked: str) -> DrivenStall:
+    def _stall(self, asked: str) -> Stall:
         names = called(asked, {name: _names(outline) for name, outline in self._outlines.items()})
         if len(names) == 1:
             return self._driven[names[0]]
@@ -151,11 +153,11 @@ class DrivePlanner:
         known = ", ".join([*self._outlines][:_NAMED]) + (", ..." if len(self._outlines) > _NAMED else "")
         raise ConfigError("stall", asked, f"one of the garage's {len(self._outlines)} stalls: {known}")
 
-    def _in_order(self) -> list[DrivenStall]:
+    def _in_order(self) -> list[Stall]:
         """The stalls that cars park in, as the garage has them, the free ones first."""
         return sorted((self._driven[name] for name in self._outlines), key=lambda stall: stall.name in self._taken)
 
-    def _chosen(self, field: str, number: int | None, use: SquareUse) -> tuple[Portal, ...]:
+    def _chosen(self, field: str, number: int | None, use: LaneKind) -> tuple[Portal, ...]:
         portals = self._router.portals(use)
         if number is None:
             return portals
@@ -164,7 +166,7 @@ class DrivePlanner:
         return (portals[number - 1],)
 
 
-def _names(stall: StallOutline) -> list[str]:
+def _names(stall: Stall) -> list[str]:
     """The name of a stall, and what is painted in it."""
     return [stall.name] if stall.number is None else [stall.name, str(stall.number)]
 

@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Usd, UsdLux
 
-from garage2usd.checks.shapes import are_upright
+from garage2usd.as_built.shapes import are_upright
 from garage2usd.errors import StageError
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece

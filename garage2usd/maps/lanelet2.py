@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.lane_bounds import Bound, LaneBounds, lane_bounds
 from garage2usd.maps.lanelet2_parking import add_lots, add_stalls
@@ -21,13 +21,13 @@ _STRAIGHT_RAD = 0.1
 
 
 def write_lanelet2(
-    subject: Subject, path: Path, settings: MapsConfig, *, network: Network | None = None
+    garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
 ) -> tuple[LaneBounds, ...]:
     """Write a garage as a Lanelet2 file, in the frame of all maps (`garage2usd.maps.frame`).
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     path
         The file; its folder is there.
@@ -54,10 +54,10 @@ def write_lanelet2(
     Latitude and longitude are those of the projection that the OpenDRIVE map names. Stalls are those of
     `garage2usd.maps.lanelet2_parking`.
     """
-    lanes = lane_bounds(network or network_of(subject))
+    lanes = lane_bounds(network or network_of(garage))
     osm = OsmFile(settings.latitude_deg, settings.longitude_deg)
-    feet = add_stalls(osm, subject, lanes)
-    stops = add_stops(osm, subject, lanes)
+    feet = add_stalls(osm, garage, lanes)
+    stops = add_stops(osm, garage, lanes)
     ways: dict[Bound, int] = {}
     for lane in lanes:
         for bound, is_left in ((lane.left, True), (lane.right, False)):
@@ -69,9 +69,9 @@ def write_lanelet2(
         members += [Member("relation", rule, "regulatory_element") for rule in stops.get(lane, ())]
         osm.relation(members, _lanelet_tags(lane, settings))
     add_lots(osm, lanes, feet)
-    facts = {name: str(value) for name, value in stage_facts(subject.stage).items()}
+    facts = {name: str(value) for name, value in stage_facts(garage.stage).items()}
     version = facts.pop("version", "")
-    header = {"format_version": _FORMAT, "map_version": version, "name": Path(subject.source).stem, **facts}
+    header = {"format_version": _FORMAT, "map_version": version, "name": Path(garage.source).stem, **facts}
     osm.write(path, generator=f"garage2usd {version}".strip(), facts=header)
     return lanes
 

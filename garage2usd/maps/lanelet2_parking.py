@@ -7,13 +7,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
+from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.lane_bounds import Bound, LaneBounds
 from garage2usd.maps.osm_file import Member, OsmFile, Place
 from garage2usd.maps.xml_text import number_text
-from garage2usd.reading.ground import StallOutline
 
 __all__ = ["Feet", "add_lots", "add_stalls"]
 
@@ -132,7 +132,7 @@ class Feet:
         return feet
 
 
-def add_stalls(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> Feet:
+def add_stalls(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -> Feet:
     """Write all stalls.
 
     A stall that takes cars is an area of the subtype `parking` around its corners, and a way from the middle of its
@@ -140,17 +140,17 @@ def add_stalls(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> F
     of the subtype `parking_access`, whose corners are points of the lane's bound and of the stall. Hatched ground is a
     polygon of the type that Autoware has for it.
     """
-    taken = subject.taken_stalls
+    taken = garage.taken_stalls
     feet = Feet(lanes)
-    parking = [stall for stall in subject.stalls if stall.takes_cars]
+    parking = [stall for stall in garage.stalls if stall.takes_cars]
     mouths = map_points([stall.corners[:2] for stall in parking]).reshape(-1, 2, 2)
     outwards = map_points([stall.outwards for stall in parking]).reshape(-1, 2)
     before_of = dict(zip(parking, feet.before(mouths, outwards), strict=True))
-    corners_of: Floats = map_points([stall.corners for stall in subject.stalls]).reshape(-1, 4, 2)
+    corners_of: Floats = map_points([stall.corners for stall in garage.stalls]).reshape(-1, 4, 2)
     ends_of = corners_of.reshape(-1, 2, 2, 2).mean(axis=2).tolist()
     widths_m = np.linalg.norm(corners_of[:, 1] - corners_of[:, 0], axis=1).tolist()
     grounds = []
-    for stall, corners, ends, width_m in zip(subject.stalls, corners_of.tolist(), ends_of, widths_m, strict=True):
+    for stall, corners, ends, width_m in zip(garage.stalls, corners_of.tolist(), ends_of, widths_m, strict=True):
         points = [osm.point((x, y, 0.0)) for x, y in corners]
         tags = _stall_tags(stall, is_taken=stall in taken)
         if not stall.takes_cars:
@@ -193,7 +193,7 @@ def _valid(grounds: Sequence[shapely.Geometry] | Grounds) -> Grounds:
     return valid
 
 
-def _stall_tags(stall: StallOutline, *, is_taken: bool) -> dict[str, str]:
+def _stall_tags(stall: Stall, *, is_taken: bool) -> dict[str, str]:
     numbered = {} if stall.number is None else {"ref": str(stall.number)}
     return {"name": stall.name, **numbered, "use": str(stall.use), "occupied": "yes" if is_taken else "no"}
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.lane_bounds import LaneBounds
@@ -33,14 +33,14 @@ class _Thing(NamedTuple):
     outline: shapely.Geometry
 
 
-def add_stops(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
+def add_stops(osm: OsmFile, garage: BuiltGarage, lanes: Sequence[LaneBounds]) -> dict[LaneBounds, list[int]]:
     """Write a line before each gate and each speed bump, and a rule that names both.
 
     Parameters
     ----------
     osm
         The file.
-    subject
+    garage
         The garage.
     lanes
         All lanes.
@@ -63,7 +63,7 @@ def add_stops(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> di
         before[start if lane.lane == LEFT else end].append(lane)
     rules: dict[tuple[LaneBounds, str], int] = {}
     by_place = shapely.STRtree([shapely.Polygon(lane.ground) for lane in lanes])
-    for thing in _things(subject):
+    for thing in _things(garage):
         for index in sorted(by_place.query(thing.outline, predicate="intersects").tolist()):
             lane, (start, end) = lanes[index], ends[index]
             across = _across(lane, thing)
@@ -82,8 +82,8 @@ def add_stops(osm: OsmFile, subject: Subject, lanes: Sequence[LaneBounds]) -> di
     return found
 
 
-def _things(subject: Subject) -> Iterator[_Thing]:
-    for thing in subject.things:
+def _things(garage: BuiltGarage) -> Iterator[_Thing]:
+    for thing in garage.things:
         if thing.label in _SIGNS:
             pieces = [map_points(outline) for body in thing.bodies for outline, _, _ in body.pieces()]
             outline = shapely.union_all(hulls_of(pieces)).buffer(_STEP_M)

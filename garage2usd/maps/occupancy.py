@@ -9,10 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import GridConfig
 from garage2usd.errors import ConfigError
-from garage2usd.layout import StallUse
+from garage2usd.garage import StallUse
 from garage2usd.layout.grounds import Grounds
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupied_ground import floor_of, occupied_ground, ramp_floors
@@ -47,12 +47,12 @@ def grid_files(path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path,
     return tuple(file for yaml in maps for file in (yaml, yaml.with_suffix(".pgm")))
 
 
-def write_grid(subject: Subject, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
+def write_grid(garage: BuiltGarage, path: Path, grid: GridConfig, *, joint: str = "_") -> tuple[Path, ...]:
     """Write the map of a garage for robots: a YAML file and the picture (PGM) that it names.
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     path
         The YAML file; its folder is there. The picture is beside it, ``<stem>.pgm``, and so are the masks that are
@@ -87,21 +87,21 @@ def write_grid(subject: Subject, path: Path, grid: GridConfig, *, joint: str = "
     The masks have the mode raw, in which a grey is the value itself: 100 keeps out, and a speed is a percentage of the
     robot's own, 0 without a limit (filter type 1 with a base of 0 and a multiplier of 1).
     """
-    floor = floor_of(subject)
+    floor = floor_of(garage)
     raster = _Raster.around(floor, grid.resolution_m)
     cells = np.full(raster.shape, _UNKNOWN, dtype=np.uint8)
     raster.fill(cells, floor, _FREE)
-    thin = _thickened(occupied_ground(subject, grid.low_m, grid.high_m), grid.resolution_m)
+    thin = _thickened(occupied_ground(garage, grid.low_m, grid.high_m), grid.resolution_m)
     raster.fill(cells, thin, _OCCUPIED)
     _write(path, cells, raster, "trinary")
     if grid.keepout:
         mask = np.zeros(raster.shape, dtype=np.uint8)
-        raster.fill(mask, (stall.polygon for stall in subject.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
+        raster.fill(mask, (stall.polygon for stall in garage.stalls if stall.use in _KEPT_FREE), _KEEP_OUT)
         _write(_mask_file(path, joint, _KEEP_OUT_MASK), mask, raster, "raw")
     if grid.speed:
         mask = np.zeros(raster.shape, dtype=np.uint8)
-        raster.fill(mask, ramp_floors(subject), _RAMP_PERCENT)
-        bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in subject.solids.standing("speed_bump")]
+        raster.fill(mask, ramp_floors(garage), _RAMP_PERCENT)
+        bumps = [solid.footprint.buffer(_BUMP_REACH_M) for solid in garage.solids.standing("speed_bump")]
         raster.fill(mask, bumps, _BUMP_PERCENT)
         _write(_mask_file(path, joint, _SPEED_MASK), mask, raster, "raw")
     return grid_files(path, grid, joint=joint)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.frame import projection
 from garage2usd.maps.network import LEFT, RIGHT, Junction, Neighbour, Network, Road
@@ -33,12 +33,14 @@ _AROUND_M = 10.0
 """Of the bounds of the map around its roads."""
 
 
-def write_opendrive(subject: Subject, path: Path, settings: MapsConfig, *, network: Network | None = None) -> Network:
+def write_opendrive(
+    garage: BuiltGarage, path: Path, settings: MapsConfig, *, network: Network | None = None
+) -> Network:
     """Write a garage as an OpenDRIVE 1.8 file, in the frame of all maps (`garage2usd.maps.frame`).
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     path
         The file; its folder is there.
@@ -63,20 +65,20 @@ def write_opendrive(subject: Subject, path: Path, settings: MapsConfig, *, netwo
     columns and walls lie beside straight roads (`garage2usd.maps.road_places`), with outlines as they stand in the
     stage. The projection is a transverse Mercator around the stage's origin, in which metres are metres.
     """
-    network = network or network_of(subject)
+    network = network or network_of(garage)
     first_number = 1 + len(network.roads) + len(network.junctions)
-    places = RoadPlaces(network, subject.stalls, first_number=first_number)
+    places = RoadPlaces(network, garage.stalls, first_number=first_number)
     objects: dict[Road, list[tuple[int, MapObject]]] = defaultdict(list)
     signals: dict[Road, list[tuple[int, Signal]]] = defaultdict(list)
     number = 0
-    for thing in (*stalls_of(subject, places, network), *solids_of(subject, places)):
+    for thing in (*stalls_of(garage, places, network), *solids_of(garage, places)):
         number += 1
         objects[thing.road].append((number, thing))
-    for sign in signals_of(subject, places):
+    for sign in signals_of(garage, places):
         number += 1
         signals[sign.road].append((number, sign))
     root = ET.Element("OpenDRIVE")
-    _add_header(root, subject, network, settings)
+    _add_header(root, garage, network, settings)
     for road in (*network.roads, *places.lines):
         element = _add_road(root, road, settings)
         if road in objects:
@@ -89,8 +91,8 @@ def write_opendrive(subject: Subject, path: Path, settings: MapsConfig, *, netwo
     return network
 
 
-def _add_header(root: ET.Element, subject: Subject, network: Network, settings: MapsConfig) -> None:
-    facts = stage_facts(subject.stage)
+def _add_header(root: ET.Element, garage: BuiltGarage, network: Network, settings: MapsConfig) -> None:
+    facts = stage_facts(garage.stage)
     ends = np.array([road.line.at(s)[:2] for road in network.roads for s in (0.0, road.line.length_m)])
     (west, south), (east, north) = ends.min(axis=0) - _AROUND_M, ends.max(axis=0) + _AROUND_M
     header = child(
@@ -98,7 +100,7 @@ def _add_header(root: ET.Element, subject: Subject, network: Network, settings: 
         "header",
         revMajor="1",
         revMinor="8",
-        name=Path(subject.source).stem,
+        name=Path(garage.source).stem,
         version=str(facts.get("version", "")),
         vendor="garage2usd",
         north=north,

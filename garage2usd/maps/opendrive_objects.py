@@ -9,14 +9,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks import Subject
-from garage2usd.checks.shapes import Thing
-from garage2usd.layout import StallUse
+from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.shapes import Thing
+from garage2usd.garage import Stall, StallUse
 from garage2usd.maps.frame import heading_rad, map_point, map_points
 from garage2usd.maps.network import Network, Road
 from garage2usd.maps.road_places import RoadPlaces
 from garage2usd.maps.xml_text import child
-from garage2usd.reading.ground import StallOutline
 
 __all__ = ["MapObject", "Signal", "add_objects", "add_signals", "signals_of", "solids_of", "stalls_of"]
 
@@ -73,7 +72,7 @@ class MapObject(NamedTuple):
     subtype: str
     bottom_m: float = 0.0
     height_m: float = 0.0
-    stall: StallOutline | None = None
+    stall: Stall | None = None
     data: tuple[tuple[str, str], ...] = ()
 
 
@@ -92,12 +91,12 @@ class Signal(NamedTuple):
     width_m: float
 
 
-def stalls_of(subject: Subject, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
-    """Each stall; its axis u leads from its mouth to its rear, its corners are those of `StallOutline`."""
-    taken = subject.taken_stalls
+def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
+    """Each stall; its axis u leads from its mouth to its rear, its corners are those of `Stall`."""
+    taken = garage.taken_stalls
     through = {number: road for road in network.roads if road.junction is None for number in road.squares}
     meeting = {junction.square: junction.number for junction in network.junctions}
-    for stall in subject.stalls:
+    for stall in garage.stalls:
         road, s_m, t_m = places.of_stall(stall)
         ahead = map_point(stall.outwards)
         heading = math.atan2(-ahead[1], -ahead[0])
@@ -122,10 +121,10 @@ def stalls_of(subject: Subject, places: RoadPlaces, network: Network) -> Iterato
         )
 
 
-def solids_of(subject: Subject, places: RoadPlaces) -> Iterator[MapObject]:
+def solids_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[MapObject]:
     """Columns, walls, obstacles, gates and speed bumps by their outlines; walls in line are one object."""
     pieces: dict[str, list[tuple[str, shapely.Polygon, float, float]]] = {label: [] for label in _TYPES}
-    for solid in subject.solids.standing(*_TYPES):
+    for solid in garage.solids.standing(*_TYPES):
         outline = shapely.transform(solid.footprint, map_points)
         pieces[solid.label].append((solid.name, outline, solid.bottom_m, solid.top_m))
     for label, found in pieces.items():
@@ -138,9 +137,9 @@ def solids_of(subject: Subject, places: RoadPlaces) -> Iterator[MapObject]:
             yield MapObject(road, s_m, t_m, 0.0, corners, name, *_TYPES[label], bottom_m, height_m)
 
 
-def signals_of(subject: Subject, places: RoadPlaces) -> Iterator[Signal]:
+def signals_of(garage: BuiltGarage, places: RoadPlaces) -> Iterator[Signal]:
     """The signs of a garage."""
-    for thing in subject.things:
+    for thing in garage.things:
         if thing.label in _SIGNS and thing.bodies:
             yield _signal(thing, places)
 

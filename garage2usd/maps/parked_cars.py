@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from garage2usd.checks.placed_pieces import placed_pieces
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.placed_pieces import placed_pieces
 
 __all__ = ["ParkedCar", "parked_cars"]
 
@@ -39,12 +39,12 @@ class ParkedCar:
     height_m: float
 
 
-def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedCar]:
+def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[ParkedCar]:
     """The cars of a garage, in the order of their prims, as boxes around their bodies.
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     free
         Names of stalls whose cars are left out.
@@ -56,13 +56,13 @@ def parked_cars(subject: Subject, *, free: Collection[str] = ()) -> list[ParkedC
     cars that pass beside it. ASAM OSI has the boxes of vehicles without mirrors as well.
     """
     cars: list[ParkedCar] = []
-    things = [thing for thing in subject.things if thing.label == _CAR and thing.bodies]
+    things = [thing for thing in garage.things if thing.label == _CAR and thing.bodies]
     bodies = [body for thing in things for body in thing.bodies]
     pieces = placed_pieces(bodies, np.ones(len(bodies), dtype=bool))
     first = np.cumsum([0, *(len(thing.bodies) for thing in things)])
     corners = np.cumsum([0, *pieces.counts.tolist()])
     for number, thing in enumerate(things):
-        ground, home = subject.cars.get(thing.name, (None, None))
+        ground, home = garage.cars.get(thing.name, (None, None))
         if home is not None and home.name in free:
             continue
         back = thing.bodies[0].matrix[2, [0, 2]]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import shapely
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
 from garage2usd.driving import RampFloor
 from garage2usd.errors import StageError
 from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
@@ -22,7 +22,7 @@ _PROFILE_M = 5e-4
 _LEAST_M = 1e-6
 
 
-def network_of(subject: Subject) -> Network:
+def network_of(garage: BuiltGarage) -> Network:
     """The roads of a garage's lane graph.
 
     Squares that are passed through straight on are one road, from one bend, junction, portal or dead end to the next; a
@@ -35,9 +35,9 @@ def network_of(subject: Subject) -> Network:
     StageError
         If the garage has no whole lane graph.
     """
-    if not subject.has_whole_graph or not subject.edges:
-        raise StageError(subject.source, "it has no whole lane graph, so that nothing says where its roads are")
-    return _Builder(lane_squares(subject)).network()
+    if not garage.has_whole_graph or not garage.lanes.edges:
+        raise StageError(garage.source, "it has no whole lane graph, so that nothing says where its roads are")
+    return _Builder(lane_squares(garage)).network()
 
 
 class _Meeting(NamedTuple):

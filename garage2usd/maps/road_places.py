@@ -6,11 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
+from garage2usd.garage import Stall
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Network, Road
 from garage2usd.maps.reference_line import Point, ReferenceLine, straight
 from garage2usd.maps.squares import Square
-from garage2usd.reading.ground import StallOutline
 
 __all__ = ["RoadPlaces"]
 
@@ -40,12 +40,12 @@ class RoadPlaces:
     square along its mouth.
     """
 
-    def __init__(self, network: Network, stalls: Iterable[StallOutline], *, first_number: int) -> None:
+    def __init__(self, network: Network, stalls: Iterable[Stall], *, first_number: int) -> None:
         self._roads = [road for road in network.roads if road.junction is None and road.line.is_straight]
         self._next = first_number
         self.lines: list[Road] = []
         """The roads without lanes."""
-        self._of_stall: dict[StallOutline, Road] = {}
+        self._of_stall: dict[Stall, Road] = {}
         self._add_stalls(stalls, network.squares)
         self._straights = (*self._roads, *self.lines)
         arcs = [road.line.arcs[0] for road in self._straights]
@@ -54,7 +54,7 @@ class RoadPlaces:
         self._along = np.stack([np.cos(headings), np.sin(headings)], axis=1).reshape(-1, 2)
         self._lengths = np.array([arc.length_m for arc in arcs])
 
-    def of_stall(self, stall: StallOutline) -> tuple[Road, float, float]:
+    def of_stall(self, stall: Stall) -> tuple[Road, float, float]:
         """The road that a stall lies beside, with (s, t) of its middle."""
         road = self._of_stall[stall]
         return road, *road.line.foot(map_point(stall.centre))
@@ -71,9 +71,9 @@ class RoadPlaces:
         road = self._line_along_all
         return road, *road.line.foot(point)
 
-    def _add_stalls(self, stalls: Iterable[StallOutline], squares: Sequence[Square]) -> None:
+    def _add_stalls(self, stalls: Iterable[Stall], squares: Sequence[Square]) -> None:
         through = {number: road for road in self._roads for number in road.squares}
-        without: dict[tuple[int, Point], list[StallOutline]] = {}
+        without: dict[tuple[int, Point], list[Stall]] = {}
         for stall in stalls:
             road = through.get(stall.access)
             if road is not None and 0.0 <= road.line.foot(map_point(stall.centre))[0] <= road.line.length_m:

@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from garage2usd.checks import Subject
-from garage2usd.checks.driven_road import Mouth, portal_mouths
+from garage2usd.as_built import BuiltGarage
+from garage2usd.as_built.driven_road import Mouth, portal_mouths
 from garage2usd.driving import RampFloor
+from garage2usd.garage import LaneKind
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.reference_line import Point
-from garage2usd.structure.lane_graph import LaneKind
 
 __all__ = ["OUTSIDE", "Opening", "Square", "lane_squares"]
 
@@ -111,52 +111,52 @@ class Square:
         return opening.inside(2 * math.dist(opening.place, self.middle))
 
 
-def lane_squares(subject: Subject) -> tuple[Square, ...]:
+def lane_squares(garage: BuiltGarage) -> tuple[Square, ...]:
     """The lane squares and portals of a garage, in the order of its nodes."""
-    mouths = {mouth.number: mouth for mouth in portal_mouths(subject)}
+    mouths = {mouth.number: mouth for mouth in portal_mouths(garage)}
     # several edges may join the same two squares in a stage that was edited
-    widths_m = {frozenset((edge.start, edge.end)): edge.width_m for edge in subject.edges}
+    widths_m = {frozenset((edge.start, edge.end)): edge.width_m for edge in garage.lanes.edges}
     squares = []
-    for number, node in enumerate(subject.nodes):
-        openings, mouth = tuple(_to_neighbours(subject, number, widths_m)), mouths.get(number)
+    for number, node in enumerate(garage.lanes.nodes):
+        openings, mouth = tuple(_to_neighbours(garage, number, widths_m)), mouths.get(number)
         # a door that opens onto a lane leads nowhere
         if mouth is None or any(_cosine(way.outwards, map_point(mouth.outwards)) > -_OPPOSITE for way in openings):
             squares.append(Square(number, node.name, map_point(node.position), openings))
         else:
-            openings = (*openings, _to_outside(subject, mouth))
+            openings = (*openings, _to_outside(garage, mouth))
             outside_m = mouth.top_m(node.position) - mouth.edge_m
             squares.append(Square(number, node.name, map_point(node.position), openings, mouth.ramp, outside_m))
     return tuple(squares)
 
 
-def _to_neighbours(subject: Subject, number: int, widths_m: Mapping[frozenset[int], float]) -> Iterator[Opening]:
+def _to_neighbours(garage: BuiltGarage, number: int, widths_m: Mapping[frozenset[int], float]) -> Iterator[Opening]:
     """Sides of squares lie where the columns stand back equally far on both."""
-    node, middle = subject.nodes[number], map_point(subject.nodes[number].position)
-    for other in sorted(set(subject.beside[number]) - {number}):
-        beyond = map_point(subject.nodes[other].position)
+    node, middle = garage.lanes.nodes[number], map_point(garage.lanes.nodes[number].position)
+    for other in sorted(set(garage.lanes.beside[number]) - {number}):
+        beyond = map_point(garage.lanes.nodes[other].position)
         apart_m = math.dist(middle, beyond)
         if apart_m == 0:
             continue
         outwards = (beyond[0] - middle[0]) / apart_m, (beyond[1] - middle[1]) / apart_m
         axis = 0 if abs(outwards[0]) > abs(outwards[1]) else 1
-        clear_m, clear_beyond_m = node.widths_m[axis] / 2, subject.nodes[other].widths_m[axis] / 2
+        clear_m, clear_beyond_m = node.widths_m[axis] / 2, garage.lanes.nodes[other].widths_m[axis] / 2
         setback_m = (apart_m - clear_m - clear_beyond_m) / 2
         half_m = clear_m + setback_m
         place = middle[0] + half_m * outwards[0], middle[1] + half_m * outwards[1]
         width_m = widths_m[frozenset((number, other))]
-        lets_in = other in subject.backward[number] and _may_drive(subject, other, number)
-        lets_out = other in subject.onward[number] and _may_drive(subject, number, other)
+        lets_in = other in garage.lanes.backward[number] and _may_drive(garage, other, number)
+        lets_out = other in garage.lanes.onward[number] and _may_drive(garage, number, other)
         if lets_in or lets_out:
             yield Opening(other, place, outwards, width_m, lets_in, lets_out, _inset_m(setback_m))
 
 
-def _may_drive(subject: Subject, start: int, end: int) -> bool:
+def _may_drive(garage: BuiltGarage, start: int, end: int) -> bool:
     """Whether cars drive from a square to another inside: they leave by an exit, and come from an entrance."""
-    return subject.nodes[start].kind != LaneKind.EXIT and subject.nodes[end].kind != LaneKind.ENTRANCE
+    return garage.lanes.nodes[start].kind != LaneKind.EXIT and garage.lanes.nodes[end].kind != LaneKind.ENTRANCE
 
 
-def _to_outside(subject: Subject, mouth: Mouth) -> Opening:
-    node = subject.nodes[mouth.number]
+def _to_outside(garage: BuiltGarage, mouth: Mouth) -> Opening:
+    node = garage.lanes.nodes[mouth.number]
     middle, outwards = map_point(node.position), map_point(mouth.outwards)
     place = middle[0] + mouth.edge_m * outwards[0], middle[1] + mouth.edge_m * outwards[1]
     is_entrance = node.kind == LaneKind.ENTRANCE

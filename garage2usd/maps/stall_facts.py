@@ -5,9 +5,9 @@ from typing import Any
 
 import shapely
 
-from garage2usd.checks.stall_grounds import StallGrounds
+from garage2usd.as_built.stall_grounds import StallGrounds
+from garage2usd.garage import Stall
 from garage2usd.layout.grounds import Grounds
-from garage2usd.reading.ground import StallOutline
 from garage2usd.reading.objects import Matrix
 
 __all__ = ["StallFacts"]
@@ -19,21 +19,21 @@ _MOVED_M = 0.05
 class StallFacts:
     """The stalls of a stage, and which cars stand in them."""
 
-    def __init__(self, stalls: Iterable[StallOutline]) -> None:
+    def __init__(self, stalls: Iterable[Stall]) -> None:
         """Take all stalls, without cars yet."""
         self.stalls = tuple(stalls)
         self._grounds = StallGrounds(self.stalls)
         self._middles = shapely.STRtree([shapely.Point(stall.centre) for stall in self.stalls])
-        self._car_of: dict[StallOutline, str] = {}
+        self._car_of: dict[Stall, str] = {}
 
     @property
-    def by_name(self) -> dict[str, StallOutline]:
+    def by_name(self) -> dict[str, Stall]:
         """Each stall by its id, those of an id that several have by their numbers too."""
         names = [stall.name for stall in self.stalls]
         unique = [name if names.count(name) == 1 else f"{name}[{number}]" for number, name in enumerate(names)]
         return dict(zip(unique, self.stalls, strict=True))
 
-    def park(self, cars: Sequence[str], grounds: Grounds) -> dict[str, StallOutline | None]:
+    def park(self, cars: Sequence[str], grounds: Grounds) -> dict[str, Stall | None]:
         """The stall that more than half of each car stands in, which counts as occupied from now on.
 
         Parameters
@@ -49,12 +49,12 @@ class StallFacts:
                 self._car_of.setdefault(home, car)
         return homes
 
-    def at(self, place: Matrix) -> StallOutline | None:
+    def at(self, place: Matrix) -> Stall | None:
         """The stall whose middle lies where the origin of a matrix does."""
         found = self._middles.query(shapely.Point(place[3, 0], place[3, 2]), predicate="dwithin", distance=_MOVED_M)
         return self.stalls[found[0]] if len(found) else None
 
-    def facts(self, stall: StallOutline) -> dict[str, Any]:
+    def facts(self, stall: Stall) -> dict[str, Any]:
         """What is said of a stall wherever it is named."""
         named = {"id": stall.name} if stall.number is None else {"id": stall.name, "number": stall.number}
         by = stall.blocked_by
@@ -62,8 +62,8 @@ class StallFacts:
         blocked = {"blocked_by": by} if is_blocked else {}
         return {**named, "use": str(stall.use), "occupied": is_blocked or stall in self._car_of, **blocked}
 
-    def outline(self, stall: StallOutline) -> dict[str, Any]:
-        """What is said of a stall besides: its corners (x, y, z) as `StallOutline` says, lane node, and car."""
+    def outline(self, stall: Stall) -> dict[str, Any]:
+        """What is said of a stall besides: its corners (x, y, z) as `Stall` says, lane node, and car."""
         corners: Sequence[tuple[float, float, float]] = [(round(x, 4), 0, round(z, 4)) for x, z in stall.corners]
         car = self._car_of.get(stall)
         return {

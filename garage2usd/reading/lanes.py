@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.layout import StallUse
-from garage2usd.reading.ground import Fault, LaneNode, Point, StallOutline
+from garage2usd.garage import Fault, LaneEdge, LaneGraph, LaneKind, LaneNode, Point, Stall, StallUse
 from garage2usd.reading.values import READ_AT, metres_y_up, numbers_of
-from garage2usd.structure.lane_graph import LaneEdge, LaneKind
 
-__all__ = ["Lanes", "moved_stalls", "read_lanes"]
+__all__ = ["GUIDE_LIFT_M", "Lanes", "moved_stalls", "read_lanes"]
 
+GUIDE_LIFT_M = 0.05
+"""How far the guide curves lie over the floor."""
 _GRAPH = "LaneGraph"
 _CORNERS = 4
 _KINDS = {kind.value for kind in LaneKind}
@@ -43,10 +43,15 @@ class Lanes:
 
     nodes: list[LaneNode] = field(default_factory=list)
     edges: list[LaneEdge] = field(default_factory=list)
-    stalls: list[StallOutline] = field(default_factory=list)
+    stalls: list[Stall] = field(default_factory=list)
     squares: list[tuple[int, int]] = field(default_factory=list)
     listed: set[str] = field(default_factory=set)
     faults: list[Fault] = field(default_factory=list)
+
+    @property
+    def graph(self) -> LaneGraph:
+        """Nodes and edges together."""
+        return LaneGraph(tuple(self.nodes), tuple(self.edges))
 
 
 def read_lanes(stage: Usd.Stage) -> Lanes:
@@ -156,7 +161,8 @@ def _read_nodes(curves: _Curves, lanes: Lanes) -> None:
         if kind not in _KINDS:
             lanes.faults.append(Fault(_RULE, name, _middle_of(line), f"a node of the unknown kind {kind!r}"))
         sides = float(widths[0]), float(widths[1])
-        lanes.nodes.append(LaneNode(str(kind), _middle_of(line), sides, name, float(line[:, 1].mean())))
+        height_m = float(line[:, 1].mean()) - GUIDE_LIFT_M
+        lanes.nodes.append(LaneNode(str(kind), _middle_of(line), sides, name, height_m))
         lanes.squares.append((int(row), int(col)))
 
 
@@ -197,7 +203,7 @@ def _read_stalls(curves: _Curves, lanes: Lanes) -> None:
             said = [(fact, values[index]) for fact, values in known.items() if fact != "blocked_by" or values[index]]
             facts = tuple((fact, value if isinstance(value, int) else str(value)) for fact, value in said)
             outline = (left, right, rear_right, rear_left)
-            lanes.stalls.append(StallOutline(place, outline, StallUse(use), int(access), facts))
+            lanes.stalls.append(Stall(place, outline, StallUse(use), int(access), facts))
 
 
 def _incomplete(curves: _Curves, lanes: Lanes, names: str) -> None:

@@ -114,12 +114,12 @@ class BirdsEyeViews:
         """The garage's surface that cars drive on, less what no view shows."""
         from garage2usd.sensors.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
 
-        return DrivenSurface(self._way.subject, self._labels, without=self._way.absent(self._labels))
+        return DrivenSurface(self._way.garage, self._labels, without=self._way.absent(self._labels))
 
     def _cars_m(self, pose: VehiclePose) -> list[NDArray[np.float64]]:
         """Grounds of the parked cars around, in the vehicle's frame."""
         to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ self._way.to_stage
-        grounds = (ground for name, (ground, _) in self._way.subject.cars.items() if name not in self._way.left_out)
+        grounds = (ground for name, (ground, _) in self._way.garage.cars.items() if name not in self._way.left_out)
         corners = [np.asarray(shapely.get_coordinates(ground)) for ground in grounds]
         return [np.insert(each, 1, 0.0, axis=1) @ to_vehicle[:2, :3].T + to_vehicle[:2, 3] for each in corners]
 

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.stage_reader import subject_of_stage
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.errors import ConfigError
+from garage2usd.garage import Stall
 from garage2usd.maps.drives import DrivePlanner
-from garage2usd.reading.ground import StallOutline
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import find_views
 from garage2usd.sensors.columns import column_to_y_up
@@ -48,7 +48,7 @@ class Way:
 
     poses: list[VehiclePose]
     has_vehicle: bool
-    stall: StallOutline | None
+    stall: Stall | None
     about: Mapping[str, object] | None
     to_stage: Matrix
 
@@ -68,16 +68,16 @@ class Way:
             self._follow(along, every_m)
 
     @cached_property
-    def subject(self) -> Subject:
+    def garage(self) -> BuiltGarage:
         """The garage."""
-        return subject_of_stage(self._stage, source=self._source)
+        return garage_of_stage(self._stage, source=self._source)
 
     def _drive_to(self, stall: str, entrance: str, along: str, every_m: float, settings: DriveConfig) -> None:
         if not stall or not (entrance.isdecimal() or not entrance):
             raise ConfigError("along", along, "ENTRANCE:STALL as 1:A1-08, or the name of a camera that moves")
-        planner = DrivePlanner(self.subject, settings)
+        planner = DrivePlanner(self.garage, settings)
         drive = planner.drive(stall, entrance=int(entrance) if entrance else None, leg=Leg.IN)
-        self.stall = next(each for each in self.subject.stalls if each.name == drive.route.stall)
+        self.stall = next(each for each in self.garage.stalls if each.name == drive.route.stall)
         self.poses = poses_along(drive.motion, every_m, to_stage=self.to_stage)
         self.about = {"along": along, "every_m": every_m, **drive.facts}
 
@@ -131,7 +131,7 @@ class Way:
     def _column(self) -> Matrix:
         if self.stall is None:
             raise ConfigError("along", self._along, "ENTRANCE:STALL, for sensors on a column, which watch it")
-        matrix: Matrix = self.to_stage @ column_to_y_up(self.subject, self.stall)
+        matrix: Matrix = self.to_stage @ column_to_y_up(self.garage, self.stall)
         return matrix
 
     @cached_property
@@ -139,7 +139,7 @@ class Way:
         """Paths of the cars that are parked where the vehicle parks."""
         if self.stall is None:
             return []
-        return [name for name, (_, home) in self.subject.cars.items() if home is not None and home == self.stall]
+        return [name for name, (_, home) in self.garage.cars.items() if home is not None and home == self.stall]
 
     def absent(self, labels: Labels) -> list[str]:
         """Paths of what no sensor meets: what is left out, and a car that drives in the stage."""

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.sensors.birds_eye import BirdsEye

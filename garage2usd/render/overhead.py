@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.contents import read_contents
-from garage2usd.checks.driven_floor import DrivenFloor
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.contents import read_contents
+from garage2usd.as_built.driven_floor import DrivenFloor
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles, triangles_of
 from garage2usd.render.drawn_prims import DrawnPrims

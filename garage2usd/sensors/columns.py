@@ -6,9 +6,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.errors import ConfigError
-from garage2usd.reading.ground import Point, StallOutline
+from garage2usd.garage import Point, Stall
 
 __all__ = ["column_to_y_up"]
 
@@ -19,7 +19,7 @@ _NEAREST_M = 2.5
 """A column that stands nearer to the middle of a stall sees only part of it."""
 
 
-def column_to_y_up(subject: Subject, stall: StallOutline) -> NDArray[np.float64]:
+def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
     """The frame of sensors that are mounted on the column which watches a stall.
 
     It is the nearest one before the stall's mouth from which nothing that is as tall as a wall hides the middle of the
@@ -37,7 +37,7 @@ def column_to_y_up(subject: Subject, stall: StallOutline) -> NDArray[np.float64]
         If there is no such column.
     """
     found: dict[str, tuple[list[shapely.Polygon], float]] = {}
-    for solid in subject.solids.standing(_COLUMN):
+    for solid in garage.solids.standing(_COLUMN):
         pieces, low_m = found.get(solid.name, ([], math.inf))
         found[solid.name] = [*pieces, solid.footprint], min(low_m, solid.bottom_m)
     candidates: list[tuple[bool, float, str, Point, float]] = []
@@ -45,7 +45,7 @@ def column_to_y_up(subject: Subject, stall: StallOutline) -> NDArray[np.float64]
         centre = shapely.union_all(pieces).envelope.centroid
         place = (centre.x, centre.y)
         distance_m = math.dist(place, stall.centre)
-        if distance_m >= _NEAREST_M and not _is_hidden(subject, name, place, stall.centre):
+        if distance_m >= _NEAREST_M and not _is_hidden(garage, name, place, stall.centre):
             candidates.append((not _is_before(stall, place), round(distance_m, 6), name, place, low_m))
     if not candidates:
         raise ConfigError("rig", stall.name, "a stall that a column of the garage watches, for sensors on a column")
@@ -59,15 +59,15 @@ def column_to_y_up(subject: Subject, stall: StallOutline) -> NDArray[np.float64]
     return matrix
 
 
-def _is_before(stall: StallOutline, place: Point) -> bool:
+def _is_before(stall: Stall, place: Point) -> bool:
     """Whether a place lies on the side of a stall's mouth that cars come from."""
     ahead = (place[0] - stall.mouth[0]) * stall.outwards[0] + (place[1] - stall.mouth[1]) * stall.outwards[1]
     return ahead > 0
 
 
-def _is_hidden(subject: Subject, column: str, place: Point, middle: Point) -> bool:
+def _is_hidden(garage: BuiltGarage, column: str, place: Point, middle: Point) -> bool:
     sight = shapely.LineString([place, middle])
     return any(
         solid.name != column and solid.label != _CAR and solid.top_m >= _HIDES_FROM_M
-        for solid in subject.solids.at(sight)
+        for solid in garage.solids.at(sight)
     )

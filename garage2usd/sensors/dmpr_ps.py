@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.sensors.slots import SlotRecord, Slots, SlotType, Visibility
+from garage2usd.garage import StallKind
+from garage2usd.sensors.slots import SlotRecord, Slots, Visibility
 
 __all__ = ["dmpr_ps"]
 
@@ -88,6 +89,6 @@ def _meets_neighbour(near: NDArray[np.bool_]) -> bool:
 
 
 def _type_of(record: SlotRecord) -> int:
-    if record.slot.slot_type is not SlotType.ANGLED:
+    if record.slot.slot_type is not StallKind.ANGLED:
         return _RIGHT_ANGLED
     return _ACUTE if record.slot.angle_deg < _QUARTER_DEG else _OBTUSE

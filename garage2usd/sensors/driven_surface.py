@@ -5,9 +5,9 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.checks.driven_floor import DrivenFloor
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.driven_floor import DrivenFloor
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.poses import y_up_to_stage
 from garage2usd.sensors.ray_scene import read_ray_scene
@@ -25,7 +25,7 @@ class DrivenSurface:
 
     Parameters
     ----------
-    subject
+    garage
         The garage, read from a stage.
     labels
         What its objects are.
@@ -33,12 +33,12 @@ class DrivenSurface:
         Paths of objects that are left out with all below them.
     """
 
-    def __init__(self, subject: Subject, labels: Labels, *, without: Collection[str] = ()) -> None:
-        if subject.stage is None:
-            raise ValueError(subject.kind)
-        self._floor = DrivenFloor.of(subject.nodes, subject.things)
-        self._solids = read_ray_scene(subject.stage, labels, without=without)
-        self._to_stage = y_up_to_stage(subject.stage)
+    def __init__(self, garage: BuiltGarage, labels: Labels, *, without: Collection[str] = ()) -> None:
+        if garage.stage is None:
+            raise ValueError(garage.kind)
+        self._floor = DrivenFloor.of(garage.lanes.nodes, garage.things)
+        self._solids = read_ray_scene(garage.stage, labels, without=without)
+        self._to_stage = y_up_to_stage(garage.stage)
 
     def is_free(self, points_m: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Whether a car can drive at each of some points: they are of the surface, and nothing is in a car's height.

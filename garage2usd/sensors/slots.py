@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum, StrEnum
+from enum import IntEnum
 from typing import Any
 
 import numpy as np
@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
-from garage2usd.layout import StallUse
-from garage2usd.reading.ground import LaneNode, StallOutline
+from garage2usd.garage import LaneNode, Stall, StallKind, StallUse
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up
 from garage2usd.sensors.outline import outline_in_picture, polygons_of
-from garage2usd.stage.lane_curves import GUIDE_LIFT_M
 
-__all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "SlotType", "Slots", "Visibility", "read_slots"]
+__all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "Slots", "Visibility", "read_slots"]
 
 CORNERS = ("entry_left", "entry_right", "rear_right", "rear_left")
 """The corners of a slot in their order, left and right as a driver sees them who drives in forwards."""
@@ -29,25 +27,12 @@ PLACES_PX = 3
 
 _ON_FLOOR_M = 0.02
 """How far over or under the floor a surface still counts as the floor: lines are painted a few millimetres over it."""
-_SQUARE_DEG = 1.0
-"""How far from a right angle the sides of a slot still count as square to its entry."""
 _LEAST_AREA_PX = 1e-6
 _GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
 _UP_AXES = {UsdGeom.Tokens.y: 1, UsdGeom.Tokens.z: 2}
 
 Points = NDArray[np.float64]
 _Floats = NDArray[np.floating[Any]]
-
-
-class SlotType(StrEnum):
-    """How a slot lies to the lane that it opens onto."""
-
-    PERPENDICULAR = "perpendicular"
-    """Square to its entry, and at least as long as wide."""
-    PARALLEL = "parallel"
-    """Square to its entry, and wider than long: a car stands along the lane."""
-    ANGLED = "angled"
-    """With sides that are not square to its entry."""
 
 
 class Visibility(IntEnum):
@@ -83,7 +68,7 @@ class Slot:
     name: str
     number: str | int | None
     use: StallUse
-    slot_type: SlotType
+    slot_type: StallKind
     angle_deg: float
     occupied: bool | None
     corners_m: Points
@@ -239,24 +224,15 @@ def read_slots(stage: Usd.Stage) -> Slots:
     return Slots(slots, _GROUND_AXES[up], _UP_AXES[up])
 
 
-def _slot(stall: StallOutline, access: LaneNode, turn: Points) -> Slot:
-    floor_m = access.height_m - GUIDE_LIFT_M
-    corners = np.array([(x, floor_m, z) for x, z in stall.corners])
-    (right, _, forward), (along, _, back) = corners[1] - corners[0], corners[3] - corners[0]
-    # seen from above, with X to the right and Z downwards, the left side is a turn to the left from the entry
-    angle = math.degrees(math.atan2(forward * along - right * back, right * along + forward * back))
-    if abs(angle - 90) > _SQUARE_DEG:
-        slot_type = SlotType.ANGLED
-    else:
-        slot_type = SlotType.PARALLEL if stall.width_m > stall.length_m else SlotType.PERPENDICULAR
-    occupied = dict(stall.facts).get("occupied")
+def _slot(stall: Stall, access: LaneNode, turn: Points) -> Slot:
+    corners = np.array([(x, access.height_m, z) for x, z in stall.corners])
     return Slot(
         stall.name,
         stall.number,
         stall.use,
-        slot_type,
-        round(angle, 3),
-        None if occupied is None else bool(occupied),
+        stall.kind,
+        round(stall.angle_deg, 3),
+        stall.is_occupied,
         np.round(corners @ turn.T, 6) + 0.0,
         stall.blocked_by,
     )

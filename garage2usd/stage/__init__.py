@@ -30,7 +30,7 @@ from garage2usd.stage.prototypes import asset_of, name_prototypes
 from garage2usd.stage.texture_files import NamedFile, textures_of
 from garage2usd.stage.usdz import write_usdz
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "StageFiles",
@@ -97,7 +97,7 @@ def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> Non
 
 def write_stage(
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     path: Path,
     *,
     arrangement: Arrangement,

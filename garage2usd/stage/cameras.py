@@ -13,7 +13,7 @@ from garage2usd.layout import Layout
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.bounds import world_bounds_m
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "APERTURE_MM",
@@ -50,7 +50,7 @@ DRIVE_NAME = "Drive"
 """Name of the camera that drives, and of its asset."""
 
 
-def write_drive(path: Path, layout: Layout, graph: LaneGraph) -> int:
+def write_drive(path: Path, layout: Layout, graph: LaneSquares) -> int:
     """Write the driving camera as a layer of its own, as text is slow with many samples; returns its last frame.
 
     Notes
@@ -72,7 +72,7 @@ def set_frames(layer: Sdf.Layer, last_frame: int) -> None:
     layer.startTimeCode, layer.endTimeCode = 0.0, float(last_frame)
 
 
-def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph, *, own: str) -> None:
+def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares, *, own: str) -> None:
     """Author a camera at a driver's eye at the entrance and one over the whole garage; refer to the one that drives."""
     define(layer, path, "Scope")
     entrance = layout.structure.where(Cell.ENTRANCE)[0]
@@ -93,7 +93,7 @@ def author_cameras(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: Lane
     drive.SetInfo("references", Sdf.ReferenceListOp.Create(prependedItems=[reference]))
 
 
-def _way(layout: Layout, graph: LaneGraph) -> NDArray[np.float64]:
+def _way(layout: Layout, graph: LaneSquares) -> NDArray[np.float64]:
     """Middles of the squares from the first entrance that leads to an exit to the nearest one; float64, shape (n, 2).
 
     There is one, as stalls are reached.

@@ -36,7 +36,7 @@ from garage2usd.stage.prototypes import Prototype
 from garage2usd.stage.scatter import write_instancer
 from garage2usd.stage.tile_prototypes import TilePrototypes, share_tiles
 from garage2usd.stage.variants import OCCUPIED_STALL, SWITCHES, variant_texts
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["write_garage_layer"]
 
@@ -51,7 +51,7 @@ _PHYSICS = "PhysicsScene"
 @without_collector()
 def write_garage_layer(
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     *,
     arrangement: Arrangement,
     prototypes: Mapping[Spec, Prototype],
@@ -123,7 +123,7 @@ def write_garage_layer(
 
 def _frame(
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     arrangement: Arrangement,
     own: str,
     metadata: Mapping[str, str | int],
@@ -159,7 +159,7 @@ def _frame(
 def _pieces(
     frame: str,
     layout: Layout,
-    graph: LaneGraph,
+    graph: LaneSquares,
     arrangement: Arrangement,
     writer: InstanceWriter,
     own: str,
@@ -183,7 +183,7 @@ def _pieces(
     yield from tile_classes
 
 
-def _tile_labels(graph: LaneGraph, squares: NDArray[np.intp]) -> list[str]:
+def _tile_labels(graph: LaneSquares, squares: NDArray[np.intp]) -> list[str]:
     """What a label says of each tile: the kind of its lane square, or the type of its stalls."""
     stalls = {square: f"stall_{stall_type.value}" for square, stall_type in graph.stall_types.items()}
     kinds = {square: kind.value for square, kind in graph.graph.nodes(data="kind")}

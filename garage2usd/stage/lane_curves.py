@@ -10,12 +10,13 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
+from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves
 from garage2usd.stage.variants import BLOCKED_BY, OCCUPIED
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["GUIDE_LIFT_M", "LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
+__all__ = ["LANE_GRAPH_FILE", "STALL_OUTLINES", "write_lane_graph"]
 
 LANE_GRAPH_FILE = "LaneGraph.usdc"
 """Layer of the lane graph, beside the assets."""
@@ -23,15 +24,13 @@ _ROOT = Path(LANE_GRAPH_FILE).stem
 STALL_OUTLINES = (_ROOT, "Stalls")
 """Names of the prims that lead to the outlines of all stalls."""
 
-GUIDE_LIFT_M = 0.05
-"""How far the curves lie over the floor."""
 _NODE_RADIUS_M = 0.4
 _NODE_CORNERS = 8
 _LINE_WIDTH_M = 0.1
 _TYPES = Sdf.ValueTypeNames
 
 
-def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
+def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
     """Write a layer of its own, as text is slow with long arrays, with the curves ``Nodes``, ``Edges`` and ``Stalls``.
 
     Notes
@@ -55,7 +54,7 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneGraph) -> None:
         _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout, graph)
 
 
-def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
+def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneSquares) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     prim = _author_curves(layer, path, graph.middles_m[:, None] + ring, closed=True)
@@ -65,18 +64,18 @@ def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
     attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(graph.clear_m.astype(np.float32)))
 
 
-def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneGraph) -> None:
-    ends = np.array([(edge.start, edge.end) for edge in graph.edges], dtype=np.int32).reshape(-1, 2)
+def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneSquares) -> None:
+    ends = np.array([(edge.start, edge.end) for edge in graph.lanes.edges], dtype=np.int32).reshape(-1, 2)
     lines = graph.middles_m[ends]
     prim = _author_curves(layer, path, lines, closed=False)
     numbers(prim, "garage:lane:from", ends[:, 0])
     numbers(prim, "garage:lane:to", ends[:, 1])
-    words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in graph.edges))
+    words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in graph.lanes.edges))
     numbers(prim, "garage:lane:length", np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1))
-    numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in graph.edges]))
+    numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in graph.lanes.edges]))
 
 
-def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneGraph) -> None:
+def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares) -> None:
     stalls = layout.stalls
     prim = _author_curves(layer, path, _outlines_m(stalls), closed=True)
     words(prim, "garage:stall:id", stalls.names())

@@ -1,21 +1,19 @@
 """Aisles that end in nothing, and which of them are too long to back out of."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeVar
 
 import numpy as np
 
+from garage2usd.garage import DEAD_END_LIMIT_M
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
-__all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends", "walk_back"]
+__all__ = ["DEAD_END_LIMIT_MM", "DeadEnd", "dead_ends"]
 
-DEAD_END_LIMIT_MM = 26_000
-"""A dead-end aisle longer than this keeps a turning stall free."""
 _MM_PER_M = 1000
+DEAD_END_LIMIT_MM = round(DEAD_END_LIMIT_M * _MM_PER_M)
 Square = tuple[int, int]
-_Node = TypeVar("_Node")
 
 
 @dataclass(frozen=True)
@@ -55,7 +53,7 @@ def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[
     for tip, neighbours in beside.items():
         if len(neighbours) > 1:
             continue
-        squares, end = walk_back(tip, beside.__getitem__, beside.__contains__)
+        squares, end = _walk_back(tip, beside)
         length_mm = sum(
             int(structure.row_depths_mm[row] if ahead[0] != row else structure.column_widths_mm[col])
             for (row, col), ahead in pairwise((*squares, end or tip))
@@ -64,14 +62,12 @@ def dead_ends(structure: Structure, limit_mm: int = DEAD_END_LIMIT_MM) -> tuple[
     return tuple(found)
 
 
-def walk_back(
-    tip: _Node, beside: Callable[[_Node], Sequence[_Node]], is_lane: Callable[[_Node], bool]
-) -> tuple[list[_Node], _Node | None]:
+def _walk_back(tip: Square, beside: Mapping[Square, Sequence[Square]]) -> tuple[list[Square], Square | None]:
     """The lanes of a dead end from its tip on, and the junction or portal that they lead to, if there is one."""
-    lanes, ahead = [tip], [*beside(tip)]
-    while ahead and is_lane(ahead[0]) and len(beside(ahead[0])) == 2:  # noqa: PLR2004 - not a junction
+    lanes, ahead = [tip], [*beside[tip]]
+    while ahead and len(beside.get(ahead[0], ())) == 2:  # noqa: PLR2004 - neither a junction nor a portal
         lanes.append(ahead[0])
-        ahead = [other for other in beside(lanes[-1]) if other != lanes[-2]]
+        ahead = [other for other in beside[lanes[-1]] if other != lanes[-2]]
     return lanes, ahead[0] if ahead else None
 
 

@@ -1,11 +1,10 @@
-"""The lane graph: typed lanes, typed stalls, and the proof that every stall is reached."""
+"""Typed lane squares, typed stalls, and the proof that every stall is reached."""
 
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
-from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -13,23 +12,14 @@ from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import UnreachableStallError
+from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 from garage2usd.structure.stalls import Edge, StallRow, stall_rows
 
-__all__ = ["LaneEdge", "LaneGraph", "LaneKind", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
+__all__ = ["LaneSquares", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
 Square = tuple[int, int]
-
-
-class LaneKind(StrEnum):
-    """The paper's three kinds of lane square, and the portals."""
-
-    CROSSROADS = "crossroads"
-    T_JUNCTION = "t_junction"
-    STRAIGHT = "straight"
-    ENTRANCE = "entrance"
-    EXIT = "exit"
 
 
 class StallType(StrEnum):
@@ -41,32 +31,9 @@ class StallType(StrEnum):
     TYPE_4 = "type_4"
 
 
-class LaneEdge(NamedTuple):
-    """A route from node to node, by their numbers.
-
-    Attributes
-    ----------
-    width_m
-        Of the carriageway between the columns.
-    one_way
-        Whether it is driven from `start` to `end` only.
-    """
-
-    start: int
-    end: int
-    width_m: float
-    one_way: bool
-
-    @property
-    def ways(self) -> tuple[tuple[int, int], ...]:
-        """From node to node, in each direction that it is driven in."""
-        there, back = (self.start, self.end), (self.end, self.start)
-        return (there,) if self.one_way else (there, back)
-
-
 @dataclass(frozen=True, eq=False)
-class LaneGraph:
-    """Lanes and portals as a frozen graph, with what they serve. Nodes are numbered in reading order.
+class LaneSquares:
+    """The squares of lanes and portals as a frozen graph, and the stalls beside them; numbered in reading order.
 
     Attributes
     ----------
@@ -121,19 +88,23 @@ class LaneGraph:
         return clear
 
     @cached_property
-    def edges(self) -> tuple[LaneEdge, ...]:
-        """The pairs of squares that join, in reading order; one-way from an entrance and into an exit."""
+    def lanes(self) -> LaneGraph:
+        """The lanes in metres; one-way from an entrance and into an exit, else driven both ways."""
+        kinds = list(map(self.kind, self.number_of))
+        columns = (self.number_of, kinds, self.middles_m.tolist(), self.clear_m.tolist(), self.sides_m.tolist())
+        nodes = tuple(
+            LaneNode(kind.value, (x, z), (clear_x, clear_z), f"[{row}, {col}]", sides_m=(side_x, side_z))
+            for (row, col), kind, (x, z), (clear_x, clear_z), (side_x, side_z) in zip(*columns, strict=True)
+        )
         edges = []
-        kind_of, clear_m = dict(self.graph.nodes(data="kind")), self.clear_m.tolist()
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
-            kinds = kind_of[first], kind_of[second]
-            one_way = LaneKind.ENTRANCE in kinds or LaneKind.EXIT in kinds
-            if kinds[0] is LaneKind.EXIT or kinds[1] is LaneKind.ENTRANCE:
-                first, second = second, first  # noqa: PLW2901
             start, end = self.number_of[first], self.number_of[second]
+            one_way = nodes[start].is_portal or nodes[end].is_portal
+            if kinds[start] is LaneKind.EXIT or kinds[end] is LaneKind.ENTRANCE:
+                start, end = end, start
             # squares that join in a line have the same side across it: R and C are constant along lines
-            edges.append(LaneEdge(start, end, clear_m[start][first[1] != second[1]], one_way))
-        return tuple(edges)
+            edges.append(LaneEdge(start, end, nodes[start].widths_m[first[1] != second[1]], one_way))
+        return LaneGraph(nodes, tuple(edges))
 
     def clear_aisle_m(self, square: Square, edge: Edge) -> float:
         """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
@@ -163,7 +134,7 @@ class LaneGraph:
         return {str(kind): counts[str(kind)] for kind in (*LaneKind, *StallType)}
 
 
-def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
+def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
     """Build the lane graph of a complete structure and prove that every stall is reached.
 
     Raises
@@ -176,7 +147,7 @@ def build_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
     return lanes
 
 
-def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
+def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneSquares:
     """Build the lane graph of any structure with lanes, whether or not its stalls are reached.
 
     Notes
@@ -186,7 +157,7 @@ def unproven_lane_graph(structure: Structure, bay: BayConfig) -> LaneGraph:
     entrance as two lanes, so lane and portal neighbours are counted instead.
     """
     graph = _typed_graph(structure)
-    return LaneGraph(
+    return LaneSquares(
         structure, bay.carriageway_setback_m, nx.freeze(graph), _stall_types(structure), stall_rows(structure, bay)
     )
 

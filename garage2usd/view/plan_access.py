@@ -3,12 +3,12 @@
 import math
 from collections.abc import Iterator, Sequence
 
+from garage2usd.garage import LaneKind
 from garage2usd.layout import Layout, Placement
 from garage2usd.layout.placement import of_spec
 from garage2usd.objects.outline import rectangle
 from garage2usd.objects.portal import PortalSpec
 from garage2usd.objects.ramp import RampSpec
-from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.drawing import Colour, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_lanes import LANE_COLOUR, LINE_M
 from garage2usd.view.plan_sheet import ARROW_END_M, GREY, INK, PAPER, Sheet

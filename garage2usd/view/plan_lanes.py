@@ -3,11 +3,12 @@
 import math
 from collections.abc import Iterator
 
+from garage2usd.garage import LaneKind
 from garage2usd.layout import Layout
 from garage2usd.objects.outline import rectangle
 from garage2usd.planning import MeasuredCirculation
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneGraph, LaneKind
+from garage2usd.structure.lane_graph import LaneSquares
 from garage2usd.view.drawing import Colour, Line, Point, Region
 
 __all__ = ["DEAD_END", "FREE", "LANE_COLOUR", "LINE_M", "arrows", "lane_legend", "squares"]
@@ -36,7 +37,7 @@ _KEEP_RIGHT_M = 1.3
 _CHEVRON_M = 0.7
 
 
-def lane_legend(graph: LaneGraph, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
+def lane_legend(graph: LaneSquares, found: MeasuredCirculation) -> list[tuple[Colour, str]]:
     """Kinds of lane that there are, with their colours."""
     rounds = found.circulation.rounds
     kinds = {kind for square, kind in graph.graph.nodes(data="kind") if not rounds[square]}
@@ -44,7 +45,7 @@ def lane_legend(graph: LaneGraph, found: MeasuredCirculation) -> list[tuple[Colo
     return entries + ([(DEAD_END, "dead end")] if found.dead_ends else [])
 
 
-def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Iterator[Region | Line]:
+def squares(layout: Layout, graph: LaneSquares, found: MeasuredCirculation) -> Iterator[Region | Line]:
     """Every square by its kind; a lane in a dead end has a tint of its own."""
     structure, rounds = layout.structure, found.circulation.rounds
     x, z = structure.column_edges_m.tolist(), structure.row_edges_m.tolist()
@@ -63,12 +64,11 @@ def squares(layout: Layout, graph: LaneGraph, found: MeasuredCirculation) -> Ite
             yield Line([*box, box[0]], _SEAM, LINE_M / 4)
 
 
-def arrows(graph: LaneGraph) -> Iterator[Line]:
+def arrows(graph: LaneSquares) -> Iterator[Line]:
     """A chevron for each direction of each pair of lanes that join, on its right; one between a lane and a portal."""
-    middles_m = graph.middles_m.tolist()
-    for edge in graph.edges:
-        for start, end in edge.ways:
-            yield _chevron(middles_m[start], middles_m[end], 0.0 if edge.one_way else _KEEP_RIGHT_M)
+    nodes = graph.lanes.nodes
+    for (start, end), edge in graph.lanes.arcs.items():
+        yield _chevron(nodes[start].position, nodes[end].position, 0.0 if edge.one_way else _KEEP_RIGHT_M)
 
 
 def _chevron(start: Point, end: Point, aside_m: float) -> Line:

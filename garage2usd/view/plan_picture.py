@@ -11,7 +11,7 @@ from garage2usd.layout import Layout, Placement, Stall, StallUse
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.structure.lane_graph import LaneGraph, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 from garage2usd.view.drawing import Colour, Disc, Drawing, Line, Point, Region, Text, text_width
 from garage2usd.view.plan_access import RAMP, portals, ramps
 from garage2usd.view.plan_lanes import FREE, LINE_M, arrows, lane_legend, squares
@@ -49,7 +49,7 @@ _DIGIT = re.compile(r"\d")
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
-def draw_plan(layout: Layout, graph: LaneGraph, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
+def draw_plan(layout: Layout, graph: LaneSquares, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, its first square's corner at (0, 0).
 
     Parameters
@@ -99,7 +99,7 @@ def _figures(layout: Layout, found: MeasuredCirculation) -> str:
 
 
 def _legend(
-    layout: Layout, graph: LaneGraph, found: MeasuredCirculation, *, with_route: bool
+    layout: Layout, graph: LaneSquares, found: MeasuredCirculation, *, with_route: bool
 ) -> list[tuple[Colour, str]]:
     """Colours and names of what the plan shows."""
     uses = {stall.use for stall in layout.stalls}
@@ -176,7 +176,7 @@ def _building(layout: Layout) -> Iterator[Region | Line]:
             yield Region(place.outlines()[0], INK, kind)
 
 
-def _route(graph: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
+def _route(graph: LaneSquares, stall: Stall) -> Iterator[Region | Line]:
     """Both routes on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()
@@ -187,7 +187,7 @@ def _route(graph: LaneGraph, stall: Stall) -> Iterator[Region | Line]:
 
 
 def _way(
-    graph: LaneGraph,
+    graph: LaneSquares,
     squares: Sequence[Square],
     end: Sequence[Point],
     colour: Colour,

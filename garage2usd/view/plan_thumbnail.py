@@ -6,11 +6,10 @@ from itertools import groupby
 import numpy as np
 
 from garage2usd.config.site import DEFAULT_SIDE_M
-from garage2usd.layout import StallUse
+from garage2usd.garage import LaneKind, StallUse
 from garage2usd.objects.outline import rectangle
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Cell, CellArray, Structure, edge_neighbour_count, outside_squares
-from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.drawing import Colour, Drawing, Line, Point, Region, Text
 from garage2usd.view.plan_lanes import DEAD_END, FREE, LANE_COLOUR
 from garage2usd.view.plan_picture import SOLID, STALL_COLOUR

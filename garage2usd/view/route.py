@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from garage2usd.errors import ConfigError
+from garage2usd.garage import LaneKind
 from garage2usd.layout import Layout, Stall
 from garage2usd.spelling import called
-from garage2usd.structure.lane_graph import LaneGraph, LaneKind, Square
+from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = ["Route", "find_stall", "route_of"]
 
@@ -36,7 +37,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
     raise ConfigError("stall", number, known)
 
 
-def route_of(graph: LaneGraph, stall: Stall) -> Route:
+def route_of(graph: LaneSquares, stall: Stall) -> Route:
     """The shortest routes from any entrance to a stall and from it to any exit, not through another portal."""
 
     def nearest(kind: LaneKind) -> list[Square]:

@@ -11,7 +11,7 @@ import shapely
 from support.map_judges import JUDGES, has
 from support.sample_files import each_sample
 
-from garage2usd.checks import read_subject
+from garage2usd.checks import read_garage
 from garage2usd.config.maps import GridConfig
 from garage2usd.maps.frame import map_points
 from garage2usd.maps.occupancy import write_grid
@@ -46,7 +46,7 @@ def distances(tree, place, angles):
 
 @each_sample
 def test_the_lidar_sees_what_stands_there(sample, builds, tmp_path):
-    subject, _ = read_subject(builds(sample, "usdc").stage)
+    subject, _ = read_garage(builds(sample, "usdc").stage)
     write_grid(subject, tmp_path / "map.yaml", GridConfig())
     tree = ground_of(subject)
     crossing = next(node for node in subject.nodes if not node.is_portal)

@@ -9,7 +9,7 @@ from support.sample_files import REPOSITORY, each_sample
 from support.stage_lanes import read_stage
 
 import garage2usd
-from garage2usd.checks import read_subject
+from garage2usd.checks import read_garage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.lanelet2 import write_lanelet2
 
@@ -108,7 +108,7 @@ FAULTS = [
 
 @pytest.fixture(scope="module")
 def subject(builds):
-    return read_subject(builds(FAULTY, "usdc").stage)[0]
+    return read_garage(builds(FAULTY, "usdc").stage)[0]
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)

@@ -12,7 +12,7 @@ from support.recordings import Recorded
 from support.sample_files import REPOSITORY
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
 
-from garage2usd.checks import read_subject
+from garage2usd.checks import read_garage
 from garage2usd.errors import ConfigError
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.sensors.nuscenes import NUSCENES_VERSION, write_nuscenes
@@ -89,7 +89,7 @@ def test_boxes_stand_where_the_table_of_labels_has_them(loaded):
 
 
 def test_boxes_of_cars_look_where_the_cars_do(loaded):
-    subject, _ = read_subject(loaded.recorded.built.stage)
+    subject, _ = read_garage(loaded.recorded.built.stage)
     to_stage = np.linalg.inv(loaded.found["stage_to_global"])
     noses = {car.middle_m: (-np.sin(car.yaw_rad), -np.cos(car.yaw_rad)) for car in parked_cars(subject)}
     middles = np.array(list(noses))

@@ -7,7 +7,7 @@ from support.opendrive_judge import MapJudge
 from support.sample_files import REPOSITORY, SAMPLES, each_sample
 
 import garage2usd
-from garage2usd.checks import read_subject
+from garage2usd.checks import read_garage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.opendrive import write_opendrive
 
@@ -115,7 +115,7 @@ FAULTS = [
 
 @pytest.fixture(scope="module")
 def subject(builds):
-    return read_subject(builds(FAULTY, "usdc").stage)[0]
+    return read_garage(builds(FAULTY, "usdc").stage)[0]
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)

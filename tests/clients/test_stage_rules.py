@@ -5,9 +5,9 @@ from pxr import Usd, UsdPhysics
 from support.broken_usd import BROKEN, open_small_stage
 from support.sample_files import each_build
 
+from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
 from garage2usd.checks.consistency import BOOK as CONSISTENCY
-from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.checks.usd import BOOK
 from garage2usd.profiles import Profile
 
@@ -25,14 +25,14 @@ def test_stages_break_no_rule(sample, extension, builds):
     stage = Usd.Stage.Open(str(builds(sample, extension).stage))
     assert stage.GetDefaultPrim().GetPath() == "/Garage"
     assert not [prim for prim in prims_of(stage) if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
-    subject = subject_of_stage(stage, source=sample.stem)
+    subject = garage_of_stage(stage, source=sample.stem)
     rules = [rule for rule in (*RULES.values(), *CONSISTENCY.rules) if rule.name != VALIDATORS]
     assert [finding for rule in rules for finding in rule.findings(subject, NO_CLAUSES)] == []
 
 
 def rules_broken(stage):
     """Rules that a stage breaks, apart from being no garage."""
-    return {finding.rule for finding in check(subject_of_stage(stage, source=""), NO_CLAUSES)} - {"lane-graph"}
+    return {finding.rule for finding in check(garage_of_stage(stage, source=""), NO_CLAUSES)} - {"lane-graph"}
 
 
 def test_the_small_stage_breaks_no_rule(tmp_path):

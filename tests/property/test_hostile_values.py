@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garage2usd.checks import read_subject
+from garage2usd.checks import read_garage
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.errors import Garage2UsdError
 from garage2usd.planning import play
@@ -103,7 +103,7 @@ def test_tapes_are_played_or_refused(tape):
 def test_reports_are_read_or_refused(report, key, value):
     path, document = report
     path.write_text(json.dumps(put(document, (key,), value)))
-    read, error = attempt(read_subject, path)
+    read, error = attempt(read_garage, path)
     assert error is not None or read[0].nodes
 
 

@@ -6,11 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garage2usd.checks import Subject
+from garage2usd.as_built import BuiltGarage
+from garage2usd.garage import LaneEdge, LaneNode
 from garage2usd.maps.network import LEFT, RIGHT
 from garage2usd.maps.road_builder import network_of
-from garage2usd.reading.ground import LaneNode
-from garage2usd.structure.lane_graph import LaneEdge
 
 SETBACK_M = 0.3
 
@@ -42,7 +41,7 @@ def garages(draw):
             turned = kinds[start] == "exit" or kinds[end] == "entrance"
             pair = (end, start) if turned else (start, end)
             edges.append(LaneEdge(*pair, nodes[start].widths_m[side], one_way))
-    return Subject("random", "plan", (), tuple(nodes), tuple(edges))
+    return BuiltGarage("random", "plan", (), tuple(nodes), tuple(edges))
 
 
 def lane_end(road, lane, *, at_start):

@@ -11,13 +11,13 @@ import pytest
 from click.testing import CliRunner
 from support.data_sets import SMALL, small_recipe
 
+from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import check
-from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig
 from garage2usd.datasets import make_dataset
 from garage2usd.datasets.making import PAGE_FILE
-from garage2usd.layout import StallUse
+from garage2usd.garage import StallUse
 from garage2usd.pipeline import generate
 from garage2usd.profiles import read_profile
 from garage2usd.reading.files import open_stage
@@ -84,7 +84,7 @@ def test_the_plan_tells_it_twice(counted, garage):
 def test_check_and_viewer_count_so(counted, garage, built):
     stalls, _ = counted
     steps = {"steps": [[10, 1]], "above_percent": 100, "unit": "count", "source": "us", "confidence": "low"}
-    subject = layout_subject(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
     profile = read_profile({"name": "client", "accessible_stalls": steps})
     (finding,) = (finding for finding in check(subject, profile) if finding.rule == "accessible-count")
     assert (finding.required, finding.message) == (stalls, f"too few accessible stalls among {stalls}")

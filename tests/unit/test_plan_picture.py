@@ -18,11 +18,10 @@ from support.sample_files import REPOSITORY
 from garage2usd.cli import main
 from garage2usd.config import GarageConfig
 from garage2usd.errors import ConfigError
-from garage2usd.layout import StallUse
+from garage2usd.garage import LaneKind, StallUse
 from garage2usd.pipeline import build, generate
 from garage2usd.planning import measured_circulation
 from garage2usd.structure.grid import Cell
-from garage2usd.structure.lane_graph import LaneKind
 from garage2usd.view.plan_picture import Mark, draw_plan
 from garage2usd.view.plan_sheet import MARK_COLOUR
 from garage2usd.view.raster import to_image, write_png

@@ -10,7 +10,7 @@ from support.footprints import footprint
 from support.sample_files import each_sample
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout import StallUse
+from garage2usd.garage import StallUse
 from garage2usd.objects.floor_stain import StainMark, StainSpec, TyreMarkSpec
 from garage2usd.objects.stall_number import PAINT_LIFT_M
 from garage2usd.pipeline import generate

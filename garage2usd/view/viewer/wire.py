@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.reading.ground import StallOutline
+from garage2usd.garage import Stall
 from garage2usd.reading.lanes import Lanes
 from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import Scene, Shape, moved
@@ -182,6 +182,6 @@ def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
     }
 
 
-def _stall(stall: StallOutline) -> dict[str, Any]:
+def _stall(stall: Stall) -> dict[str, Any]:
     corners = np.round(np.array(stall.corners, np.float32), 4).tolist()
     return {"id": stall.name, "use": stall.use, "accessNode": stall.access, **dict(stall.facts), "corners": corners}

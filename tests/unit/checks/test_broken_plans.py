@@ -7,8 +7,8 @@ from support.broken_plans import CLIENTS, DRAWN, LONG_AISLE, SETTINGS_BROKEN, M
 from support.small_garage import PLAN, SETTINGS
 
 from garage2usd import GarageConfig, build
+from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_file
-from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.errors import ConfigError, StageError
 from garage2usd.layout import lay_out
 from garage2usd.profiles import load_profile, read_profile
@@ -35,7 +35,7 @@ def found_in(settings, profile=CN):
     depths = side if config.bay.row_depths_m is None else config.bay.row_depths_m
     structure = Structure.from_arrays(cells_from_text(config.site.structure, field="S"), widths, depths)
     graph = build_lane_graph(structure, config.bay)
-    subject = layout_subject(lay_out(structure, graph, config), graph, source="", kind="plan")
+    subject = garage_of_layout(lay_out(structure, graph, config), graph, source="", kind="plan")
     return {finding.rule for finding in check(subject, profile)}
 
 

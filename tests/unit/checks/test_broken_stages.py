@@ -7,8 +7,8 @@ from support.broken_stages import BROKEN, COLUMN, all_of, box, changed, moved, w
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
+from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
-from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.errors import StageError
 from garage2usd.profiles import load_profile
 
@@ -36,7 +36,7 @@ def stage(opened):
 
 
 def rules_found(stage, profile=PROFILE):
-    return {finding.rule for finding in check(subject_of_stage(stage, source="edited"), profile)}
+    return {finding.rule for finding in check(garage_of_stage(stage, source="edited"), profile)}
 
 
 def test_the_good_stage_breaks_nothing_else(stage):
@@ -56,7 +56,7 @@ def test_a_stage_without_light_is_dark(stage):
 
 def test_a_finding_names_its_place_and_figures(stage):
     changed("Edges", "garage:lane:width", 1, 4.0)(stage)
-    (finding,) = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "aisle-width"]
+    (finding,) = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "aisle-width"]
     assert (finding.place, finding.position_m) == ("[1, 1]-[1, 2]", (16.2, 12.15))
     assert (finding.measured, finding.required, finding.unit) == (4.0, 5.5, "m")
     assert finding.source == "JGJ 100-2015 (high)"
@@ -64,7 +64,7 @@ def test_a_finding_names_its_place_and_figures(stage):
 
 def test_a_stall_that_no_car_gets_into_is_named_with_what_is_in_the_way(stage):
     box(12.15, 0.0, 8.28, label="static", side=0.3)(stage)
-    found = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
     assert [(f.place, f.position_m, f.severity, f.unit) for f in found] == [
         ("Stall_r00_c01_2", (12.15, 5.45), "error", "m")
     ]
@@ -110,7 +110,7 @@ def test_a_sheet_without_any_thickness_is_in_the_way(stage):
     net.CreateFaceVertexCountsAttr([4] * 11)
     net.CreateFaceVertexIndicesAttr([corner for face in faces for corner in face])
     UsdSemantics.LabelsAPI.Apply(net.GetPrim(), "class").CreateLabelsAttr(["static"])
-    found = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
+    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "swept-path"]
     assert [f.place for f in found] == ["Stall_r00_c01_2"]
     assert "; in the way: /Garage/Added, " in found[0].message
 
@@ -120,7 +120,7 @@ def test_what_lies_beyond_all_measure_is_named(far_m, stage):
     box(12.15, 0.0, 8.28, label="static", side=0.3)(stage)
     UsdGeom.Xformable(stage.GetPrimAtPath("/Garage/Added")).AddTranslateOp(opSuffix="far").Set((0, 0, far_m))
     with pytest.raises(StageError, match=r"/Garage/Added lies 1e\+\d+ m from the origin"):
-        subject_of_stage(stage, source="")
+        garage_of_stage(stage, source="")
 
 
 def test_points_of_an_instancer_stand_where_they_are_drawn(stage):
@@ -131,7 +131,7 @@ def test_points_of_an_instancer_stand_where_they_are_drawn(stage):
     instancer.CreatePrototypesRel().SetTargets([cone.GetPath()])
     instancer.CreateProtoIndicesAttr([0, 0])
     instancer.CreatePositionsAttr([(3.0, 0.2, 3.0), (16.2, 0.2, 12.15)])
-    found = [f for f in check(subject_of_stage(stage, source=""), PROFILE) if f.rule == "lane-blocked"]
+    found = [f for f in check(garage_of_stage(stage, source=""), PROFILE) if f.rule == "lane-blocked"]
     assert [(f.place, f.position_m) for f in found] == [("/Garage/Cones[1]", (16.2, 12.15))]
 
 

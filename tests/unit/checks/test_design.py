@@ -5,8 +5,8 @@ from collections import Counter
 
 import pytest
 
+from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_layout
-from garage2usd.checks.layout_reader import layout_subject
 from garage2usd.config import GarageConfig, SiteConfig, load_config
 from garage2usd.errors import ConfigError
 from garage2usd.pipeline import generate
@@ -35,7 +35,7 @@ confidence = "high"
 
 def errors_of(config):
     garage = generate(config)
-    subject = layout_subject(garage.layout, garage.graph, source="", kind="report")
+    subject = garage_of_layout(garage.layout, garage.graph, source="", kind="report")
     return [f for f in check(subject, config.standard) if f.severity is Severity.ERROR], garage
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from garage2usd.checks.shapes import Body, MeshShape, Thing, turned_about_y
+from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 
 BALL = trimesh.creation.icosphere(subdivisions=2, radius=1.5)
 PLACE = turned_about_y(0.7, (3.0, -1.0, 8.0))

@@ -5,8 +5,8 @@ import pytest
 from pxr import Usd, UsdGeom, UsdSemantics
 from support.label_tables import labelled_objects
 
-from garage2usd.checks.contents import read_contents
-from garage2usd.checks.solids import Solids
+from garage2usd.as_built.contents import read_contents
+from garage2usd.as_built.solids import Solids
 from garage2usd.config import GarageConfig
 from garage2usd.objects import PIECE_LABELS
 from garage2usd.pipeline import build

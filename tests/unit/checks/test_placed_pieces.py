@@ -3,8 +3,8 @@
 import numpy as np
 import shapely
 
-from garage2usd.checks.placed_pieces import lows_m, placed_pieces
-from garage2usd.checks.shapes import Body, MeshShape, box_shape, turned_about_y
+from garage2usd.as_built.placed_pieces import lows_m, placed_pieces
+from garage2usd.as_built.shapes import Body, MeshShape, box_shape, turned_about_y
 
 
 def two_boxes():

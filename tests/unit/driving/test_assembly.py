@@ -5,12 +5,12 @@ import shapely
 from support.small_garage import SETTINGS
 
 import garage2usd
-from garage2usd.checks import read_subject
-from garage2usd.checks.driven_ground import driven_garage
+from garage2usd.as_built.driven_ground import driven_garage
+from garage2usd.checks import read_garage
 from garage2usd.driving import SquareUse
 from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.layout_garage import layout_garage
-from garage2usd.structure.lane_graph import LaneEdge
+from garage2usd.garage import LaneEdge
 
 DEAD_END = """
 ######
@@ -85,7 +85,7 @@ def test_a_layout_its_report_and_its_stage_are_the_same_garage(structure, tmp_pa
     assert stall_fittings >= {kind for _, kind in owned}
     assert {"car", "wheel_stop", "cone"} <= {kind for _, kind in owned}
     for path in (built.stage, built.report):
-        read = driven_garage(read_subject(path)[0])
+        read = driven_garage(read_garage(path)[0])
         assert sorted(map(by_square, read.standing.names)) == sorted(made.standing.names)
         for one, other in zip(made.stalls, read.stalls, strict=True):
             assert (one.name, one.access, one.absent) == (other.name, other.access, other.absent)

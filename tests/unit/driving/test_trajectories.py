@@ -14,7 +14,7 @@ from support.sample_files import SAMPLES
 from support.trajectory_judge import OpenWorld, faults
 
 import garage2usd
-from garage2usd.checks.layout_reader import layout_subject
+from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Gear, Pose
 from garage2usd.driving.path import Path, Piece
@@ -37,7 +37,7 @@ BRISK = DriveConfig(
 
 
 def subject_of(garage):
-    return layout_subject(garage.layout, garage.graph, source="garage", kind="plan")
+    return garage_of_layout(garage.layout, garage.graph, source="garage", kind="plan")
 
 
 def rows_of(motion, tmp_path):

@@ -8,8 +8,8 @@ from support.opendrive_reader import OpenDrive
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
-from garage2usd.checks import read_subject
-from garage2usd.checks.shapes import Body, Thing, box_shape
+from garage2usd.as_built.shapes import Body, Thing, box_shape
+from garage2usd.checks import read_garage
 from garage2usd.config.maps import MapsConfig
 from garage2usd.maps.opendrive import write_opendrive
 
@@ -17,7 +17,7 @@ NAME, HEIGHT_M = "/Garage/Walls/BesideTheRamp", 3.0
 
 
 def test_a_wall_beside_a_ramp_stands_on_the_floor(tmp_path):
-    subject, _ = read_subject(build(GarageConfig(**SETTINGS), tmp_path / "small.usdc").stage)
+    subject, _ = read_garage(build(GarageConfig(**SETTINGS), tmp_path / "small.usdc").stage)
     ramp = next(thing for thing in subject.things if thing.label == "ramp")
     points = np.concatenate([body.world_points() for body in ramp.bodies])
     low, high = points.min(axis=0), points.max(axis=0)

@@ -15,8 +15,8 @@ from support.sample_files import each_sample
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
-from garage2usd.checks import read_subject
-from garage2usd.checks.driven_ground import driven_garage
+from garage2usd.as_built.driven_ground import driven_garage
+from garage2usd.checks import read_garage
 from garage2usd.config.look import ColumnSection
 from garage2usd.config.maps import GridConfig
 from garage2usd.driving import DesignCar, prove_garage
@@ -50,7 +50,7 @@ def made(tmp_path_factory):
 
 
 def driven(built):
-    subject, _ = read_subject(built.stage)
+    subject, _ = read_garage(built.stage)
     garage, car = driven_garage(subject), DesignCar()
     return subject, garage, prove_garage(garage, car=car), car
 

@@ -1,33 +1,33 @@
-"""Reports and plan files as a subject; a plan with faults is read as far as it goes, so that rules name them."""
+"""Reports and plan files as a garage; a plan with faults is read as far as it goes, so that rules name them."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from garage2usd.checks.layout_reader import layout_subject, unlaid_subject
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.layout_reader import garage_of_layout, garage_without_layout
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
 from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
+from garage2usd.garage import Fault
 from garage2usd.layout import Layout, Stall, lay_out
 from garage2usd.planning import dimensioned
 from garage2usd.profiles import Profile
-from garage2usd.reading.ground import Fault
 from garage2usd.reading.report import ReportedStall, report_of
 from garage2usd.site import with_sides
 from garage2usd.site.given import check_structure
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph, unproven_lane_graph
 
-__all__ = ["plan_subject"]
+__all__ = ["garage_of_plan"]
 
 _FIELD = "PATH"
 _MOVED_M = 0.001
 
 
-def plan_subject(path: Path, *, profile: Profile | None = None) -> tuple[Subject, GarageConfig]:
+def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[BuiltGarage, GarageConfig]:
     """Read a report, a configuration with a structure, or a plan.
 
     Parameters
@@ -87,25 +87,25 @@ def _drawing(rows: Any, path: Path) -> str:  # noqa: ANN401
     raise ConfigError(_FIELD, str(path), "a report, or S as rows of symbols or numbers")
 
 
-def _of_config(config: GarageConfig, path: Path, *, kind: str) -> Subject:
+def _of_config(config: GarageConfig, path: Path, *, kind: str) -> BuiltGarage:
     if config.site.structure is None:
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build this configuration first and check what is made")
     structure = with_sides(cells_from_text(config.site.structure, field="site.structure"), config.bay)
-    return _subject(dimensioned(structure, config.bay), config, path, kind=kind)
+    return _read(dimensioned(structure, config.bay), config, path, kind=kind)
 
 
-def _of_report(document: Mapping[str, Any], path: Path) -> tuple[Subject, GarageConfig]:
+def _of_report(document: Mapping[str, Any], path: Path) -> tuple[BuiltGarage, GarageConfig]:
     try:
         report = report_of(document, path)
     except ReportError as error:
         raise ConfigError(_FIELD, str(path), f"a report with config, S, R and C ({error.reason})") from None
     structure = Structure.from_arrays(cells_from_text("\n".join(report.S), field="S"), report.R, report.C)
     told, unreachable = report.stalls, report.unreachable_stalls
-    subject = _subject(structure, report.config, path, kind="report", listed=told, unreachable=unreachable)
-    return subject, report.config
+    garage = _read(structure, report.config, path, kind="report", listed=told, unreachable=unreachable)
+    return garage, report.config
 
 
-def _subject(
+def _read(
     structure: Structure,
     config: GarageConfig,
     path: Path,
@@ -113,16 +113,16 @@ def _subject(
     kind: str,
     listed: Sequence[Any] | None = None,
     unreachable: Sequence[str] | None = None,
-) -> Subject:
+) -> BuiltGarage:
     if not (structure.cells == Cell.LANE).any():
         raise ConfigError(_FIELD, str(path), "a plan with lanes; build it first and check what is made")
     graph = unproven_lane_graph(structure, config.bay)
     layout, refusal = _laid_out(structure, config, unreachable)
     if layout is None:
         faults = () if refusal is None else (Fault("plan-refused", "", None, refusal),)
-        return unlaid_subject(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
+        return garage_without_layout(structure, graph, config.bay, source=str(path), kind=kind, faults=faults)
     differences = () if listed is None else tuple(_differences(layout, listed))
-    return layout_subject(layout, graph, source=str(path), kind=kind, faults=differences)
+    return garage_of_layout(layout, graph, source=str(path), kind=kind, faults=differences)
 
 
 def _laid_out(

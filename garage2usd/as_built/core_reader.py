@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from garage2usd.checks.solids import Solid
-from garage2usd.checks.subject import Subject
-from garage2usd.reading.ground import Point
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.solids import Solid
+from garage2usd.garage import Point
 
 __all__ = ["CoreDoor", "core_doors"]
 
@@ -40,14 +40,14 @@ class CoreDoor(NamedTuple):
     node: int
 
 
-def core_doors(subject: Subject) -> list[CoreDoor]:
+def core_doors(garage: BuiltGarage) -> list[CoreDoor]:
     """The doors of cores that open onto lanes, one for each core and lane, whoever modelled them.
 
     A door is a thin upright piece of an obstacle, from the floor to 1.9 to 2.5 m and 0.7 to 2 m wide, on a side of it
     behind which a lane begins within a metre.
     """
     pieces: dict[str, list[Solid]] = defaultdict(list)
-    for solid in subject.solids.standing(_LABEL):
+    for solid in garage.solids.standing(_LABEL):
         pieces[solid.name].append(solid)
     doors: dict[tuple[str, int], CoreDoor] = {}
     for name, parts in pieces.items():
@@ -56,7 +56,7 @@ def core_doors(subject: Subject) -> list[CoreDoor]:
             step = _step_out(part, (block.x, block.y))
             if step is None:
                 continue
-            for node in _lanes_at((part.footprint.centroid.x + step[0], part.footprint.centroid.y + step[1]), subject):
+            for node in _lanes_at((part.footprint.centroid.x + step[0], part.footprint.centroid.y + step[1]), garage):
                 doors.setdefault((name, node), CoreDoor(name, part.centre, node))
     return list(doors.values())
 
@@ -80,8 +80,8 @@ def _step_out(part: Solid, block: Point) -> Point | None:
     return x, z
 
 
-def _lanes_at(place: Point, subject: Subject) -> Iterator[int]:
-    for number, node in enumerate(subject.nodes):
+def _lanes_at(place: Point, garage: BuiltGarage) -> Iterator[int]:
+    for number, node in enumerate(garage.lanes.nodes):
         off_x, off_z = (abs(at - middle) for at, middle in zip(place, node.position, strict=True))
         if not node.is_portal and off_x <= node.widths_m[0] / 2 and off_z <= node.widths_m[1] / 2:
             yield number

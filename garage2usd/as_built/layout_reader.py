@@ -1,37 +1,36 @@
-"""A layout, and a plan that could not be laid out, as a subject."""
+"""A layout, and a plan that could not be laid out, as a garage."""
 
-from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
 
-from garage2usd.checks.shapes import Body, MeshShape, Thing, turned_about_y
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.shapes import Body, MeshShape, Thing, turned_about_y
 from garage2usd.config import BayConfig
-from garage2usd.layout import Layout, Stall, StallUse
+from garage2usd.garage import Fault
+from garage2usd.layout import Layout
+from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects import KINDS, Spec
-from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.stage.arrangement import arrange
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneGraph
+from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["layout_subject", "unlaid_subject"]
+__all__ = ["garage_of_layout", "garage_without_layout"]
 
 
-def layout_subject(
-    layout: Layout, graph: LaneGraph, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
-) -> Subject:
+def garage_of_layout(
+    layout: Layout, graph: LaneSquares, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
+) -> BuiltGarage:
     """Everything that a layout tells; what only lies on the floor is left out."""
     lux = layout.illuminance
-    return Subject(
+    return BuiltGarage(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, graph, layout.blocked) for stall in layout.stalls),
-        nodes=_nodes(graph),
-        edges=graph.edges,
+        stalls=tuple(garage_stalls(layout.stalls, graph, layout.blocked)),
+        lanes=graph.lanes,
         things=_things(layout),
         structure=layout.structure,
         compartments=layout.compartments,
@@ -43,34 +42,17 @@ def layout_subject(
     )
 
 
-def unlaid_subject(
-    structure: Structure, graph: LaneGraph, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
-) -> Subject:
+def garage_without_layout(
+    structure: Structure, graph: LaneSquares, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
+) -> BuiltGarage:
     """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
-    return Subject(
+    return BuiltGarage(
         source=source,
         kind=kind,
-        stalls=tuple(_outline(stall, graph, {}) for stall in stalls_of(TileGrid(structure, graph, bay), graph, bay)),
-        nodes=_nodes(graph),
-        edges=graph.edges,
+        stalls=tuple(garage_stalls(stalls_of(TileGrid(structure, graph, bay), graph, bay), graph)),
+        lanes=graph.lanes,
         structure=structure,
         faults=faults,
-    )
-
-
-def _outline(stall: Stall, graph: LaneGraph, blocked: Mapping[str, str]) -> StallOutline:
-    left, right, rear_right, rear_left = stall.corners_m()
-    corners = (left, right, rear_right, rear_left)
-    said = {"number": stall.number, "blocked_by": blocked.get(stall.name, "")}
-    facts = tuple((fact, value) for fact, value in said.items() if value)
-    return StallOutline(stall.name, corners, StallUse(stall.use), graph.number_of[stall.access_square], facts)
-
-
-def _nodes(graph: LaneGraph) -> tuple[LaneNode, ...]:
-    rows = zip(graph.number_of, graph.middles_m.tolist(), graph.clear_m.tolist(), strict=True)
-    return tuple(
-        LaneNode(graph.kind((row, col)).value, (x, z), (across_x, across_z), f"[{row}, {col}]")
-        for (row, col), (x, z), (across_x, across_z) in rows
     )
 
 

@@ -7,13 +7,12 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from garage2usd.checks.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
-from garage2usd.checks.openings import Door
-from garage2usd.checks.shapes import Array, Thing
-from garage2usd.checks.subject import Subject
-from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, SquareUse, heights_m
-from garage2usd.reading.ground import LaneNode, Point
-from garage2usd.structure.lane_graph import LaneKind
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.openings import Door
+from garage2usd.as_built.shapes import Array, Thing
+from garage2usd.driving import DesignCar, DrivenRoad, Obstacles, Portal, Pose, RampFloor, heights_m
+from garage2usd.garage import LaneKind, LaneNode, Point
 
 __all__ = ["Mouth", "driven_road", "floors_of_ramps", "portal_mouths"]
 
@@ -64,12 +63,12 @@ class Mouth(NamedTuple):
         return (top[0] - middle[0]) * self.outwards[0] + (top[1] - middle[1]) * self.outwards[1]
 
 
-def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
+def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
     """The road of a garage that is checked.
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     car
         Which car is driven.
@@ -82,30 +81,30 @@ def driven_road(subject: Subject, *, car: DesignCar | None = None, height_m: flo
     shut; the car then stands within the portal's square, 0.3 m from the door.
     """
     car = car or DesignCar()
-    garage = driven_garage(subject, height_m=height_m)
-    floors = floors_of_ramps(subject.things)
-    opened = [thing.name for thing in subject.things if thing.label in {_GATE, _RAMP}]
-    gates = ((solid.name, solid.footprint) for solid in subject.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
+    driven = driven_garage(garage, height_m=height_m)
+    floors = floors_of_ramps(garage.things)
+    opened = [thing.name for thing in garage.things if thing.label in {_GATE, _RAMP}]
+    gates = ((solid.name, solid.footprint) for solid in garage.solids.standing(_GATE) if solid.bottom_m < _ARM_FROM_M)
     sides = (
         (thing.name, shapely.MultiLineString(list(_sides(thing, floors, height_m))))
-        for thing in subject.things
+        for thing in garage.things
         if thing.label == _RAMP
     )
-    standing = garage.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
-    portals = tuple(_portals(subject, floors, car))
-    return DrivenRoad(garage, standing, portals, floors)
+    standing = driven.standing.without(opened).joined(Obstacles.of([*gates, *sides]))
+    portals = tuple(_portals(garage, floors, car))
+    return DrivenRoad(driven, standing, portals, floors)
 
 
-def portal_mouths(subject: Subject) -> tuple[Mouth, ...]:
+def portal_mouths(garage: BuiltGarage) -> tuple[Mouth, ...]:
     """Where each portal of a garage opens to the outside, in the order of the nodes."""
-    return tuple(_mouths(subject, floors_of_ramps(subject.things)))
+    return tuple(_mouths(garage, floors_of_ramps(garage.things)))
 
 
-def _mouths(subject: Subject, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
-    for number, node in enumerate(subject.nodes):
+def _mouths(garage: BuiltGarage, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
+    for number, node in enumerate(garage.lanes.nodes):
         if not node.is_portal:
             continue
-        door, outwards, edge_m = _outwards(subject, number)
+        door, outwards, edge_m = _outwards(garage, number)
         middle = rounded(node.position)
         ramp = next((ramp for ramp in ramps if _is_behind(ramp, middle, outwards, edge_m)), None)
         width_m = node.widths_m[0] if outwards[0] == 0 else node.widths_m[1]
@@ -116,16 +115,16 @@ def _mouths(subject: Subject, ramps: Sequence[RampFloor]) -> Iterator[Mouth]:
         yield Mouth(number, outwards, edge_m, width_m, ramp)
 
 
-def _portals(subject: Subject, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
-    for mouth in _mouths(subject, ramps):
-        node = subject.nodes[mouth.number]
+def _portals(garage: BuiltGarage, ramps: Sequence[RampFloor], car: DesignCar) -> Iterator[Portal]:
+    for mouth in _mouths(garage, ramps):
+        node = garage.lanes.nodes[mouth.number]
         is_entrance = node.kind == LaneKind.ENTRANCE
         yaw = math.atan2(mouth.outwards[0] + 0.0, mouth.outwards[1] + 0.0)  # into the garage
         x, z = rounded(node.position)
         end_m = mouth.top_m((x, z)) - (_FROM_DOOR_M if mouth.ramp is None else _FROM_END_M)
         axle_m = end_m - (car.rear_overhang_m if is_entrance else car.ahead_m)
         pose = Pose(x + axle_m * mouth.outwards[0], z + axle_m * mouth.outwards[1], yaw if is_entrance else _about(yaw))
-        yield Portal(mouth.number, node.name, SquareUse.ENTRANCE if is_entrance else SquareUse.EXIT, pose)
+        yield Portal(mouth.number, node.name, LaneKind.ENTRANCE if is_entrance else LaneKind.EXIT, pose)
 
 
 def _about(yaw_rad: float) -> float:
@@ -133,18 +132,20 @@ def _about(yaw_rad: float) -> float:
     return turned - math.tau if turned > math.pi else turned
 
 
-def _outwards(subject: Subject, number: int) -> tuple[Door | None, Point, float]:
+def _outwards(garage: BuiltGarage, number: int) -> tuple[Door | None, Point, float]:
     """A portal's door, the direction in which it lies, along an axis, and how far away its square's edge is there."""
-    node = subject.nodes[number]
-    ways = [(way, door) for door in subject.doors if (way := _towards(node, door.position)) is not None]
+    node = garage.lanes.nodes[number]
+    ways = [(way, door) for door in garage.doors if (way := _towards(node, door.position)) is not None]
     if ways:
         (_, outwards), door = min(ways, key=lambda found: found[0])
     else:
         door = None
-        ways_in = [_axis(subject.nodes[other].position, node.position) for other in sorted(subject.beside[number])]
+        ways_in = [
+            _axis(garage.lanes.nodes[other].position, node.position) for other in sorted(garage.lanes.beside[number])
+        ]
         taken = {(-x, -z) for x, z in ways_in}
         outwards = next((way for way in (*ways_in, *_AXES) if way not in taken), _AXES[0])
-    return door, outwards, _half_m(subject, number, outwards)
+    return door, outwards, _half_m(garage, number, outwards)
 
 
 def _axis(start: Point, end: Point) -> Point:
@@ -164,9 +165,9 @@ def _towards(node: LaneNode, door: Point) -> tuple[float, Point] | None:
     return along, _axis(node.position, door)
 
 
-def _half_m(subject: Subject, number: int, outwards: Point) -> float:
+def _half_m(garage: BuiltGarage, number: int, outwards: Point) -> float:
     """From a portal's middle to where the clear floor ends."""
-    widths = subject.nodes[number].widths_m
+    widths = garage.lanes.nodes[number].widths_m
     return float(abs(outwards[0]) * widths[0] + abs(outwards[1]) * widths[1]) / 2
 
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.checks.outlines import outlines_of
-from garage2usd.checks.shapes import Body, are_upright
+from garage2usd.as_built.outlines import outlines_of
+from garage2usd.as_built.shapes import Body, are_upright
 from garage2usd.layout.grounds import Grounds, grounds_of_corners, hulls_around
 
 __all__ = ["PlacedPieces", "lows_m", "placed_pieces"]

@@ -1,6 +1,5 @@
-"""What is checked: a garage as far as a stage, a report or a plan tells it, in metres, Y up."""
+"""A garage as built: lanes, stalls and all objects, as far as a stage, a report or a plan tells; metres, Y up."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,24 +8,23 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.openings import Door, Ramp, doors_of, ramps_of
-from garage2usd.checks.shapes import Thing
-from garage2usd.checks.solids import Solid, Solids
-from garage2usd.checks.stall_grounds import StallGrounds
+from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
+from garage2usd.as_built.shapes import Thing
+from garage2usd.as_built.solids import Solid, Solids
+from garage2usd.as_built.stall_grounds import StallGrounds
+from garage2usd.garage import Fault, LaneGraph, Stall
 from garage2usd.planning import MeasuredCirculation, measured_circulation
-from garage2usd.reading.ground import Fault, LaneNode, StallOutline
 from garage2usd.structure.grid import Structure
-from garage2usd.structure.lane_graph import LaneEdge
 
-__all__ = ["Subject"]
+__all__ = ["BuiltGarage"]
 
 _LINE_M = 0.06
 """Half the width of a line, which is painted on the border of a stall."""
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
-    """A garage that is checked.
+class BuiltGarage:
+    """A garage as built.
 
     Attributes
     ----------
@@ -34,8 +32,8 @@ class Subject:
         The file.
     kind
         ``stage``, ``report`` or ``plan``.
-    stalls, nodes, edges
-        Stalls and lane graph.
+    lanes, stalls
+        Lane graph and stalls.
     things
         All objects; none where a plan could not be laid out.
     structure
@@ -54,9 +52,8 @@ class Subject:
 
     source: str
     kind: str
-    stalls: tuple[StallOutline, ...]
-    nodes: tuple[LaneNode, ...]
-    edges: tuple[LaneEdge, ...]
+    lanes: LaneGraph
+    stalls: tuple[Stall, ...]
     things: tuple[Thing, ...] = ()
     structure: Structure | None = None
     compartments: NDArray[np.int32] | None = None
@@ -88,7 +85,7 @@ class Subject:
         return None if self.structure is None else measured_circulation(self.structure)
 
     @cached_property
-    def parking_stalls(self) -> tuple[StallOutline, ...]:
+    def parking_stalls(self) -> tuple[Stall, ...]:
         """The stalls that cars park in."""
         return tuple(stall for stall in self.stalls if stall.takes_cars)
 
@@ -98,13 +95,13 @@ class Subject:
         return StallGrounds(self.stalls)
 
     @cached_property
-    def standing_in_stalls(self) -> dict[StallOutline, list[Solid]]:
+    def standing_in_stalls(self) -> dict[Stall, list[Solid]]:
         """For each stall, the pieces of what stands in it, not only on its lines."""
         inside = shapely.buffer(self.stall_grounds.polygons, -_LINE_M)
         return dict(zip(self.stalls, self.solids.standing_at_each(inside), strict=True))
 
     @cached_property
-    def cars(self) -> dict[str, tuple[shapely.Polygon, StallOutline | None]]:
+    def cars(self) -> dict[str, tuple[shapely.Polygon, Stall | None]]:
         """The convex ground of each car, and the stall that more than half of it stands in."""
         pieces = list(self.solids.standing("car"))
         names = list(dict.fromkeys(solid.name for solid in pieces))
@@ -119,40 +116,13 @@ class Subject:
         return {name: (ground, home) for name, ground, home in zip(names, grounds, homes, strict=True)}
 
     @cached_property
-    def taken_stalls(self) -> frozenset[StallOutline]:
+    def taken_stalls(self) -> frozenset[Stall]:
         """The stalls that cars stand in, and those that misparked ones of them block."""
         own = frozenset(home for _, home in self.cars.values() if home is not None)
         names = {stall.name for stall in own}
         return own.union(stall for stall in self.stalls if stall.blocked_by in names)
 
-    @cached_property
-    def onward(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that are driven to from it."""
-        return self._following(way for edge in self.edges for way in edge.ways)
-
-    @cached_property
-    def backward(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that are driven from to it."""
-        return self._following((other, node) for node, others in enumerate(self.onward) for other in others)
-
-    @cached_property
-    def beside(self) -> tuple[tuple[int, ...], ...]:
-        """For each node, the nodes that it is joined to, whichever way it is driven."""
-        ends = ((edge.start, edge.end) for edge in self.edges)
-        return self._following(way for one, other in ends for way in ((one, other), (other, one)))
-
-    def _following(self, ways: Iterable[tuple[int, int]]) -> tuple[tuple[int, ...], ...]:
-        """For each node, the second ones of the pairs that it is the first of."""
-        following: list[list[int]] = [[] for _ in self.nodes]
-        for node, other in ways:
-            following[node].append(other)
-        return tuple(map(tuple, following))
-
     @property
     def has_whole_graph(self) -> bool:
         """Whether nodes and edges fit together, so that a node without a route is a finding and not a damaged file."""
         return all(fault.rule != "lane-graph" for fault in self.faults)
-
-    def portals(self, *kinds: str) -> list[int]:
-        """Numbers of the nodes of some kinds."""
-        return [number for number, node in enumerate(self.nodes) if node.kind in kinds]

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from garage2usd.checks.driven_road import floors_of_ramps
-from garage2usd.checks.shapes import Thing
+from garage2usd.as_built.driven_road import floors_of_ramps
+from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import RampFloor, heights_m
-from garage2usd.reading.ground import LaneNode
-from garage2usd.stage.lane_curves import GUIDE_LIFT_M
+from garage2usd.garage import LaneNode
 
 __all__ = ["DrivenFloor"]
 
@@ -33,7 +32,7 @@ class DrivenFloor:
     @classmethod
     def of(cls, nodes: Iterable[LaneNode], things: Iterable[Thing]) -> "DrivenFloor":
         """The floor below the nodes of lanes, which lies at 0 where there are none, and of the ramps among objects."""
-        heights = [node.height_m - GUIDE_LIFT_M for node in nodes]
+        heights = [node.height_m for node in nodes]
         return cls(float(np.median(heights)) if heights else 0.0, floors_of_ramps(things))
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:

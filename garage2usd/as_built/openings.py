@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.checks.shapes import Array, Body, Thing
+from garage2usd.as_built.shapes import Array, Body, Thing
 
 __all__ = ["Door", "Ramp", "Stretch", "doors_of", "ramps_of", "section_of"]
 

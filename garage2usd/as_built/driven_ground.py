@@ -8,16 +8,15 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks.aisle import dead_ends
-from garage2usd.checks.openings import section_of
-from garage2usd.checks.placed_pieces import placed_pieces
-from garage2usd.checks.shapes import Thing
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.as_built.openings import section_of
+from garage2usd.as_built.placed_pieces import placed_pieces
+from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import DrivenGarage
 from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
+from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.grounds import Grounds
 from garage2usd.limits import allow_seconds
-from garage2usd.reading.ground import Point, StallOutline
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]
 
@@ -39,12 +38,14 @@ _DIGITS = 4
 """Metres are rounded to so many, so that the single precision of a stage makes no difference."""
 
 
-def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()) -> DrivenGarage:
+def driven_garage(
+    garage: BuiltGarage, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()
+) -> DrivenGarage:
     """The stalls, the lanes by direction, and what stands on the floor; each thing by its prim path.
 
     Parameters
     ----------
-    subject
+    garage
         The garage.
     height_m
         What begins higher touches no car.
@@ -55,25 +56,23 @@ def driven_garage(subject: Subject, *, height_m: float = CAR_HEIGHT_M, left_out:
     -----
     A process with limits gets the time for the proof.
     """
-    allow_seconds(_ONCE_S + _STALL_S * len(subject.parking_stalls))
-    garage = assembled(
-        ((stall.name, rounded(stall.centre), _yaw_rad(stall), stall.access) for stall in subject.parking_stalls),
-        ((rounded(node.position), node.widths_m, node.kind) for node in subject.nodes),
-        (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in subject.edges),
-        dead_ends(subject),
-        (thing for thing in _standing(subject, height_m) if thing.name not in left_out),
+    allow_seconds(_ONCE_S + _STALL_S * len(garage.parking_stalls))
+    driven = assembled(
+        garage.stalls,
+        _rounded_lanes(garage.lanes),
+        (thing for thing in _standing(garage, height_m) if thing.name not in left_out),
     )
-    return replace(garage, standing=replace(garage.standing, pieces=np.round(garage.standing.pieces, _DIGITS)))
+    return replace(driven, standing=replace(driven.standing, pieces=np.round(driven.standing.pieces, _DIGITS)))
 
 
-def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
+def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
     """Each thing that a car could touch; doors and ramps by their sections."""
-    grounds = [ground for ground in subject.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
+    grounds = [ground for ground in garage.solids.grounds(height_m) if ground[1] not in _DRIVEN_THROUGH | _DRIVEN_OVER]
     owner = np.repeat(np.arange(len(grounds)), [len(pieces) for _, _, pieces in grounds])
     pieces = np.array([piece for _, _, pieces in grounds for piece in pieces], dtype=object)
     owner, pieces = _simple(owner, pieces)
     hulls = _hulls(owner, pieces)
-    things = {thing.name: thing for thing in subject.things if thing.label == _CAR}
+    things = {thing.name: thing for thing in garage.things if thing.label == _CAR}
     cars = {number: things[name] for number, (name, _, _) in enumerate(grounds) if name in things}
     out_of, mirrors = _standing_out(cars, hulls, height_m)
     owner = np.concatenate([owner, out_of])
@@ -81,11 +80,11 @@ def _standing(subject: Subject, height_m: float) -> Iterator[StandingThing]:
     owner, pieces = owner[order], np.concatenate([pieces, mirrors])[order]
     covered = shapely.geometrycollections(pieces, indices=owner) if len(pieces) else pieces
     belongings = [number for number, (_, label, _) in enumerate(grounds) if label in BELONGINGS]
-    homes = dict(zip(belongings, subject.stall_grounds.homes_of(_hulls(owner, pieces)[belongings]), strict=True))
+    homes = dict(zip(belongings, garage.stall_grounds.homes_of(_hulls(owner, pieces)[belongings]), strict=True))
     for number, ((name, label, _), ground) in enumerate(zip(grounds, covered, strict=True)):
         home = homes.get(number)
         yield StandingThing(name, label, ground, home.name if home else None)
-    for thing in subject.things:
+    for thing in garage.things:
         if thing.label in _DRIVEN_THROUGH:
             cuts = shapely.MultiLineString([cut for cut in section_of(thing) if len(cut) > 1])
             yield StandingThing(thing.name, thing.label, cuts)
@@ -184,13 +183,11 @@ def _eight_cornered(pieces: Grounds) -> Grounds:
     return simple
 
 
-def _yaw_rad(stall: StallOutline) -> float:
-    x, z = stall.outwards
-    return round(math.atan2(x, z), _DIGITS + 1) if abs(x * z) > 10**-_DIGITS else _quarter_rad(x, z)
-
-
-def _quarter_rad(x: float, z: float) -> float:
-    return math.atan2(round(x) + 0.0, round(z) + 0.0)
+def _rounded_lanes(lanes: LaneGraph) -> LaneGraph:
+    """The lanes with rounded lengths, cars keeping between the columns."""
+    nodes = (replace(node, position=rounded(node.position), sides_m=None) for node in lanes.nodes)
+    edges = (edge._replace(width_m=round(edge.width_m, _DIGITS)) for edge in lanes.edges)
+    return LaneGraph(tuple(nodes), tuple(edges))
 
 
 def rounded(point: Point) -> Point:

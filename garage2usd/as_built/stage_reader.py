@@ -1,4 +1,4 @@
-"""A stage as a subject: read with pxr alone, whoever edited it."""
+"""A stage as a garage: read with pxr alone, whoever edited it."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -8,21 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.checks.contents import PlacedLight, read_contents
-from garage2usd.checks.subject import Subject
+from garage2usd.as_built.contents import PlacedLight, read_contents
+from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.errors import ConfigError, StageError
+from garage2usd.garage import Point
 from garage2usd.layout import Placement
 from garage2usd.layout.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.files import open_stage
-from garage2usd.reading.ground import Point
 from garage2usd.reading.lanes import Lanes, moved_stalls, read_lanes
 from garage2usd.reading.lights import LightSource
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.structure.grid import Structure, cells_from_text
 
-__all__ = ["profile_name", "stage_subject", "subject_of_stage"]
+__all__ = ["garage_of_file", "garage_of_stage", "profile_name"]
 
 _DISK = "DiskLight"
 _PANELS = frozenset({"RectLight", _DISK})
@@ -32,7 +32,7 @@ _LANE_MARGIN_M = 0.7
 """What the sides of a square have over the carriageway between its columns, where no structure tells."""
 
 
-def stage_subject(path: Path) -> Subject:
+def garage_of_file(path: Path) -> BuiltGarage:
     """Read a stage.
 
     Raises
@@ -42,14 +42,14 @@ def stage_subject(path: Path) -> Subject:
     """
     stage = open_stage(path)
     try:
-        return subject_of_stage(stage, source=str(path))
+        return garage_of_stage(stage, source=str(path))
     except RecursionError:
         raise StageError(str(path), "its prims are nested too deeply to be read") from None
 
 
-def subject_of_stage(
+def garage_of_stage(
     stage: Usd.Stage, *, source: str, objects: Iterable[PlacedObject] | None = None, is_judged: bool = True
-) -> Subject:
+) -> BuiltGarage:
     """Read a stage that is open, as it is composed now.
 
     Parameters
@@ -59,7 +59,7 @@ def subject_of_stage(
     source
         Its file.
     objects
-        As for `garage2usd.checks.contents.read_contents`.
+        As for `garage2usd.as_built.contents.read_contents`.
     is_judged
         Whether what only rules look at is read too: how bright it is, and which stalls were moved without outlines.
     """
@@ -67,12 +67,11 @@ def subject_of_stage(
     structure = _structure(stage)
     lamps = [light.source for light in contents.lights if light.source.kind in _LAMPS]
     lane_lux, stall_lux = _illuminances(ground, contents.lights, structure) if is_judged else (None, None)
-    return Subject(
+    return BuiltGarage(
         source=source,
         kind="stage",
+        lanes=ground.graph,
         stalls=tuple(ground.stalls),
-        nodes=tuple(ground.nodes),
-        edges=tuple(ground.edges),
         things=contents.things,
         structure=structure,
         compartments=_compartments(stage, structure),

@@ -8,8 +8,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from garage2usd.checks.placed_pieces import lows_m, placed_pieces
-from garage2usd.checks.shapes import Thing
+from garage2usd.as_built.placed_pieces import lows_m, placed_pieces
+from garage2usd.as_built.shapes import Thing
 from garage2usd.layout.grounds import Grounds
 from garage2usd.objects import KINDS, PIECE_LABELS
 

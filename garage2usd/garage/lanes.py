@@ -1,0 +1,271 @@
+"""The lane graph of a garage: nodes in metres, and edges with their width and direction."""
+
+import math
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+import networkx as nx
+
+__all__ = ["DEAD_END_LIMIT_M", "Arc", "DeadEnd", "LaneEdge", "LaneGraph", "LaneKind", "LaneNode", "Point"]
+
+Point = tuple[float, float]
+"""(x, z) in metres."""
+Arc = tuple[int, int]
+"""Numbers of two nodes, in the direction of driving."""
+DEAD_END_LIMIT_M = 26.0
+"""A dead-end aisle of at most this length is backed out of; a longer one keeps a turning stall free."""
+_DIGITS = 4
+"""Of lengths that are compared with a limit, so that the single precision of a stage makes no difference."""
+_STRAIGHT_M = 1e-3
+
+
+class LaneKind(StrEnum):
+    """The paper's three kinds of lane square, and the portals."""
+
+    CROSSROADS = "crossroads"
+    T_JUNCTION = "t_junction"
+    STRAIGHT = "straight"
+    ENTRANCE = "entrance"
+    EXIT = "exit"
+
+
+@dataclass(frozen=True)
+class LaneNode:
+    """A place on the lanes, or a portal.
+
+    Attributes
+    ----------
+    kind
+        A `LaneKind`; whatever word an edited file has.
+    position
+        Its middle.
+    widths_m
+        Metres between the columns across X and Z.
+    name
+        Its square, as ``[row, col]``.
+    height_m
+        Of the floor there.
+    level
+        Number of its level, from 0.
+    sides_m
+        Extent of its ground along X and Z; left out, what is clear between the columns.
+    """
+
+    kind: str
+    position: Point
+    widths_m: tuple[float, float]
+    name: str
+    height_m: float = 0.0
+    level: int = 0
+    sides_m: tuple[float, float] | None = None
+
+    @property
+    def is_portal(self) -> bool:
+        """Whether cars enter or leave the garage here."""
+        return self.kind in {LaneKind.ENTRANCE, LaneKind.EXIT}
+
+    def reach_m(self, along: Point) -> float:
+        """Metres from its middle to the end of its ground in a direction, a unit vector."""
+        across_x, across_z = self.sides_m or self.widths_m
+        return (abs(along[0]) * across_x + abs(along[1]) * across_z) / 2
+
+
+class LaneEdge(NamedTuple):
+    """A stretch of lane between two nodes.
+
+    Attributes
+    ----------
+    start, end
+        Numbers of the nodes.
+    width_m
+        Width of the carriageway between the columns.
+    one_way
+        Whether it is driven from `start` to `end` only.
+    """
+
+    start: int
+    end: int
+    width_m: float
+    one_way: bool
+
+    @property
+    def arcs(self) -> tuple[Arc, ...]:
+        """The directions that it is driven in."""
+        there, back = (self.start, self.end), (self.end, self.start)
+        return (there,) if self.one_way else (there, back)
+
+
+class DeadEnd(NamedTuple):
+    """An aisle that ends in nothing.
+
+    Attributes
+    ----------
+    nodes
+        Its nodes from the tip back to the next junction or portal, without that.
+    length_m
+        From border to border.
+    mouth
+        The junction or portal; None where there is none.
+    """
+
+    nodes: list[int]
+    length_m: float
+    mouth: int | None
+
+
+@dataclass(frozen=True, eq=False)
+class LaneGraph:
+    """The lanes and portals of a garage.
+
+    Attributes
+    ----------
+    nodes
+        Lanes and portals; their numbers are their places.
+    edges
+        The stretches of lane between them.
+    """
+
+    nodes: tuple[LaneNode, ...]
+    edges: tuple[LaneEdge, ...]
+
+    @cached_property
+    def arcs(self) -> dict[Arc, LaneEdge]:
+        """The edge of each direction of driving, in the order of the edges."""
+        return {arc: edge for edge in self.edges for arc in edge.arcs}
+
+    @cached_property
+    def graph(self) -> "nx.DiGraph[int]":
+        """The same as a frozen `networkx.DiGraph`.
+
+        A node has ``kind``, ``x_m``, ``z_m``, ``height_m`` and ``level``; an arc has ``width_m``, ``length_m``,
+        ``climb_m`` and the ``levels`` of its two ends.
+        """
+        graph: nx.DiGraph[int] = nx.DiGraph()
+        for number, node in enumerate(self.nodes):
+            (x, z), height = node.position, node.height_m
+            graph.add_node(number, kind=node.kind, x_m=x, z_m=z, height_m=height, level=node.level)
+        for (start, end), edge in self.arcs.items():
+            one, other = self.nodes[start], self.nodes[end]
+            graph.add_edge(
+                start,
+                end,
+                width_m=edge.width_m,
+                length_m=math.dist(one.position, other.position),
+                climb_m=other.height_m - one.height_m,
+                levels=(one.level, other.level),
+            )
+        return nx.freeze(graph)
+
+    @cached_property
+    def onward(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that are driven to from it."""
+        return self._following(arc for edge in self.edges for arc in edge.arcs)
+
+    @cached_property
+    def backward(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that are driven from to it."""
+        return self._following((other, node) for node, others in enumerate(self.onward) for other in others)
+
+    @cached_property
+    def beside(self) -> tuple[tuple[int, ...], ...]:
+        """For each node, the nodes that it is joined to, whichever way it is driven."""
+        ends = ((edge.start, edge.end) for edge in self.edges)
+        return self._following(arc for one, other in ends for arc in ((one, other), (other, one)))
+
+    def portals(self, *kinds: str) -> list[int]:
+        """Numbers of the nodes of some kinds."""
+        return [number for number, node in enumerate(self.nodes) if node.kind in kinds]
+
+    def joined_portals(self, *kinds: str) -> list[int]:
+        """Those of them that join a lane."""
+        return [number for number in self.portals(*kinds) if self.beside[number]]
+
+    @cached_property
+    def arriving(self) -> frozenset[Arc]:
+        """Arcs that cars come to from an entrance, driving forward and turning round nowhere."""
+        return self._spread(self.onward, LaneKind.ENTRANCE)
+
+    @cached_property
+    def leaving(self) -> frozenset[Arc]:
+        """Arcs that lead on to an exit, likewise."""
+        return frozenset((one, other) for other, one in self._spread(self.backward, LaneKind.EXIT))
+
+    def near(self, node: int, most_edges: int) -> list[Arc]:
+        """The arcs between nodes that are at most so many edges from one, the nearest first."""
+        steps = nx.single_source_shortest_path_length(self._undirected, node, cutoff=most_edges)
+        arcs = [(one, other) for one in steps for other in self.graph[one] if other in steps]
+        return sorted(arcs, key=lambda arc: (steps[arc[0]] + steps[arc[1]], arc))
+
+    @cached_property
+    def dead_ends(self) -> tuple[DeadEnd, ...]:
+        """The aisles that end in nothing, in the order of their tips."""
+        return tuple(self._dead_ends())
+
+    def into_dead_ends(self, most_m: float) -> frozenset[Arc]:
+        """The arcs that lead into a dead end of at most some length, up to its tip."""
+        arcs: list[Arc] = []
+        for dead_end in self.dead_ends:
+            if round(dead_end.length_m, _DIGITS) <= most_m:
+                inwards = dead_end.nodes[::-1]
+                arcs += [(outside, inwards[0]) for outside in {*self.beside[inwards[0]]}.difference(inwards)]
+                arcs += pairwise(inwards)
+        return frozenset(arcs)
+
+    def length_m(self, start: int, end: int) -> float:
+        """Metres from the middle of a node to that of another."""
+        return math.dist(self.nodes[start].position, self.nodes[end].position)
+
+    def edge_name(self, edge: LaneEdge) -> str:
+        """An edge by the names of its ends."""
+        return f"{self.nodes[edge.start].name}-{self.nodes[edge.end].name}"
+
+    @cached_property
+    def _undirected(self) -> "nx.Graph[int]":
+        return self.graph.to_undirected()
+
+    def _following(self, arcs: Iterable[Arc]) -> tuple[tuple[int, ...], ...]:
+        """For each node, the ends of the arcs that begin there; each once, though edges may join two nodes twice."""
+        following: list[dict[int, None]] = [{} for _ in self.nodes]
+        for start, end in arcs:
+            following[start][end] = None
+        return tuple(map(tuple, following))
+
+    def _spread(self, ways: Sequence[Sequence[int]], kind: LaneKind) -> frozenset[Arc]:
+        """The arcs off the portals of a kind, and those that follow them without turning round or through a portal."""
+        reached = {(start, other) for start in self.portals(kind) for other in ways[start]}
+        waiting = deque(reached)
+        while waiting:
+            one, other = waiting.popleft()
+            if self.nodes[other].is_portal:
+                continue
+            for beyond in ways[other]:
+                if beyond != one and (other, beyond) not in reached:
+                    reached.add((other, beyond))
+                    waiting.append((other, beyond))
+        return frozenset(reached)
+
+    def _dead_ends(self) -> Iterator[DeadEnd]:
+        nodes, beside = self.nodes, self.beside
+        for tip in range(len(nodes)):
+            if nodes[tip].is_portal or len(beside[tip]) > 1:
+                continue
+            lanes, ahead = [tip], beside[tip]
+            while ahead and not nodes[ahead[0]].is_portal and len(beside[ahead[0]]) == 2:  # noqa: PLR2004 - no junction
+                lanes.append(ahead[0])
+                ahead = tuple(other for other in beside[lanes[-1]] if other != lanes[-2])
+            mouth = ahead[0] if ahead else None
+            way = lanes if mouth is None else [*lanes, mouth]
+            length_m = sum(self.length_m(one, other) for one, other in pairwise(way))
+            tip_m = self._clear_m(tip, beside[tip][0]) if beside[tip] else max(nodes[tip].widths_m)
+            length_m += tip_m if mouth is None else (tip_m - self._clear_m(mouth, lanes[-1])) / 2
+            yield DeadEnd(lanes, length_m, mouth)
+
+    def _clear_m(self, node: int, other: int) -> float:
+        """Metres between the columns at a node along the aisle to another."""
+        is_along_z = abs(self.nodes[node].position[0] - self.nodes[other].position[0]) < _STRAIGHT_M
+        return self.nodes[node].widths_m[int(is_along_z)]
