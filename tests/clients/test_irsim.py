@@ -49,7 +49,7 @@ def test_the_lidar_sees_what_stands_there(sample, builds, tmp_path):
     subject, _ = read_garage(builds(sample, "usdc").stage)
     write_grid(subject, tmp_path / "map.yaml", GridConfig())
     tree = ground_of(subject)
-    crossing = next(node for node in subject.nodes if not node.is_portal)
+    crossing = next(node for node in subject.lanes.nodes if not node.is_portal)
     place = map_points(crossing.position)
     script, output = Path(__file__).with_name("irsim_scan.py"), tmp_path / "scan.json"
     command = [str(IRSIM_PYTHON), str(script), str(tmp_path / "map.yaml"), str(output), json.dumps(place.tolist())]

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garage2usd.as_built import BuiltGarage
-from garage2usd.garage import LaneEdge, LaneNode
+from garage2usd.garage import LaneEdge, LaneGraph, LaneNode
 from garage2usd.maps.network import LEFT, RIGHT
 from garage2usd.maps.road_builder import network_of
 
@@ -41,7 +41,7 @@ def garages(draw):
             turned = kinds[start] == "exit" or kinds[end] == "entrance"
             pair = (end, start) if turned else (start, end)
             edges.append(LaneEdge(*pair, nodes[start].widths_m[side], one_way))
-    return BuiltGarage("random", "plan", (), tuple(nodes), tuple(edges))
+    return BuiltGarage("random", "plan", LaneGraph(tuple(nodes), tuple(edges)), ())
 
 
 def lane_end(road, lane, *, at_start):
@@ -78,13 +78,13 @@ def lane_ways(network):
 @given(garages())
 @settings(max_examples=200, deadline=None)
 def test_roads_lead_where_lanes_lead(subject):
-    if not subject.edges:
+    if not subject.lanes.edges:
         return
     network = network_of(subject)
     numbers = [road.number for road in network.roads] + [junction.number for junction in network.junctions]
     assert sorted(numbers) == list(range(1, len(numbers) + 1))
     graph = nx.DiGraph(lane_ways(network))
-    on = {number: set() for number in range(len(subject.nodes))}
+    on = {number: set() for number in range(len(subject.lanes.nodes))}
     for road in network.roads:
         assert road.line.length_m > 0.04
         assert road.lanes in {(LEFT, RIGHT), (RIGHT,)}
@@ -100,7 +100,7 @@ def test_roads_lead_where_lanes_lead(subject):
                     found = begins if (lane == RIGHT) == at_start else ends
                     found[square_of[neighbour.number]].add((road.number, lane))
     graph.add_nodes_from(lane for lanes in (*on.values(), *ends.values(), *begins.values()) for lane in lanes)
-    driven = nx.DiGraph([way for edge in subject.edges for way in edge.ways])
+    driven = nx.DiGraph([*subject.lanes.arcs])
     for number in driven:
         starts = on[number] | begins[number]
         reached = starts.union(*(nx.descendants(graph, lane) for lane in starts))

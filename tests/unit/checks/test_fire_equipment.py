@@ -35,7 +35,7 @@ def with_clause(name, metres):
 
 def places(subject):
     middles = [np.mean(stall.corners, axis=0) for stall in subject.stalls]
-    return np.array(middles + [node.position for node in subject.nodes if not node.is_portal])
+    return np.array(middles + [node.position for node in subject.lanes.nodes if not node.is_portal])
 
 
 def hung(subject, label):

@@ -14,7 +14,8 @@ from support.sample_files import REPOSITORY
 
 import garage2usd
 from garage2usd.checks import check_file
-from garage2usd.driving import DesignCar, DrivenGarage, Manoeuvre, Obstacles, prove_garage, prove_stalls
+from garage2usd.driving import DesignCar, Manoeuvre, Obstacles, prove_garage, prove_stalls
+from garage2usd.driving.lane_poses import lane_poses
 from garage2usd.driving.layout_garage import layout_garage, object_name
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
@@ -42,13 +43,10 @@ def proofs_of(garage, **settings):
     return prove_stalls(garage.layout, garage.graph, **settings)
 
 
-def directions_of(garage):
-    """The lanes by direction, and (row, col) of each."""
-    return layout_garage(garage.layout, garage.graph).directions, list(garage.graph.number_of)
-
-
-def named(edges, squares):
-    return {(squares[one], squares[other]) for one, other in edges}
+def named(arcs, garage):
+    """Arcs by (row, col) of their ends."""
+    squares = list(garage.graph.number_of)
+    return {(squares[one], squares[other]) for one, other in arcs}
 
 
 @pytest.fixture(scope="module")
@@ -110,18 +108,15 @@ def test_directions_are_those_of_driving_on_from_an_entrance_and_to_an_exit():
         roads.remove_edges_from([(a, b) for a, b in roads.edges if cells[a] == Cell.EXIT or cells[b] == Cell.ENTRANCE])
         lines = nx.line_graph(roads)
         lines.remove_edges_from([(a, b) for a, b in lines.edges if a[0] == b[1] or cells[a[1]] != Cell.LANE])
-        directions, squares = directions_of(made)
         starts = [edge for edge in lines if cells[edge[0]] == Cell.ENTRANCE]
         ends = [edge for edge in lines if cells[edge[1]] == Cell.EXIT]
-        assert named(directions.arriving, squares) == {
-            b for b in lines if any(nx.has_path(lines, a, b) for a in starts)
-        }
-        assert named(directions.leaving, squares) == {a for a in lines if any(nx.has_path(lines, a, b) for b in ends)}
+        lanes = made.graph.lanes
+        assert named(lanes.arriving, made) == {b for b in lines if any(nx.has_path(lines, a, b) for a in starts)}
+        assert named(lanes.leaving, made) == {a for a in lines if any(nx.has_path(lines, a, b) for b in ends)}
 
 
 def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, proofs):
-    directions, numbers = directions_of(garage)
-    backing = named(directions.backing, numbers)
+    backing = named(layout_garage(garage.layout, garage.graph).backing, garage)
     assert {((3, 3), (4, 3)), ((4, 3), (5, 3))} <= backing
     assert not {((4, 3), (3, 3)), ((5, 3), (4, 3))} & backing
     for proof in proofs:
@@ -132,11 +127,11 @@ def test_a_dead_end_is_backed_out_of_only_where_there_is_no_other_way(garage, pr
 
 def test_lane_poses_keep_the_whole_car_on_the_carriageway(garage):
     car, setback_m = DesignCar(), garage.config.bay.carriageway_setback_m
-    directions, numbers = directions_of(garage)
+    lanes, numbers = garage.graph.lanes, list(garage.graph.number_of)
     x, z = garage.plan.structure.column_edges_m, garage.plan.structure.row_edges_m
-    for edge in directions.near(numbers.index((3, 3))):
+    for edge in lanes.near(numbers.index((3, 3)), 2):
         squares = [shapely.box(x[c], z[r], x[c + 1], z[r + 1]) for r, c in (numbers[end] for end in edge)]
-        for pose in directions.poses([edge], car):
+        for pose in lane_poses(lanes, [edge], car):
             along = np.array([-math.sin(pose.yaw_rad), -math.cos(pose.yaw_rad)])
             across = np.array([along[1], -along[0]])
             for end in (-0.5, 0.5):
@@ -280,10 +275,11 @@ def turned(garage, yaw_rad):
     def at(point):
         return point[0] * cos + point[1] * sin, -point[0] * sin + point[1] * cos
 
-    stalls = [replace(s, centre_m=at(s.centre_m), yaw_rad=s.yaw_rad + yaw_rad) for s in garage.stalls]
-    squares = [replace(square, middle_m=at(square.middle_m)) for square in garage.directions.squares]
+    stalls = [replace(stall, corners=tuple(map(at, stall.corners))) for stall in garage.stalls]
+    nodes = [replace(node, position=at(node.position)) for node in garage.lanes.nodes]
     standing = garage.standing.seen_from(0.0, 0.0, -yaw_rad)
-    return DrivenGarage(tuple(stalls), replace(garage.directions, squares=tuple(squares)), standing)
+    lanes = replace(garage.lanes, nodes=tuple(nodes))
+    return replace(garage, stalls=tuple(stalls), lanes=lanes, standing=standing)
 
 
 @pytest.mark.parametrize("yaw_rad", [1e-6, 0.5])

@@ -12,10 +12,11 @@ from support.sample_files import REPOSITORY
 from support.slot_frames import equidistant, pinhole, shot_from
 
 from garage2usd.errors import StageError
+from garage2usd.garage import StallKind
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors.outline import outline_in_picture
 from garage2usd.sensors.rig import read_rig
-from garage2usd.sensors.slots import CORNERS, SlotType, read_slots
+from garage2usd.sensors.slots import CORNERS, read_slots
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 SIZE = 240, 180
@@ -70,7 +71,7 @@ def test_what_a_slot_is_agrees_with_its_prim(stage, stalls):
         assert slot.use == prim.GetAttribute("garage:stall:use").Get()
         assert str(slot.number) == prim.GetAttribute("garage:stall:number").Get()
         assert slot.occupied is bool(prim.GetAttribute("garage:stall:occupied").Get())
-        assert slot.slot_type is SlotType.PERPENDICULAR
+        assert slot.slot_type is StallKind.PERPENDICULAR
         assert slot.angle_deg == pytest.approx(90.0, abs=0.01)
         # a driver who enters looks from the entry to the rear and has the right corners on the right
         inwards = corners[3] - corners[0]
