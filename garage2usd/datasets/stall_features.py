@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
+from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.layout.lighting import direct_lux
 from garage2usd.layout.stall_table import EDGES
 from garage2usd.pipeline import Garage
@@ -84,7 +85,7 @@ def measured_stalls(garage: Garage, *, proofs: Sequence[StallProof] | None = Non
     return tuple(
         _features(
             proof,
-            aisle_width_m=round(graph.clear_aisle_m(stall.access_square, stall.edge), _DIGITS),
+            aisle_width_m=round(clear_aisle_m(stall, graph), _DIGITS),
             occupied_neighbours=neighbours[row],
             illuminance_lux=round(lux[row], _DIGITS),
         )

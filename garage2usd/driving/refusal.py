@@ -7,6 +7,7 @@ from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
+from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneSquares
 
@@ -43,7 +44,7 @@ def refuse_undrivable(
     if not without:
         return
     found = [stall for stall in tight if stall.name in without]
-    narrowest_m = min(graph.clear_aisle_m(stall.access_square, stall.edge) for stall in found)
+    narrowest_m = min(clear_aisle_m(stall, graph) for stall in found)
     named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
     field, value = _setting(config, found[0])
     raise ConfigError(

@@ -216,6 +216,18 @@ class LaneGraph:
                 arcs += pairwise(inwards)
         return frozenset(arcs)
 
+    def clear_aisle_m(self, access: int, outwards: Point) -> float:
+        """Metres between the columns on both sides of an aisle, for stalls that open onto a node.
+
+        Parameters
+        ----------
+        access
+            Number of the node.
+        outwards
+            Unit vector (x, z) out of the stalls.
+        """
+        return self.nodes[access].widths_m[int(abs(outwards[1]) > abs(outwards[0]))]
+
     def length_m(self, start: int, end: int) -> float:
         """Metres from the middle of a node to that of another."""
         return math.dist(self.nodes[start].position, self.nodes[end].position)

@@ -1,7 +1,7 @@
 """The stalls of a garage as quads on the ground, and what a file says of lanes and stalls that contradicts itself."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import NamedTuple
@@ -114,6 +114,11 @@ class Stall:
         """Whether a car stands in it, its own or one that blocks it; None where that is not said."""
         found = dict(self.facts).get("occupied")
         return None if found is None else bool(found)
+
+    def vacated(self) -> "Stall":
+        """The same without a car in it."""
+        kept = ((fact, value) for fact, value in self.facts if fact not in {"occupied", "blocked_by"})
+        return replace(self, facts=(*kept, ("occupied", 0)))
 
     @property
     def takes_cars(self) -> bool:

@@ -4,9 +4,10 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from garage2usd.garage import Stall
 from garage2usd.layout.placement import Stall as PlacedStall
+from garage2usd.layout.placement import cos_sin
 from garage2usd.structure.lane_graph import LaneSquares
 
-__all__ = ["garage_stalls"]
+__all__ = ["clear_aisle_m", "garage_stalls"]
 
 
 def garage_stalls(
@@ -29,3 +30,9 @@ def garage_stalls(
         facts = tuple((fact, value) for fact, value in said.items() if value)
         corners = (left, right, rear_right, rear_left)
         yield Stall(stall.name, corners, stall.use, lanes.number_of[stall.access_square], facts)
+
+
+def clear_aisle_m(stall: PlacedStall, lanes: LaneSquares) -> float:
+    """Metres between the columns on both sides of the aisle that a stall opens onto."""
+    cos, sin = cos_sin(stall.yaw_rad)
+    return lanes.lanes.clear_aisle_m(lanes.number_of[stall.access_square], (sin, cos))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.layout.placement import Stall
 from garage2usd.structure.lane_graph import LaneSquares
 
@@ -18,8 +19,5 @@ def tight_stalls(graph: LaneSquares, stalls: Iterable[Stall]) -> tuple[Stall, ..
         stall
         for stall in stalls
         if stall.use.takes_cars
-        and (
-            graph.clear_aisle_m(stall.access_square, stall.edge) < _ROOMY_AISLE_M - _ROUNDING_M
-            or stall.width_m < _ROOMY_STALL_M - _ROUNDING_M
-        )
+        and (clear_aisle_m(stall, graph) < _ROOMY_AISLE_M - _ROUNDING_M or stall.width_m < _ROOMY_STALL_M - _ROUNDING_M)
     )

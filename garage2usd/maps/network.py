@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.maps.reference_line import ReferenceLine
-from garage2usd.maps.squares import Square
+from garage2usd.maps.road_nodes import RoadNode
 
 __all__ = ["LEFT", "RIGHT", "Junction", "LaneLink", "Lanes", "Neighbour", "Network", "Road"]
 
@@ -86,8 +86,8 @@ class Road:
         Its reference line.
     start, end
         Its lanes there; widths run smoothly from one to the other.
-    squares
-        Numbers of the lane squares that it crosses.
+    nodes
+        Numbers of the lane nodes that it crosses.
     profile_m
         (s, height) where its slope changes, in straight stretches; empty where it lies level at 0.
     junction
@@ -102,7 +102,7 @@ class Road:
     line: ReferenceLine
     start: Lanes
     end: Lanes
-    squares: tuple[int, ...]
+    nodes: tuple[int, ...]
     profile_m: tuple[tuple[float, float], ...] = ()
     junction: int | None = None
     predecessor: Neighbour | None = None
@@ -137,27 +137,27 @@ class Road:
 
 @dataclass(frozen=True, eq=False)
 class Junction:
-    """A square in which three or more roads meet.
+    """A node in which three or more roads meet.
 
     Attributes
     ----------
     number
         Differs from those of all roads.
-    square
-        Number of its square.
+    node
+        Number of its node.
     links
         The ways through it.
     """
 
     number: int
-    square: int
+    node: int
     links: tuple[LaneLink, ...]
 
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """All roads and junctions, and the squares that they were made from, each at its number."""
+    """All roads and junctions, and the nodes that they were made from, each at its number."""
 
     roads: tuple[Road, ...]
     junctions: tuple[Junction, ...]
-    squares: tuple[Square, ...]
+    nodes: tuple[RoadNode, ...]

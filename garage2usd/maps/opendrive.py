@@ -188,7 +188,7 @@ def _eased(start: float, end: float, length_m: float) -> tuple[float, float, flo
 
 
 def _add_junction(root: ET.Element, junction: Junction, network: Network) -> None:
-    name = network.squares[junction.square].name
+    name = network.nodes[junction.node].name
     element = child(root, "junction", id=str(junction.number), name=name, type="default")
     for index, link in enumerate(junction.links):
         connection = child(

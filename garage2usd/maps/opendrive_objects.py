@@ -94,8 +94,8 @@ class Signal(NamedTuple):
 def stalls_of(garage: BuiltGarage, places: RoadPlaces, network: Network) -> Iterator[MapObject]:
     """Each stall; its axis u leads from its mouth to its rear, its corners are those of `Stall`."""
     taken = garage.taken_stalls
-    through = {number: road for road in network.roads if road.junction is None for number in road.squares}
-    meeting = {junction.square: junction.number for junction in network.junctions}
+    through = {number: road for road in network.roads if road.junction is None for number in road.nodes}
+    meeting = {junction.node: junction.number for junction in network.junctions}
     for stall in garage.stalls:
         road, s_m, t_m = places.of_stall(stall)
         ahead = map_point(stall.outwards)

@@ -1,5 +1,5 @@
-"""Makes the roads and junctions of a garage from its lane squares."""
-# Over 300 lines: roads of aisles, portals and junctions share which squares are taken and which ends meet.
+"""Makes the roads and junctions of a garage from its lane nodes."""
+# Over 300 lines: roads of aisles, portals and junctions share which nodes are taken and which ends meet.
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from garage2usd.driving import RampFloor
 from garage2usd.errors import StageError
 from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
 from garage2usd.maps.reference_line import Point, straight, turn
-from garage2usd.maps.squares import OUTSIDE, Opening, Square, lane_squares
+from garage2usd.maps.road_nodes import OUTSIDE, Opening, RoadNode, road_nodes
 
 __all__ = ["network_of"]
 
@@ -26,8 +26,8 @@ def network_of(garage: BuiltGarage) -> Network:
     """The roads of a garage's lane graph.
 
     Squares that are passed through straight on are one road, from one bend, junction, portal or dead end to the next; a
-    bend is a road of its own, and so is the way from a portal's door to the top of its ramp. A square in which three or
-    more ways meet is a junction; roads reach a little into its square, so that two junctions side by side have a road
+    bend is a road of its own, and so is the way from a portal's door to the top of its ramp. A node in which three or
+    more ways meet is a junction; roads reach a little into its node, so that two junctions side by side have a road
     between them. Cars keep to the right. The one lane of a portal lies in the middle of its door.
 
     Raises
@@ -37,13 +37,13 @@ def network_of(garage: BuiltGarage) -> Network:
     """
     if not garage.has_whole_graph or not garage.lanes.edges:
         raise StageError(garage.source, "it has no whole lane graph, so that nothing says where its roads are")
-    return _Builder(lane_squares(garage)).network()
+    return _Builder(road_nodes(garage)).network()
 
 
 class _Meeting(NamedTuple):
-    """Where ends of roads meet: at the side between two squares, or within a junction at its opening to another."""
+    """Where ends of roads meet: at the side between two nodes, or within a junction at its opening to another."""
 
-    square: int
+    node: int
     other: int
     is_in_junction: bool = False
 
@@ -53,7 +53,7 @@ class _Reach(NamedTuple):
 
     end: Point
     meeting: _Meeting | None
-    squares: tuple[int, ...]
+    nodes: tuple[int, ...]
     left_by: tuple[Opening, ...]
 
 
@@ -63,16 +63,16 @@ class _Path(NamedTuple):
     ends: tuple[Point, Point]
     lanes: tuple[Lanes, Lanes]
     meetings: tuple[_Meeting | None, _Meeting | None]
-    squares: tuple[int, ...] = ()
+    nodes: tuple[int, ...] = ()
     corner: Point | None = None
     profile_m: tuple[tuple[float, float], ...] = ()
 
 
 class _Builder:
-    """Makes roads square by square, then joins their ends."""
+    """Makes roads node by node, then joins their ends."""
 
-    def __init__(self, squares: tuple[Square, ...]) -> None:
-        self._squares = squares
+    def __init__(self, nodes: tuple[RoadNode, ...]) -> None:
+        self._nodes = nodes
         self._roads: list[Road] = []
         self._meetings: dict[Road, tuple[_Meeting | None, _Meeting | None]] = {}
         self._ends: dict[_Meeting, list[tuple[Road, bool]]] = {}
@@ -80,69 +80,69 @@ class _Builder:
         self._crossed: set[_Meeting] = set()
 
     def network(self) -> Network:
-        for square in self._squares:
-            if square.is_portal:
-                self._portal(square)
-        inner = [square for square in self._squares if not square.is_portal]
-        sides = ((opening.is_one_way, square, opening) for square in inner for opening in square.openings)
-        # what is driven in both directions comes first: it takes a square that lies between the two kinds
-        for _, square, opening in sorted(sides, key=lambda side: side[0]):
-            self._aisle(square, opening)
-        for square in inner:
-            if square.openings and not square.is_junction and square.number not in self._taken:
-                self._lone_square(square)
+        for node in self._nodes:
+            if node.is_portal:
+                self._portal(node)
+        inner = [node for node in self._nodes if not node.is_portal]
+        sides = ((opening.is_one_way, node, opening) for node in inner for opening in node.openings)
+        # what is driven in both directions comes first: it takes a node that lies between the two kinds
+        for _, node, opening in sorted(sides, key=lambda side: side[0]):
+            self._aisle(node, opening)
+        for node in inner:
+            if node.openings and not node.is_junction and node.number not in self._taken:
+                self._lone_square(node)
         junctions = self._junctions()
-        numbers = {junction.square: junction.number for junction in junctions}
+        numbers = {junction.node: junction.number for junction in junctions}
         for road in self._meetings:
             self._join(road, numbers)
-        return Network(tuple(self._roads), junctions, self._squares)
+        return Network(tuple(self._roads), junctions, self._nodes)
 
     # Aisles
 
-    def _aisle(self, square: Square, opening: Opening) -> None:
-        """The road across a side between two squares that are no portals, as far as it goes straight on."""
-        if self._squares[opening.towards].is_portal or _side(square.number, opening.towards) in self._crossed:
+    def _aisle(self, node: RoadNode, opening: Opening) -> None:
+        """The road across a side between two nodes that are no portals, as far as it goes straight on."""
+        if self._nodes[opening.towards].is_portal or _side(node.number, opening.towards) in self._crossed:
             return
-        beyond = self._squares[opening.towards]
-        behind, ahead = self._reach(square, opening), self._reach(beyond, beyond.opening(square.number))
-        self._crossed.add(_side(square.number, opening.towards))
+        beyond = self._nodes[opening.towards]
+        behind, ahead = self._reach(node, opening), self._reach(beyond, beyond.opening(node.number))
+        self._crossed.add(_side(node.number, opening.towards))
         along = opening.lets_out or any(side.lets_in for side in behind.left_by)
         along = along or any(side.lets_out for side in ahead.left_by)
         against = opening.lets_in or any(side.lets_out for side in behind.left_by)
         against = against or any(side.lets_in for side in ahead.left_by)
         lanes = _halves(opening.width_m, along=along, against=against)
-        squares = (*reversed(behind.squares), *ahead.squares)
-        self._add(_Path((behind.end, ahead.end), (lanes, lanes), (behind.meeting, ahead.meeting), squares))
+        nodes = (*reversed(behind.nodes), *ahead.nodes)
+        self._add(_Path((behind.end, ahead.end), (lanes, lanes), (behind.meeting, ahead.meeting), nodes))
 
-    def _reach(self, square: Square, entered: Opening) -> _Reach:
-        """How far a road that comes through an opening of a square goes on."""
+    def _reach(self, node: RoadNode, entered: Opening) -> _Reach:
+        """How far a road that comes through an opening of a node goes on."""
         numbers: list[int] = []
         left_by: list[Opening] = []
         while True:
-            if square.is_junction:
-                end, meeting = entered.inside(entered.inset_m), _inside(square.number, entered.towards)
+            if node.is_junction:
+                end, meeting = entered.inside(entered.inset_m), _inside(node.number, entered.towards)
                 break
-            onward = square.far_from(entered)
-            is_dead_end = len(square.openings) == 1
-            if square.number in self._taken or (onward is None and not is_dead_end):
-                end, meeting = entered.place, _side(square.number, entered.towards)
+            onward = node.far_from(entered)
+            is_dead_end = len(node.openings) == 1
+            if node.number in self._taken or (onward is None and not is_dead_end):
+                end, meeting = entered.place, _side(node.number, entered.towards)
                 break
-            numbers.append(square.number)
+            numbers.append(node.number)
             if onward is None:
-                return _Reach(square.end_opposite(entered), None, tuple(numbers), tuple(left_by))
+                return _Reach(node.end_opposite(entered), None, tuple(numbers), tuple(left_by))
             left_by.append(onward)
-            following = self._squares[onward.towards]
+            following = self._nodes[onward.towards]
             is_alike = (onward.lets_out, onward.lets_in) == (entered.lets_in, entered.lets_out)
             if following.is_portal or not is_alike:
-                end, meeting = onward.place, _side(square.number, onward.towards)
+                end, meeting = onward.place, _side(node.number, onward.towards)
                 break
-            self._crossed.add(_side(square.number, onward.towards))
-            square, entered = following, following.opening(square.number)
+            self._crossed.add(_side(node.number, onward.towards))
+            node, entered = following, following.opening(node.number)
         return _Reach(end, meeting, tuple(numbers), tuple(left_by))
 
-    def _lone_square(self, square: Square) -> None:
-        """A bend, or a square beside portals alone."""
-        first, last = square.openings[0], square.openings[-1]
+    def _lone_square(self, node: RoadNode) -> None:
+        """A bend, or a node beside portals alone."""
+        first, last = node.openings[0], node.openings[-1]
         is_dead_end = first is last
         along = first.lets_in or (last.lets_out and not is_dead_end)
         against = first.lets_out or (last.lets_in and not is_dead_end)
@@ -150,65 +150,65 @@ class _Builder:
             _halves(first.width_m, along=along, against=against),
             _halves(last.width_m, along=along, against=against),
         )
-        ends = first.place, square.end_opposite(first) if is_dead_end else last.place
-        meetings = _side(square.number, first.towards), None if is_dead_end else _side(square.number, last.towards)
-        self._add(_Path(ends, lanes, meetings, (square.number,), None if is_dead_end else square.middle))
+        ends = first.place, node.end_opposite(first) if is_dead_end else last.place
+        meetings = _side(node.number, first.towards), None if is_dead_end else _side(node.number, last.towards)
+        self._add(_Path(ends, lanes, meetings, (node.number,), None if is_dead_end else node.middle))
 
     # Portals
 
-    def _portal(self, square: Square) -> None:
-        """The way from outside to a portal's square, and from there to its neighbours."""
-        door, inner = square.opening(OUTSIDE), [side for side in square.openings if side.towards != OUTSIDE]
-        reach_m = door.inset_m if square.is_junction else 0.0
-        ramp, away_m = square.ramp, square.outside_m
+    def _portal(self, node: RoadNode) -> None:
+        """The way from outside to a portal's node, and from there to its neighbours."""
+        door, inner = node.opening(OUTSIDE), [side for side in node.openings if side.towards != OUTSIDE]
+        reach_m = door.inset_m if node.is_junction else 0.0
+        ramp, away_m = node.ramp, node.outside_m
         lane = _passing(door)
-        meeting = (_inside if square.is_junction else _side)(square.number, OUTSIDE)
-        if ramp is not None or square.is_junction:
+        meeting = (_inside if node.is_junction else _side)(node.number, OUTSIDE)
+        if ramp is not None or node.is_junction:
             profile = () if ramp is None else _profile(ramp, away_m + reach_m)
             path = _Path((door.inside(-away_m), door.inside(reach_m)), (lane, lane), (None, meeting), (), None, profile)
             self._add(path, is_turned=door.lets_out)
         for opening in inner:
-            beyond = self._squares[opening.towards]
+            beyond = self._nodes[opening.towards]
             is_led_here = beyond.is_portal and door.lets_out
-            if is_led_here and square.is_junction:
+            if is_led_here and node.is_junction:
                 continue  # the road of the entrance beside this exit leads into it
             is_led_on = beyond.is_junction and not is_led_here
-            outer_m = beyond.opening(square.number).inset_m if is_led_on else 0.0
-            outer = _inside(beyond.number, square.number) if is_led_on else _side(square.number, beyond.number)
+            outer_m = beyond.opening(node.number).inset_m if is_led_on else 0.0
+            outer = _inside(beyond.number, node.number) if is_led_on else _side(node.number, beyond.number)
             end, last = opening.inside(-outer_m), _passing(opening)
-            if square.is_junction:
-                start, before = opening.inside(opening.inset_m), _inside(square.number, beyond.number)
+            if node.is_junction:
+                start, before = opening.inside(opening.inset_m), _inside(node.number, beyond.number)
                 path = _Path((start, end), (last, last), (before, outer))
             else:
-                path = _Path((door.place, end), (lane, last), (meeting, outer), (square.number,), square.middle)
+                path = _Path((door.place, end), (lane, last), (meeting, outer), (node.number,), node.middle)
             self._add(path, is_turned=door.lets_out)
         if not inner:
-            path = _Path((door.place, square.end_opposite(door)), (lane, lane), (meeting, None), (square.number,))
+            path = _Path((door.place, node.end_opposite(door)), (lane, lane), (meeting, None), (node.number,))
             self._add(path, is_turned=door.lets_out)
 
     # Junctions
 
     def _junctions(self) -> tuple[Junction, ...]:
-        """The roads that connect others in the squares of junctions, whose numbers follow those of all roads."""
-        ways = [(square, list(self._connections(square))) for square in self._squares if square.is_junction]
+        """The roads that connect others in the nodes of junctions, whose numbers follow those of all roads."""
+        ways = [(node, list(self._connections(node))) for node in self._nodes if node.is_junction]
         junctions = []
-        for number, (square, connections) in enumerate(ways, len(self._roads) + 1):
+        for number, (node, connections) in enumerate(ways, len(self._roads) + 1):
             for road, _ in connections:
                 road.junction = number
-            junctions.append(Junction(number, square.number, tuple(link for _, link in connections)))
+            junctions.append(Junction(number, node.number, tuple(link for _, link in connections)))
         return tuple(junctions)
 
-    def _connections(self, square: Square) -> Iterator[tuple[Road, LaneLink]]:
-        for entered in square.openings:
-            for left in square.openings:
+    def _connections(self, node: RoadNode) -> Iterator[tuple[Road, LaneLink]]:
+        for entered in node.openings:
+            for left in node.openings:
                 if entered is not left and entered.lets_in and left.lets_out:
-                    yield self._connection(square, entered, left)
+                    yield self._connection(node, entered, left)
 
-    def _connection(self, square: Square, entered: Opening, left: Opening) -> tuple[Road, LaneLink]:
+    def _connection(self, node: RoadNode, entered: Opening, left: Opening) -> tuple[Road, LaneLink]:
         first, last = _passing(entered), _passing(left)
         start, end = entered.inside(entered.inset_m), left.inside(left.inset_m)
         corner = None
-        if square.far_from(entered) is not left:
+        if node.far_from(entered) is not left:
             # along the middle of the lane, which turns tighter or wider than a line in the middle of both roads
             inwards = -entered.outwards[0], -entered.outwards[1]
             start = _beside(start, inwards, first.centre_m(RIGHT))
@@ -220,11 +220,11 @@ class _Builder:
             straight(start, end) if corner is None else turn(start, corner, end),
             first,
             last,
-            (square.number,),
+            (node.number,),
         )
         self._roads.append(road)
-        ((incoming, comes_at_start),) = self._ends[_inside(square.number, entered.towards)]
-        ((outgoing, goes_at_start),) = self._ends[_inside(square.number, left.towards)]
+        ((incoming, comes_at_start),) = self._ends[_inside(node.number, entered.towards)]
+        ((outgoing, goes_at_start),) = self._ends[_inside(node.number, left.towards)]
         from_lane, to_lane = (LEFT if comes_at_start else RIGHT), (RIGHT if goes_at_start else LEFT)
         road.predecessor = Neighbour(incoming.number, at_start=comes_at_start)
         road.successor = Neighbour(outgoing.number, at_start=goes_at_start)
@@ -239,10 +239,10 @@ class _Builder:
             path = _from_end(path)
         start, end = path.ends
         line = straight(start, end) if path.corner is None else turn(start, path.corner, end)
-        self._taken.update(path.squares)
+        self._taken.update(path.nodes)
         if line.length_m < _LEAST_M:
             return
-        road = Road(len(self._roads) + 1, line, *path.lanes, path.squares, path.profile_m)
+        road = Road(len(self._roads) + 1, line, *path.lanes, path.nodes, path.profile_m)
         self._roads.append(road)
         self._meetings[road] = path.meetings
         for meeting, at_start in zip(path.meetings, (True, False), strict=True):
@@ -261,7 +261,7 @@ class _Builder:
         if meeting is None:
             return None, {}
         if meeting.is_in_junction:
-            return Neighbour(junction_of[meeting.square], is_junction=True), {}
+            return Neighbour(junction_of[meeting.node], is_junction=True), {}
         for other, other_at_start in self._ends[meeting]:
             if other is not road:
                 # the same lane goes on in a road of the same direction, the other one in a road that comes towards it
@@ -271,12 +271,12 @@ class _Builder:
         return None, {}
 
 
-def _side(square: int, other: int) -> _Meeting:
-    return _Meeting(max(square, other), min(square, other))
+def _side(node: int, other: int) -> _Meeting:
+    return _Meeting(max(node, other), min(node, other))
 
 
-def _inside(square: int, other: int) -> _Meeting:
-    return _Meeting(square, other, is_in_junction=True)
+def _inside(node: int, other: int) -> _Meeting:
+    return _Meeting(node, other, is_in_junction=True)
 
 
 def _halves(width_m: float, *, along: bool, against: bool) -> Lanes:
@@ -301,7 +301,7 @@ def _from_end(path: _Path) -> _Path:
         ends=(path.ends[1], path.ends[0]),
         lanes=(lanes[1], lanes[0]),
         meetings=(path.meetings[1], path.meetings[0]),
-        squares=tuple(reversed(path.squares)),
+        nodes=tuple(reversed(path.nodes)),
         profile_m=tuple((length_m - run, height) for run, height in reversed(path.profile_m)),
     )
 

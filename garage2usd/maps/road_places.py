@@ -10,7 +10,7 @@ from garage2usd.garage import Stall
 from garage2usd.maps.frame import map_point
 from garage2usd.maps.network import Lanes, Network, Road
 from garage2usd.maps.reference_line import Point, ReferenceLine, straight
-from garage2usd.maps.squares import Square
+from garage2usd.maps.road_nodes import RoadNode
 
 __all__ = ["RoadPlaces"]
 
@@ -36,8 +36,8 @@ class RoadPlaces:
     Notes
     -----
     Objects lie beside straight roads alone: programs that follow a road's arc as a polyline find other places. A stall
-    lies beside the straight road through the square that it opens onto, else beside a line through the middle of that
-    square along its mouth.
+    lies beside the straight road through the node that it opens onto, else beside a line through the middle of that
+    node along its mouth.
     """
 
     def __init__(self, network: Network, stalls: Iterable[Stall], *, first_number: int) -> None:
@@ -46,7 +46,7 @@ class RoadPlaces:
         self.lines: list[Road] = []
         """The roads without lanes."""
         self._of_stall: dict[Stall, Road] = {}
-        self._add_stalls(stalls, network.squares)
+        self._add_stalls(stalls, network.nodes)
         self._straights = (*self._roads, *self.lines)
         arcs = [road.line.arcs[0] for road in self._straights]
         self._starts = np.array([arc.start for arc in arcs]).reshape(-1, 2)
@@ -71,8 +71,8 @@ class RoadPlaces:
         road = self._line_along_all
         return road, *road.line.foot(point)
 
-    def _add_stalls(self, stalls: Iterable[Stall], squares: Sequence[Square]) -> None:
-        through = {number: road for road in self._roads for number in road.squares}
+    def _add_stalls(self, stalls: Iterable[Stall], nodes: Sequence[RoadNode]) -> None:
+        through = {number: road for road in self._roads for number in road.nodes}
         without: dict[tuple[int, Point], list[Stall]] = {}
         for stall in stalls:
             road = through.get(stall.access)
@@ -84,7 +84,7 @@ class RoadPlaces:
                 along = max((round(-y, 6) + 0.0, round(x, 6) + 0.0), (round(y, 6) + 0.0, round(-x, 6) + 0.0))
                 without.setdefault((stall.access, along), []).append(stall)
         for (number, along), beside in without.items():
-            line = _line(squares[number].middle, along, [map_point(stall.centre) for stall in beside])
+            line = _line(nodes[number].middle, along, [map_point(stall.centre) for stall in beside])
             road = self._new_line(line, number)
             self._of_stall.update(dict.fromkeys(beside, road))
 
@@ -98,8 +98,8 @@ class RoadPlaces:
         start, end = (float(low[0]) - reach, float(low[1])), (float(high[0]) + reach, float(low[1]))
         return self._new_line(straight(start, end))
 
-    def _new_line(self, line: ReferenceLine, *squares: int) -> Road:
-        road = Road(self._next, line, _WITHOUT_LANES, _WITHOUT_LANES, squares)
+    def _new_line(self, line: ReferenceLine, *nodes: int) -> Road:
+        road = Road(self._next, line, _WITHOUT_LANES, _WITHOUT_LANES, nodes)
         self._next += 1
         self.lines.append(road)
         return road

@@ -116,11 +116,11 @@ class SlotLabels:
 
     def _slots(self) -> Slots:
         found = read_slots(self.stage)
-        vacated = self.vacated
-        slots = [
-            replace(slot, occupied=False, blocked_by=None) if {slot.name, slot.blocked_by} & set(vacated) else slot
+        vacated = {*self.vacated}
+        slots = (
+            replace(slot, stall=slot.stall.vacated()) if vacated & {slot.stall.name, slot.stall.blocked_by} else slot
             for slot in found.slots
-        ]
+        )
         return replace(found, slots=tuple(slots))
 
     def _frame(self, view: View) -> SlotFrame:

@@ -208,7 +208,7 @@ def _annotation(record: SlotRecord, ground: shapely.MultiPolygon) -> dict[str, A
         is_there = visibility != Visibility.NOT_IN_PICTURE
         keypoints += [round(column, PLACES_PX), round(row, PLACES_PX), visibility] if is_there else [0, 0, 0]
     return {
-        "category_id": _SLOT if slot.use.takes_cars else _KEPT_FREE,
+        "category_id": _SLOT if slot.stall.use.takes_cars else _KEPT_FREE,
         "iscrowd": 0,
         "segmentation": [np.round(part, PLACES_PX).ravel().tolist() for part in record.outline_px],
         "bbox": [round(value, PLACES_PX) for value in (left, top, right - left, bottom - top)],

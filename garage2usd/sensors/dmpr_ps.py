@@ -76,9 +76,9 @@ def dmpr_ps(records: Sequence[SlotRecord], slots: Slots) -> dict[str, Any]:
 
     for record in records:
         entry = record.visibility[:2]
-        if record.slot.use.takes_cars and Visibility.NOT_IN_PICTURE not in entry and Visibility.SEEN in entry:
+        if record.slot.stall.use.takes_cars and Visibility.NOT_IN_PICTURE not in entry and Visibility.SEEN in entry:
             pair = [number_of(record, corner) for corner in (0, 1)]
-            found.append([*pair, _type_of(record), round(record.slot.angle_deg)])
+            found.append([*pair, _type_of(record), round(record.slot.stall.angle_deg)])
     return {"marks": marks, "slots": found}
 
 
@@ -89,6 +89,6 @@ def _meets_neighbour(near: NDArray[np.bool_]) -> bool:
 
 
 def _type_of(record: SlotRecord) -> int:
-    if record.slot.slot_type is not StallKind.ANGLED:
+    if record.slot.stall.kind is not StallKind.ANGLED:
         return _RIGHT_ANGLED
-    return _ACUTE if record.slot.angle_deg < _QUARTER_DEG else _OBTUSE
+    return _ACUTE if record.slot.stall.angle_deg < _QUARTER_DEG else _OBTUSE

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import StageError
-from garage2usd.garage import LaneNode, Stall, StallKind, StallUse
+from garage2usd.garage import LaneNode, Stall
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up
 from garage2usd.sensors.outline import outline_in_picture, polygons_of
@@ -28,6 +28,7 @@ PLACES_PX = 3
 _ON_FLOOR_M = 0.02
 """How far over or under the floor a surface still counts as the floor: lines are painted a few millimetres over it."""
 _LEAST_AREA_PX = 1e-6
+_DEGREES = 3
 _GROUND_AXES = {UsdGeom.Tokens.y: (0, 2), UsdGeom.Tokens.z: (0, 1)}
 _UP_AXES = {UsdGeom.Tokens.y: 1, UsdGeom.Tokens.z: 2}
 
@@ -45,46 +46,31 @@ class Visibility(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Slot:
-    """A stall as it lies in the world.
+    """A stall in the axes of its stage.
 
     Attributes
     ----------
-    name, number
-        Its id, and what is painted in it where that is known.
-    use
-        What it is for.
-    slot_type
-        How it lies to its lane.
-    angle_deg
-        From its entry, left to right, to its left side; 90 where they are square.
-    occupied
-        Whether a car stands in it, its own or one that blocks it; None where the stage does not say.
-    blocked_by
-        Id of the stall of the misparked car that blocks it; None where none does.
+    stall
+        The stall.
     corners_m
         Its `CORNERS` on the floor, in the stage's axes and in metres; float64, shape (4, 3).
     """
 
-    name: str
-    number: str | int | None
-    use: StallUse
-    slot_type: StallKind
-    angle_deg: float
-    occupied: bool | None
+    stall: Stall
     corners_m: Points
-    blocked_by: str | None = None
 
     @property
     def facts(self) -> dict[str, object]:
         """What files say of it beside its places."""
+        stall = self.stall
         return {
-            "name": self.name,
-            "number": self.number,
-            "use": str(self.use),
-            "type": str(self.slot_type),
-            "angle_deg": self.angle_deg,
-            "occupied": self.occupied,
-            "blocked_by": self.blocked_by,
+            "name": stall.name,
+            "number": stall.number,
+            "use": str(stall.use),
+            "type": str(stall.kind),
+            "angle_deg": round(stall.angle_deg, _DEGREES),
+            "occupied": stall.is_occupied,
+            "blocked_by": stall.blocked_by,
         }
 
 
@@ -226,16 +212,7 @@ def read_slots(stage: Usd.Stage) -> Slots:
 
 def _slot(stall: Stall, access: LaneNode, turn: Points) -> Slot:
     corners = np.array([(x, access.height_m, z) for x, z in stall.corners])
-    return Slot(
-        stall.name,
-        stall.number,
-        stall.use,
-        stall.kind,
-        round(stall.angle_deg, 3),
-        stall.is_occupied,
-        np.round(corners @ turn.T, 6) + 0.0,
-        stall.blocked_by,
-    )
+    return Slot(stall, np.round(corners @ turn.T, 6) + 0.0)
 
 
 def _visibility(floor_m: _Floats, corners_px: Points, heights_m: Points) -> NDArray[np.int64]:

@@ -54,7 +54,7 @@ def slots_document(slots: Slots, frames: Mapping[str, Sequence[SlotRecord]], *, 
                 "name": name,
                 "slots": [
                     {
-                        "name": record.slot.name,
+                        "name": record.slot.stall.name,
                         "corners_px": [
                             place if None not in place else None for place in rounded(record.corners_px, PLACES_PX)
                         ],

@@ -15,7 +15,7 @@ from garage2usd.errors import UnreachableStallError
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
-from garage2usd.structure.stalls import Edge, StallRow, stall_rows
+from garage2usd.structure.stalls import StallRow, stall_rows
 
 __all__ = ["LaneSquares", "Square", "StallType", "build_lane_graph", "unproven_lane_graph"]
 
@@ -105,10 +105,6 @@ class LaneSquares:
             # squares that join in a line have the same side across it: R and C are constant along lines
             edges.append(LaneEdge(start, end, nodes[start].widths_m[first[1] != second[1]], one_way))
         return LaneGraph(nodes, tuple(edges))
-
-    def clear_aisle_m(self, square: Square, edge: Edge) -> float:
-        """Metres between the columns on both sides of the lane on a square, for stalls that open onto it by an edge."""
-        return float(self.clear_m[self.number_of[square], 1 if edge.along_x else 0])
 
     def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
         """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""

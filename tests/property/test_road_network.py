@@ -88,10 +88,10 @@ def test_roads_lead_where_lanes_lead(subject):
     for road in network.roads:
         assert road.line.length_m > 0.04
         assert road.lanes in {(LEFT, RIGHT), (RIGHT,)}
-        for number in road.squares:
+        for number in road.nodes:
             on[number] |= {(road.number, lane) for lane in road.lanes}
     # a lane that leads to entrances alone ends where their junction begins, as one from exits alone begins there
-    square_of = {junction.number: junction.square for junction in network.junctions}
+    square_of = {junction.number: junction.node for junction in network.junctions}
     ends, begins = {number: set() for number in on}, {number: set() for number in on}
     for road in network.roads:
         for neighbour, at_start in ((road.predecessor, True), (road.successor, False)):

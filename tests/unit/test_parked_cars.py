@@ -256,13 +256,15 @@ def test_files_tell_blocked_stalls(tmp_path):
     assert {name: stall["blocked_by"] for name, stall in report.items() if "blocked_by" in stall} == blocked
     assert all(report[name]["occupied"] for name in blocked)
     stage = Usd.Stage.Open(str(built.stage))
-    slots = read_slots(stage).slots
-    assert {slot.name: slot.blocked_by for slot in slots if slot.blocked_by} == blocked
-    assert {slot.name: slot.occupied for slot in slots} == {name: stall["occupied"] for name, stall in report.items()}
+    stalls = [slot.stall for slot in read_slots(stage).slots]
+    assert {stall.name: stall.blocked_by for stall in stalls if stall.blocked_by} == blocked
+    assert {stall.name: stall.is_occupied for stall in stalls} == {
+        name: stall["occupied"] for name, stall in report.items()
+    }
     facts = StallFacts(read_lanes(stage).stalls)
     assert not any(facts.facts(stall)["occupied"] for stall in facts.stalls)  # no cars are parked in them yet
     stage.GetDefaultPrim().GetVariantSet("occupancy").SetVariantSelection("empty")
-    assert not any(slot.occupied or slot.blocked_by for slot in read_slots(stage).slots)
+    assert not any(slot.stall.is_occupied or slot.stall.blocked_by for slot in read_slots(stage).slots)
 
 
 def test_lamps_glow_as_often_as_asked():

@@ -8,6 +8,7 @@ from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import RULES, check, check_layout
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError
+from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.layout.tight import tight_stalls
 from garage2usd.pipeline import generate
 
@@ -55,7 +56,7 @@ def test_stalls_are_in_doubt_beside_narrow_aisles_alone():
     assert not tight_stalls(wide.graph, wide.layout.stalls)
     found = tight_stalls(narrow.graph, narrow.layout.stalls)
     assert found == tuple(stall for stall in narrow.layout.stalls if stall.use.takes_cars)
-    aisles = [narrow.graph.clear_aisle_m(stall.access_square, stall.edge) for stall in found]
+    aisles = [clear_aisle_m(stall, narrow.graph) for stall in found]
     assert aisles == pytest.approx([5.49] * len(found))
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.garage import Stall
-from garage2usd.reading.lanes import Lanes
+from garage2usd.reading.lanes import GUIDE_LIFT_M, Lanes
 from garage2usd.view.viewer.colliders import collider_lines
 from garage2usd.view.viewer.scene import Scene, Shape, moved
 
@@ -171,7 +171,7 @@ def _surfaces(scene: Scene) -> list[dict[str, Any]]:
 
 
 def _lanes(lanes: Lanes, buffers: _Buffers) -> dict[str, Any]:
-    middles = [(node.position[0], node.height_m, node.position[1]) for node in lanes.nodes]
+    middles = [(node.position[0], node.height_m + GUIDE_LIFT_M, node.position[1]) for node in lanes.nodes]
     return {
         "nodes": buffers.add(np.array(middles, np.float32)),
         "kinds": [node.kind for node in lanes.nodes],

@@ -76,7 +76,7 @@ def test_keypoints_are_the_record(garage, shots):
         assert entry["num_keypoints"] == there.sum()
         assert categories[entry["category_id"]]["keypoints"][0] == "entry_left"
         said = entry["attributes"]
-        assert (said["number"], said["occupied"]) == (record.slot.number, record.slot.occupied)
+        assert (said["number"], said["occupied"]) == (record.slot.stall.number, record.slot.stall.is_occupied)
         takes_cars = said["use"] in {"standard", "ev", "accessible"}
         assert categories[entry["category_id"]]["name"] == ("parking_slot" if takes_cars else "kept_free")
     assert {entry["attributes"]["occupied"] for entry in document["annotations"]} == {True, False}

@@ -63,16 +63,16 @@ def shots(stage, rays):
 
 def test_what_a_slot_is_agrees_with_its_prim(stage, stalls):
     slots = read_slots(stage)
-    assert {slot.name for slot in slots.slots} == stalls.keys()
+    assert {slot.stall.name for slot in slots.slots} == stalls.keys()
     for slot in slots.slots:
-        corners, prim = stalls[slot.name]
+        corners, prim = stalls[slot.stall.name]
         assert np.abs(slot.corners_m[:, [0, 2]] - corners).max() < 1e-4
         assert np.abs(slot.corners_m[:, 1]).max() < 1e-6  # on the floor
-        assert slot.use == prim.GetAttribute("garage:stall:use").Get()
-        assert str(slot.number) == prim.GetAttribute("garage:stall:number").Get()
-        assert slot.occupied is bool(prim.GetAttribute("garage:stall:occupied").Get())
-        assert slot.slot_type is StallKind.PERPENDICULAR
-        assert slot.angle_deg == pytest.approx(90.0, abs=0.01)
+        assert slot.stall.use == prim.GetAttribute("garage:stall:use").Get()
+        assert str(slot.stall.number) == prim.GetAttribute("garage:stall:number").Get()
+        assert slot.stall.is_occupied is bool(prim.GetAttribute("garage:stall:occupied").Get())
+        assert slot.stall.kind is StallKind.PERPENDICULAR
+        assert slot.stall.angle_deg == pytest.approx(90.0, abs=0.01)
         # a driver who enters looks from the entry to the rear and has the right corners on the right
         inwards = corners[3] - corners[0]
         right = np.array([-inwards[1], inwards[0]])
@@ -85,7 +85,7 @@ def test_corners_are_where_the_lens_sees_them(stage, stalls, shots):
     slots, compared = read_slots(stage), 0
     for shot in shots:
         for record in slots.seen_in(shot.frame):
-            corners = np.insert(stalls[record.slot.name][0], 1, 0.0, axis=1)
+            corners = np.insert(stalls[record.slot.stall.name][0], 1, 0.0, axis=1)
             expected = shot.place_of(corners)  # one by one, by trigonometry
             finite = np.isfinite(expected).all(axis=1)
             assert (np.isfinite(record.corners_px).all(axis=1) == finite).all()
@@ -102,7 +102,7 @@ def test_visibility_agrees_with_rays_to_the_corners(stage, rays, stalls, shots):
     around = np.stack(np.meshgrid(*[np.linspace(-1, 1, 9)] * 2), axis=-1).reshape(-1, 2)
     for shot in shots:
         records = slots.seen_in(shot.frame)
-        corners = np.concatenate([np.insert(stalls[record.slot.name][0], 1, 0.0, axis=1) for record in records])
+        corners = np.concatenate([np.insert(stalls[record.slot.stall.name][0], 1, 0.0, axis=1) for record in records])
         visibility = np.concatenate([record.visibility for record in records])
         places = shot.place_of(corners)
         inside = ((places >= 0) & (places < SIZE)).all(axis=1)
@@ -128,9 +128,9 @@ def test_what_is_level_with_the_floor_and_of_another_class_hides_it(stage, shots
         assert slots.seen_in(replace(shot.frame, shows_floor=nothing)) == []
         left = nothing.copy()
         left[:, : SIZE[0] // 2] = True
-        told = {record.slot.name: record for record in slots.seen_in(shot.frame)}
+        told = {record.slot.stall.name: record for record in slots.seen_in(shot.frame)}
         for record in slots.seen_in(replace(shot.frame, shows_floor=left)):
-            whole = told[record.slot.name]
+            whole = told[record.slot.stall.name]
             is_right = record.corners_px[:, 0] >= SIZE[0] // 2
             expected = np.where(is_right, np.minimum(whole.visibility, 1), whole.visibility)
             assert record.visibility == tuple(expected.tolist())
@@ -142,7 +142,7 @@ def test_what_is_level_with_the_floor_and_of_another_class_hides_it(stage, shots
 def test_the_ground_of_a_slot_is_its_pixels(stage, stalls, shots):
     slots = read_slots(stage)
     for shot in shots[:6]:
-        records = {record.slot.name: record for record in slots.seen_in(shot.frame)}
+        records = {record.slot.stall.name: record for record in slots.seen_in(shot.frame)}
         seen = shot.frame.seen_m.reshape(-1, 3)
         floor = seen[np.abs(seen[:, 1]) < 0.02][:, [0, 2]]
         for name, (corners, _) in stalls.items():
@@ -159,14 +159,14 @@ def test_the_ground_of_a_slot_is_its_pixels(stage, stalls, shots):
         distance = np.where(falls, shot.eye[1] / np.where(falls, -directions[:, 1], 1.0), np.nan)
         ground = (shot.eye + directions * distance[:, None])[:, [0, 2]]
         for record in records.values():
-            corners = stalls[record.slot.name][0]
+            corners = stalls[record.slot.stall.name][0]
             low, high = corners.min(axis=0), corners.max(axis=0)
             pixels = ((ground > low) & (ground < high)).all(axis=1).sum()
             area = sum(polygon_area(part) for part in record.outline_px)
             perimeter = sum(
                 np.linalg.norm(np.roll(part, -1, axis=0) - part, axis=1).sum() for part in record.outline_px
             )
-            assert abs(area - pixels) <= 0.5 * perimeter + 2, record.slot.name
+            assert abs(area - pixels) <= 0.5 * perimeter + 2, record.slot.stall.name
 
 
 def polygon_area(ring):
