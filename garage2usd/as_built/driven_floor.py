@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from garage2usd.as_built.driven_road import floors_of_ramps
 from garage2usd.as_built.shapes import Thing
 from garage2usd.driving import RampFloor, heights_m
-from garage2usd.garage import LaneNode
+from garage2usd.garage import LaneGraph
 
 __all__ = ["DrivenFloor"]
 
@@ -30,10 +30,9 @@ class DrivenFloor:
     ramps: tuple[RampFloor, ...]
 
     @classmethod
-    def of(cls, nodes: Iterable[LaneNode], things: Iterable[Thing]) -> "DrivenFloor":
-        """The floor below the nodes of lanes, which lies at 0 where there are none, and of the ramps among objects."""
-        heights = [node.height_m for node in nodes]
-        return cls(float(np.median(heights)) if heights else 0.0, floors_of_ramps(things))
+    def of(cls, lanes: LaneGraph, things: Iterable[Thing]) -> "DrivenFloor":
+        """The floor of the lanes, and of the ramps among objects."""
+        return cls(lanes.floor_m(), floors_of_ramps(things))
 
     def heights_m(self, x_m: ArrayLike, z_m: ArrayLike) -> NDArray[np.float64]:
         """Its heights at points; float64, their shape."""

@@ -12,7 +12,7 @@ from garage2usd.as_built.openings import Door, Ramp, doors_of, ramps_of
 from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.solids import Solid, Solids
 from garage2usd.as_built.stall_grounds import StallGrounds
-from garage2usd.garage import Fault, LaneGraph, Stall
+from garage2usd.garage import Fault, LaneGraph, Point, Stall
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.grid import Structure
 
@@ -121,6 +121,14 @@ class BuiltGarage:
         own = frozenset(home for _, home in self.cars.values() if home is not None)
         names = {stall.name for stall in own}
         return own.union(stall for stall in self.stalls if stall.blocked_by in names)
+
+    def square_at(self, place: Point) -> tuple[int, int] | None:
+        """(row, col) of the square of S on which a place lies, or the nearest one; None where S is not known."""
+        if self.structure is None:
+            return None
+        edges = (self.structure.row_edges_m, place[1]), (self.structure.column_edges_m, place[0])
+        row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
+        return row, col
 
     @property
     def has_whole_graph(self) -> bool:

@@ -153,12 +153,8 @@ def _compartments(garage: BuiltGarage) -> list[tuple[int, str]]:
 
 def _compartment_at(place: Point, garage: BuiltGarage) -> int:
     """Number of the fire compartment that a place lies in; 0 where none are declared."""
-    if garage.compartments is None or garage.structure is None:
-        return 0
-    structure = garage.structure
-    edges = (structure.row_edges_m, place[1]), (structure.column_edges_m, place[0])
-    row, col = (int(np.clip(np.searchsorted(lines, at) - 1, 0, len(lines) - 2)) for lines, at in edges)
-    return int(garage.compartments[row, col])
+    square = garage.square_at(place)
+    return 0 if garage.compartments is None or square is None else int(garage.compartments[square])
 
 
 def _has_sprinklers(garage: BuiltGarage) -> bool:

@@ -69,8 +69,7 @@ def _inside(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
     on_edge = outer_squares(structure.cells)
     for number in garage.lanes.portals("entrance", "exit"):
         node = garage.lanes.nodes[number]
-        row, col = (int(part) for part in node.name.strip("[]").split(","))
-        if not on_edge[row, col]:
+        if not on_edge[garage.square_at(node.position)]:
             yield Miss(node.name, node.position, f"the {node.kind} lies inside the garage")
 
 

@@ -11,7 +11,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.layout.lighting import direct_lux
-from garage2usd.layout.stall_table import EDGES
+from garage2usd.layout.placement import cos_sin
 from garage2usd.pipeline import Garage
 
 __all__ = ["StallFeatures", "measured_stalls"]
@@ -120,14 +120,14 @@ def _stall_lux(layout: Layout) -> NDArray[np.float64]:
 def _occupied_neighbours(layout: Layout) -> NDArray[np.int64]:
     """How many of the stalls beside each stall hold a car; shape (stalls,)."""
     stalls, is_taken = layout.stalls, layout.cars_in_stalls() >= 0
-    is_along_x = np.array([edge.along_x for edge in EDGES])[stalls.edge]
     x, z = stalls.centre_m.T
-    along, across = np.where(is_along_x, x, z), np.where(is_along_x, z, x)
-    order = np.lexsort((along, np.round(across, 3), stalls.edge))
+    cos, sin = np.array([cos_sin(yaw) for yaw in stalls.yaw_rad.tolist()]).reshape(-1, 2).T
+    along, across = x * cos - z * sin, x * sin + z * cos
+    order = np.lexsort((along, np.round(across, 3), stalls.yaw_rad))
     one, other = order[:-1], order[1:]
     widths = (stalls.size_m[one, 0] + stalls.size_m[other, 0]) / 2
     is_beside = (
-        (stalls.edge[one] == stalls.edge[other])
+        (stalls.yaw_rad[one] == stalls.yaw_rad[other])
         & (np.abs(across[other] - across[one]) < _SAME_ROW_M)
         & (along[other] - along[one] < widths + _WIDEST_COLUMN_M + _SAME_ROW_M)
     )

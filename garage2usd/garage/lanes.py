@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
+from statistics import median
 from typing import NamedTuple
 
 import networkx as nx
@@ -176,6 +177,11 @@ class LaneGraph:
         """For each node, the nodes that it is joined to, whichever way it is driven."""
         ends = ((edge.start, edge.end) for edge in self.edges)
         return self._following(arc for one, other in ends for arc in ((one, other), (other, one)))
+
+    def floor_m(self, level: int = 0) -> float:
+        """Height of the floor of a level, the median of its nodes; 0 where it has none."""
+        heights = [node.height_m for node in self.nodes if node.level == level]
+        return median(heights) if heights else 0.0
 
     def portals(self, *kinds: str) -> list[int]:
         """Numbers of the nodes of some kinds."""

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout.placement import Stall, StallUse, stall_name
+from garage2usd.layout.placement import Stall, StallUse, edge_yaw_rad, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
@@ -50,6 +50,11 @@ class StallTable(Table[Stall]):
     def __len__(self) -> int:
         """Number of stalls."""
         return len(self.edge)
+
+    @property
+    def yaw_rad(self) -> NDArray[np.float64]:
+        """Turn of each about +Y; float64, shape (n,)."""
+        return np.array([edge_yaw_rad(edge) for edge in EDGES])[self.edge]
 
     @property
     def takes_cars(self) -> NDArray[np.bool_]:

@@ -49,7 +49,7 @@ def find_overhead(stage: Usd.Stage, scene: DrawnPrims) -> Overhead:
     scene
         What it draws.
     """
-    floor = DrivenFloor.of(read_lanes(stage).nodes, read_contents(stage).things)
+    floor = DrivenFloor.of(read_lanes(stage).graph, read_contents(stage).things)
     to_y_up = np.linalg.inv(y_up_to_stage(stage))
     hangs, cut_m = np.zeros(len(scene.shape), dtype=bool), np.full(len(scene.shape), np.nan)
     for number, path in enumerate(scene.shapes):

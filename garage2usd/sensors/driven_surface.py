@@ -36,7 +36,7 @@ class DrivenSurface:
     def __init__(self, garage: BuiltGarage, labels: Labels, *, without: Collection[str] = ()) -> None:
         if garage.stage is None:
             raise ValueError(garage.kind)
-        self._floor = DrivenFloor.of(garage.lanes.nodes, garage.things)
+        self._floor = DrivenFloor.of(garage.lanes, garage.things)
         self._solids = read_ray_scene(garage.stage, labels, without=without)
         self._to_stage = y_up_to_stage(garage.stage)
 

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.layout import Layout, StallTable
-from garage2usd.layout.placement import edge_yaw_rad
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
@@ -98,7 +97,7 @@ def _outlines_m(stalls: StallTable) -> NDArray[np.float64]:
     """Corners (x, z) of stalls as `Stall.corners_m` has them; float64, shape (stalls, 4, 2)."""
     x, z = stalls.centre_m.T[:, :, None]
     half_width, half_length = stalls.size_m.T[:, :, None] / 2
-    yaw = np.array([edge_yaw_rad(edge) for edge in EDGES])[stalls.edge][:, None]
+    yaw = stalls.yaw_rad[:, None]
     across, along = np.array([-1, 1, 1, -1]) * half_width, np.array([1, 1, -1, -1]) * half_length
     cos, sin = np.cos(yaw), np.sin(yaw)
     return np.stack([x + across * cos + along * sin, z - across * sin + along * cos], axis=2)
