@@ -218,12 +218,9 @@ def _body(figure: Figure, pose: Pose) -> _Body:
         knee = hip + _THIGH * _down(pose.hips[index], side * 1.0)
         ankle = knee + _SHIN * _down(pose.hips[index] - pose.knees[index])
         legs.append([hip, knee, ankle])
-    # where the lower sole is
     low = min(
-        ankle[1]
-        - _ANKLE * np.cos(np.radians(foot))
-        - max(0.095 * np.sin(np.radians(foot)), 0.035 * np.sin(np.radians(-foot)))
-        for (_, _, ankle), foot in zip(legs, pose.feet, strict=True)
+        ankle[1] + min(ring[:, 1].min() for ring in _shoe(foot, side))
+        for (_, _, ankle), foot, side in zip(legs, pose.feet, _SIDES, strict=True)
     )
     hips = np.array([0.0, -low, 0.0])
     spine = _turned(pose.lean)
@@ -372,24 +369,28 @@ def _hands(body: _Body) -> list[Face]:
 
 def _shoes(body: _Body, pose: Pose) -> list[Face]:
     """Shoes with flat soles, turned about the ankles."""
-    unit = body.unit_m
+    return [
+        face
+        for (_, _, ankle), foot, side in zip(body.legs, pose.feet, _SIDES, strict=True)
+        for face in loft_faces([ankle + body.unit_m * ring for ring in _shoe(foot, side)])
+    ]
+
+
+def _shoe(foot_deg: float, side: float) -> list[_Vector]:
+    """Rings of a shoe around its ankle, in shares of the stature, the toes so far down."""
     rows = [
         (-0.040, 0.012, 0.030), (-0.034, 0.021, 0.046), (-0.010, 0.023, 0.052), (0.015, 0.023, 0.044),
         (0.05, 0.027, 0.030),
         (0.08, 0.029, 0.025), (0.105, 0.023, 0.020), (0.116, 0.010, 0.012),
     ]  # fmt: skip
     angles = np.arange(14) * (2 * np.pi / 14) + np.pi / 14
-    faces: list[Face] = []
-    for index, (_, _, ankle) in enumerate(body.legs):
-        turn = _turned(pose.feet[index], _SIDES[index] * 9.0)
-        rings = []
-        for z, width, height in rows:
-            x = np.sign(np.cos(angles)) * np.abs(np.cos(angles)) ** 0.7 * width
-            y = np.maximum(np.sin(angles) * height, 0.0) + np.minimum(np.sin(angles), 0.0) * 0.004
-            ring = np.stack([x, y + 0.004, np.full_like(x, z)], axis=1) - (0.0, _ANKLE, 0.0)
-            rings.append(ankle + unit * ring @ turn.T)
-        faces += loft_faces(rings)
-    return faces
+    turn = _turned(foot_deg, side * 9.0)
+    rings = []
+    for z, width, height in rows:
+        x = np.sign(np.cos(angles)) * np.abs(np.cos(angles)) ** 0.7 * width
+        y = np.maximum(np.sin(angles) * height, 0.0) + np.minimum(np.sin(angles), 0.0) * 0.004
+        rings.append((np.stack([x, y + 0.004, np.full_like(x, z)], axis=1) - (0.0, _ANKLE, 0.0)) @ turn.T)
+    return rings
 
 
 _HEAD_RINGS = [

@@ -14,6 +14,13 @@ class ClutterAmount(StrEnum):
 
     NONE = "none"
     USUAL = "usual"
+    CROWDED = "crowded"
+    """Five times as many."""
+
+    @property
+    def factor(self) -> float:
+        """Factor of the usual numbers."""
+        return {ClutterAmount.NONE: 0.0, ClutterAmount.USUAL: 1.0, ClutterAmount.CROWDED: 5.0}[self]
 
 
 _USUAL = {
@@ -37,7 +44,7 @@ class ClutterConfig(Settings):
     """
 
     amount: ClutterAmount = ClutterAmount.NONE
-    """What the numbers are that are not given: none, or the usual ones."""
+    """The numbers that are not given: none, the usual ones, or five times as many for `crowded`."""
     people: float | None = Field(None, ge=0, le=200)
     """People who stand, wait, look at a phone or walk past; usually 6."""
     bicycles: float | None = Field(None, ge=0, le=200)
@@ -60,9 +67,7 @@ class ClutterConfig(Settings):
     def per_hundred(self, what: str) -> float:
         """How many of something, a name of a setting, there are for each hundred stalls."""
         given: float | None = getattr(self, what)
-        if given is not None:
-            return given
-        return _USUAL[what] if self.amount is ClutterAmount.USUAL else 0.0
+        return _USUAL[what] * self.amount.factor if given is None else given
 
     @property
     def is_any(self) -> bool:

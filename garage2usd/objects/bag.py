@@ -21,6 +21,7 @@ class BagSort(StrEnum):
     RUBBISH = "rubbish"
 
 
+_MASS_KG = {BagSort.CARRIER: 4.0, BagSort.SUITCASE: 15.0, BagSort.RUBBISH: 6.0}
 _HALF_M = {BagSort.CARRIER: (0.18, 0.10), BagSort.SUITCASE: (0.215, 0.125), BagSort.RUBBISH: (0.27, 0.25)}
 
 
@@ -35,6 +36,11 @@ class BagSpec(Spec, kind=KIND):
     """
 
     sort: BagSort = BagSort.CARRIER
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass with what is in it; assumption."""
+        return _MASS_KG[self.sort]
 
     def asset(self) -> Asset:
         """A bag with its handles, or a knotted sack."""

@@ -36,6 +36,11 @@ class BicycleSpec(Spec, kind=KIND):
 
     colour: str = "black"
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass of a city bicycle with its carrier; assumption."""
+        return 16.0
+
     def asset(self) -> Asset:
         """Wheels with spokes, a frame of tubes, handlebars, a saddle, pedals, mudguards, a carrier and a lamp."""
         tyres, rims = [], []

@@ -20,6 +20,7 @@ PAINT_SET = "paint"
 """Variant set of every car's asset."""
 _ARCHES_M = 0.01
 """How far the wheel arches stand out of a car's body."""
+_DENSITY_KG_M3 = 120.0
 _HALF_MIRROR_M = 0.1
 """Of a car's mirrors, along it."""
 
@@ -61,6 +62,12 @@ class CarSpec(Spec, kind=KIND):
     def look(self) -> Look:
         """Its paint."""
         return ((PAINT_SET, self.paint),)
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass at 120 kg/m3 of the box around the body, an assumption: 1,480 kg for the saloon."""
+        body = self.measures
+        return round(_DENSITY_KG_M3 * body.length_m * body.width_m * body.height_m, -1)
 
     def asset(self) -> Asset:
         """The body with its wheels, dust and lamps, in every paint."""

@@ -30,6 +30,11 @@ class BoxSpec(Spec, kind=KIND):
     height_m: float
     depth_m: float
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass at 80 kg/m3, which is an assumption."""
+        return round(80.0 * self.width_m * self.height_m * self.depth_m, 1)
+
     def asset(self) -> Asset:
         """A box with a strip of tape along the seam of its lid and down both ends."""
         x, y, z = self.width_m / 2, self.height_m, self.depth_m / 2

@@ -21,6 +21,11 @@ _BANDS_M = (0.03, 0.28, 0.4, 0.5, 0.6, 0.75)
 class ConeSpec(Spec, kind=KIND):
     """A traffic cone; origin in the middle of its foot."""
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass of a cone of 0.75 m with a foot of rubber; assumption."""
+        return 3.2
+
     def asset(self) -> Asset:
         """An orange cone 0.75 m high with two reflective bands on a rubber foot."""
         side = _FOOT_M / 2

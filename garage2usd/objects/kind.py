@@ -92,6 +92,11 @@ class Spec(ABC):
         """The variants of that asset."""
         return ()
 
+    @property
+    def mass_kg(self) -> float | None:
+        """Mass of a thing that can be moved; None for what belongs to the building."""
+        return None
+
     @abstractmethod
     def asset(self) -> Asset:
         """Make its meshes, with their colliders."""

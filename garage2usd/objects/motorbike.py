@@ -31,6 +31,11 @@ class MotorbikeSpec(Spec, kind=KIND):
     colour: str = "black"
     is_scooter: bool = False
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass with its fuel; assumption."""
+        return 130.0 if self.is_scooter else 200.0
+
     def asset(self) -> Asset:
         """Wheels, fork, engine or shell, tank, seat, lamps and handlebars with mirrors."""
         parts = _scooter() if self.is_scooter else _naked()

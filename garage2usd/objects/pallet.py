@@ -35,6 +35,11 @@ class PalletSpec(Spec, kind=KIND):
     count: int = 1
     is_upright: bool = False
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass: 25 kg for each, as EPAL gives for the Euro pallet."""
+        return 25.0 * self.count
+
     def asset(self) -> Asset:
         """Boards on boards on nine blocks on three runners, each pallet 0.144 m high."""
         wood: list[Face] = []

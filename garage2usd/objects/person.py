@@ -63,6 +63,12 @@ class PersonSpec(Spec, kind=KIND):
     number: int
     pose: str = "standing"
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass by the stature and a body mass index of 23, 75 kg at 1.80 m, and by the build."""
+        figure = PEOPLE[self.number]
+        return round(23.0 * figure.height_m**2 * figure.build**2, 1)
+
     def asset(self) -> Asset:
         """A dressed body, with what it holds."""
         return figure_asset(PEOPLE[self.number], POSES[self.pose])

@@ -29,6 +29,11 @@ class PramSpec(Spec, kind=KIND):
 
     colour: str = "navy"
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass without a child; assumption."""
+        return 13.0
+
     def asset(self) -> Asset:
         """A carrycot with a hood on a folding frame with four wheels and a handle."""
         cot = loft_faces(

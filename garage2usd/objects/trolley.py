@@ -31,6 +31,11 @@ class TrolleySpec(Spec, kind=KIND):
 
     count: int = 1
 
+    @property
+    def mass_kg(self) -> float:
+        """Mass of trolleys of 20 kg; assumption."""
+        return 20.0 * self.count
+
     def asset(self) -> Asset:
         """Wire baskets on frames with four castors and a coloured handle each."""
         wire: list[Face] = []

@@ -62,7 +62,7 @@ def _asset_file(shape: Spec, quality: TextureQuality, own: tuple[tuple[str, Fini
     # of many small files a folder for each would take a third of the time
     path = Path(tempfile.gettempdir()) / f"{HIDDEN_PREFIX}{secrets.token_hex(8)}.usdc"
     try:
-        write_prototype(asset, path, kind=shape.kind, quality=quality, finishes=finishes)
+        write_prototype(asset, path, kind=shape.kind, quality=quality, finishes=finishes, mass_kg=shape.mass_kg)
         data = path.read_bytes()
     finally:
         path.unlink(missing_ok=True)

@@ -67,4 +67,5 @@ def write_own_assets(
                 finishes=finishes,
                 textures=textures,
                 shared=_LOOKS,
+                mass_kg=shape.mass_kg,
             )

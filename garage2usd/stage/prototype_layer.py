@@ -76,7 +76,13 @@ _FRICTION = {
 
 
 def write_prototype(
-    asset: Asset, path: Path, *, kind: Kind, quality: TextureQuality, finishes: Mapping[str, Finish] = USUAL
+    asset: Asset,
+    path: Path,
+    *,
+    kind: Kind,
+    quality: TextureQuality,
+    finishes: Mapping[str, Finish] = USUAL,
+    mass_kg: float | None = None,
 ) -> None:
     """Author `asset` as a ``.usdc``; its bytes do not depend on the name of the file.
 
@@ -92,9 +98,11 @@ def write_prototype(
         Of the textures that it refers to, in the folder ``textures`` beside the file.
     finishes
         What takes the place of materials, by their keys.
+    mass_kg
+        Mass of all its colliders together; None for what cannot be moved.
     """
     with new_layer(path, default_prim=_ROOT) as layer:
-        define_prototype(layer, _ROOT, asset, kind=kind, quality=quality, finishes=finishes)
+        define_prototype(layer, _ROOT, asset, kind=kind, quality=quality, finishes=finishes, mass_kg=mass_kg)
 
 
 def define_prototype(
@@ -107,6 +115,7 @@ def define_prototype(
     finishes: Mapping[str, Finish],
     textures: str = f"./{TEXTURE_FOLDER}",
     shared: Sdf.Path | None = None,
+    mass_kg: float | None = None,
 ) -> None:
     """Define an asset as a root prim of a layer that finds its textures in a folder; else as `write_prototype`.
 
@@ -141,6 +150,7 @@ def define_prototype(
             _define_friction(layer, place, touch)
     for label in pieces_of(asset):
         define(layer, root.path.AppendChild(piece_name(label)), "Xform", label=label)
+    masses_kg = {} if mass_kg is None else _masses_kg(asset, mass_kg)
     for part in asset.parts:
         define_mesh(
             layer,
@@ -149,6 +159,7 @@ def define_prototype(
             looks,
             finish=of[part.material].material,
             is_compact=shared is not None,
+            mass_kg=masses_kg.get(part.name),
         )
     if asset.paints:
         _define_paints(root, asset.paints)
@@ -157,6 +168,16 @@ def define_prototype(
     if asset.light is not None:
         _define_light(layer, root.path.AppendChild("Light"), asset.light)
         _define_power(root, asset.light, switched)
+
+
+def _masses_kg(asset: Asset, mass_kg: float) -> dict[str, float]:
+    """Share a mass among colliders by the volumes of the boxes around them, by the names of their parts."""
+    volumes = {
+        part.name: float(np.ptp(part.points.astype(float), axis=0).prod())
+        for part in asset.parts
+        if part.collider is not None
+    }
+    return {name: round(mass_kg * volume / sum(volumes.values()), 3) for name, volume in volumes.items()}
 
 
 def _place(root: Sdf.Path, part: Part) -> Sdf.Path:
@@ -248,6 +269,7 @@ def define_mesh(
     *,
     finish: Material | None = None,
     is_compact: bool = False,
+    mass_kg: float | None = None,
 ) -> None:
     """Define one mesh with the material of its key, or what takes its place, and its collider if it has one.
 
@@ -273,7 +295,10 @@ def define_mesh(
     if part.collider is None:
         apply_schemas(mesh, "MaterialBindingAPI")
         return
-    apply_schemas(mesh, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI")
+    weighed = () if mass_kg is None else ("PhysicsMassAPI",)
+    apply_schemas(mesh, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI", *weighed)
+    if mass_kg is not None:
+        attribute(mesh, "physics:mass", _TYPES.Float, mass_kg)
     attribute(mesh, "physics:approximation", _TYPES.Token, part.collider.value, uniform=True)
     relationship(mesh, "material:binding:physics", [_friction(looks, finish.touch)])
 

@@ -31,7 +31,8 @@ def colliders(stage):
             entry["scale"] = [float(value) for value in builder.shape_scale[index]]
             entry["low"], entry["high"] = source.vertices.min(axis=0).tolist(), source.vertices.max(axis=0).tolist()
         shapes.append(entry)
-    return {"version": newton.__version__, "bodies": builder.body_count, "shapes": shapes}
+    masses_kg = dict(zip(builder.body_label, map(float, builder.body_mass), strict=True))
+    return {"version": newton.__version__, "bodies": builder.body_count, "masses_kg": masses_kg, "shapes": shapes}
 
 
 for line in sys.stdin:

@@ -1,0 +1,218 @@
+"""Where people and things of many garages stand: a judge that shares nothing with their placement but the meshes.
+
+PYTHONPATH=tests python -m support.clutter_judge --seeds 200
+
+lays out garages of mixed profiles, contours, obstacles and occupancies, and compares by shapely the outlines of meshes
+with cars, walls, doors, lanes, stalls, floors and the ground that cars sweep on their proven ways. Ends in 1 if
+anything stands where it must not.
+"""
+
+import argparse
+import math
+import sys
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from functools import lru_cache
+
+import numpy as np
+import shapely
+from shapely import affinity
+
+from garage2usd.checks.swept_path import design_car
+from garage2usd.config import GarageConfig
+from garage2usd.driving import DesignCar
+
+from garage2usd.driving.layout_garage import prove_stalls
+from garage2usd.errors import Garage2UsdError
+from garage2usd.pipeline import generate
+from garage2usd.stage.prototypes import asset_of
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+
+PROFILES = ("cn-jgj100", "de-garvo", "us-ada", "uk-istructe")
+FLAT = {"floor", "stall", "ceiling", "sky", "floor_stain", "drain", "stall_number", "number_plate", "person_shadow"}
+PERSON_M = 2.0
+"""What hangs higher is in nobody's way."""
+CAR_PATH_M = 1.8
+"""Width of a car on the middle of a lane."""
+LEAF_M, ENTERED_M = 1.0, 1.0
+"""Width of the door of a stair core; ground behind the door of an entrance or an exit."""
+STEP_M = 0.05
+TOUCH_M = 1e-4
+"""Of pieces that only meet."""
+
+
+def settings_of(seed):
+    """A configuration, drawn by its seed alone."""
+    draw = np.random.default_rng([35, seed])
+    return {
+        "seed": seed,
+        "profile": PROFILES[seed % len(PROFILES)],
+        "site": {
+            "height_cells": int(draw.integers(5, 9)),
+            "width_cells": int(draw.integers(5, 10)),
+            "rectangles": int(draw.integers(2, 5)) if seed % 3 else 0,
+            "obstacles": seed % 2,
+            "min_portal_distance_cells": 3,
+        },
+        "plan": {"unreachable_stalls": "mark"},
+        "parking": {
+            "occupancy": round(float(draw.uniform(0.1, 0.95)), 2),
+            "misparked": (0.0, 0.05)[seed // 2 % 2],
+            "turned_wheels": 0.2,
+        },
+        "clutter": {"amount": ("usual", "crowded")[seed // 4 % 2]},
+    }
+
+
+def faults_of(garage):
+    """What stands where it must not, as (kind, name, what it meets)."""
+    layout = garage.layout
+    clutter = [place for place in layout.placements if place.spec.kind.group == "Clutter"]
+    shapes = [shapely.union_all([shape for shape, _ in pieces(place)]).convex_hull for place in clutter]
+    taken = [*objects(layout), *grounds(garage)]
+    grown = [shape.buffer(-TOUCH_M) for shape in shapes]
+    found = [
+        (clutter[one].kind, clutter[one].name, taken[other][1])
+        for one, other in shapely.STRtree([shape for shape, _ in taken]).query(grown, predicate="intersects").T
+    ]
+    one, other = shapely.STRtree(grown).query(grown, predicate="intersects")
+    found += [(clutter[i].kind, clutter[i].name, clutter[j].name) for i, j in zip(one, other, strict=True) if i < j]
+    inside = floors(layout)
+    for place, shape in zip(clutter, shapes, strict=True):
+        low = min(float(part.points[:, 1].min()) for part in asset_of(place.spec).parts)
+        if place.position_m[1] or not -0.001 < low < 0.003:
+            found.append((place.kind, place.name, f"the floor, {place.position_m[1] + low} m below it"))
+        if not inside.contains(shape):
+            found.append((place.kind, place.name, "the edge of the floor"))
+    return found, clutter
+
+
+def objects(layout):
+    """Each piece of an object, as high as people are, seen from above."""
+    for place in layout.placements:
+        if place.spec.kind.group != "Clutter" and place.kind not in FLAT:
+            for shape, low in pieces(place):
+                if place.position_m[1] + low < PERSON_M:
+                    yield shape, place.name
+
+
+def pieces(place):
+    """The convex hull of each mesh of an object seen from above, and how low it reaches, by shapely's own turns."""
+    x, _, z = place.position_m
+    for shape, low in _hulls(place.spec.shape):
+        turned = affinity.rotate(shape, -math.degrees(place.yaw_rad), origin=(0, 0))
+        yield affinity.translate(turned, x, z), low
+
+
+@lru_cache(maxsize=4096)
+def _hulls(spec):
+    parts = [part for part in asset_of(spec).parts if len(part.points)]
+    return [
+        (shapely.MultiPoint(part.points[:, [0, 2]].astype(float)).convex_hull, float(part.points[:, 1].min()))
+        for part in parts
+    ]
+
+
+def floors(layout):
+    """The squares inside that are no obstacles, by the matrices."""
+    structure = layout.structure
+    x, z = structure.column_edges_m, structure.row_edges_m
+    squares = np.argwhere(structure.cells != Cell.OBSTACLE).tolist()
+    return shapely.union_all([shapely.box(x[col], z[row], x[col + 1], z[row + 1]) for row, col in squares])
+
+
+def grounds(garage):
+    """The ground that is somebody's: stalls, doors and what they swing over, lanes, what cars sweep on their ways."""
+    layout = garage.layout
+    yield from ((shapely.Polygon(stall.corners_m()), stall.name) for stall in layout.stalls)
+    for core in layout.cores:
+        yield swing(core), f"the door of a core on {core.square}"
+    yield from entered(layout.structure)
+    yield from driven_lines(garage.graph)
+    for car in dict.fromkeys((DesignCar(), design_car(garage.config.standard))):
+        for proof in prove_stalls(layout, garage.graph, car=car):
+            for way in (proof.way_in, proof.way_out):
+                if way is not None and way.moves:
+                    yield swept(way, car), f"a way of {proof.stall}"
+
+
+def swing(core):
+    """The quarter disc of its door, hung on either side."""
+    x, z = core.door_m
+    out = np.array((x - core.centre_m[0], z - core.centre_m[1]))
+    out /= np.hypot(*out)
+    along = np.array((-out[1], out[0]))
+    door = np.array((x, z))
+    before = shapely.Polygon([door - along, door + along, door + along + LEAF_M * out, door - along + LEAF_M * out])
+    discs = [shapely.Point(door + side * LEAF_M / 2 * along).buffer(LEAF_M) for side in (-1, 1)]
+    return shapely.union_all(discs).intersection(before)
+
+
+def entered(structure):
+    """The ground behind the middle of the edge that each portal's door stands on."""
+    x, z = structure.column_edges_m, structure.row_edges_m
+    cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
+    for kind in (Cell.ENTRANCE, Cell.EXIT):
+        for row, col in structure.where(kind):
+            square = shapely.box(x[col], z[row], x[col + 1], z[row + 1])
+            for down, right in NEIGHBOUR_STEPS:
+                if cells[row + 1 + down, col + 1 + right] == Cell.OBSTACLE:
+                    continue
+                # a car drives between the door and the lane square
+                middle, other = square.centroid, affinity.translate(square, 0, 0).centroid
+                beyond = shapely.Point(
+                    middle.x + right * (x[col + 1] - x[col]) / 2, middle.y + down * (z[row + 1] - z[row]) / 2
+                )
+                yield shapely.LineString([other, beyond]).buffer(CAR_PATH_M / 2, cap_style="flat"), f"portal {row, col}"
+
+
+def driven_lines(graph):
+    """A car's width along the middle of each lane from square to square."""
+    for edge in graph.edges:
+        line = shapely.LineString(graph.middles_m[[edge.start, edge.end]])
+        yield line.buffer(CAR_PATH_M / 2, cap_style="flat"), f"the lane from {edge.start} to {edge.end}"
+
+
+def swept(way, car):
+    """What a car covers at poses a hand's breadth apart, turned by shapely."""
+    body = shapely.box(-car.width_m / 2, -car.ahead_m, car.width_m / 2, car.rear_overhang_m)
+    covered = [
+        affinity.translate(
+            affinity.rotate(body, -math.degrees(at.pose.yaw_rad), origin=(0, 0)), at.pose.x_m, at.pose.z_m
+        )
+        for at in way.waypoints(STEP_M)
+    ]
+    return shapely.union_all(covered)
+
+
+def judged(seed):
+    """What is said of one garage: number of stalls, what stands there, and what stands where it must not."""
+    settings = settings_of(seed)
+    try:
+        garage = generate(GarageConfig(**settings))
+    except Garage2UsdError as error:
+        return seed, 0, Counter(), [("none", "garage", f"{type(error).__name__}: {error}")]
+    faults, clutter = faults_of(garage)
+    return seed, len(garage.layout.stalls), Counter(place.kind for place in clutter), faults
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seeds", type=int, default=200)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--workers", type=int, default=1)
+    asked = parser.parse_args()
+    stalls, kinds, bad = 0, Counter(), 0
+    with ProcessPoolExecutor(asked.workers) as pool:
+        for seed, count, found, faults in pool.map(judged, range(asked.first, asked.first + asked.seeds)):
+            stalls, bad = stalls + count, bad + bool(faults)
+            kinds += found
+            for kind, name, what in faults:
+                print(f"{seed}: {name} ({kind}) meets {what}", flush=True)
+    told = ", ".join(f"{number} {kind}" for kind, number in sorted(kinds.items()))
+    print(f"{asked.seeds} garages, {stalls} stalls, {kinds.total()} objects ({told}); {bad} garages with faults")
+    sys.exit(bool(bad))
+
+
+if __name__ == "__main__":
+    main()
