@@ -11,7 +11,7 @@ from garage2usd.assets.car_shell import Shell, grid_quads
 from garage2usd.assets.faces import level_lathe_faces
 from garage2usd.assets.mesh import Part, make_part
 
-__all__ = ["interior"]
+__all__ = ["behind_seats_m", "interior"]
 
 _DASH_FROM_COWL_M = 0.12
 _SEAT_WIDTH_M = 0.50
@@ -60,6 +60,11 @@ def interior(shell: Shell) -> list[Part]:
         make_part("Interior", [*lining, *wheel], "interior_dark", crease_deg=50),
         make_part("Seats", np.concatenate(seats), f"seat_{shell.shape.seats}", crease_deg=60),
     ]
+
+
+def behind_seats_m(shell: Shell) -> float:
+    """Metres from the nose to behind the last row of seats."""
+    return _rows(shell)[-1].s_m + _BACK_LEAN_M + _BACK_THICK_M
 
 
 def _floor_m(shell: Shell) -> float:

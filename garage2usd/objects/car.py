@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from typing import Self
 
+from garage2usd.assets.car_boot import open_boot_box, with_open_boot
 from garage2usd.assets.car_wheels import steered, steered_box
 from garage2usd.assets.cars import car, dusty, lit
 from garage2usd.assets.mesh import Asset
@@ -12,7 +13,7 @@ from garage2usd.config.vehicles import PAINTS, CarBody, body_named
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["KIND", "PAINT_SET", "CarSpec", "OwnCarSpec"]
+__all__ = ["KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec"]
 
 KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
 
@@ -87,6 +88,20 @@ class CarSpec(Spec, kind=KIND):
             return outlines
         wheels, front, rear = steered_box(body, self.steer_deg)
         return *outlines, rectangle(-wheels, front, wheels, rear)
+
+
+@dataclass(frozen=True)
+class OpenCarSpec(CarSpec):
+    """A parked car of the catalogue whose boot is open, if it has one: see `garage2usd.assets.car_boot.has_boot`."""
+
+    def asset(self) -> Asset:
+        """The car with its tailgate or boot lid up."""
+        return with_open_boot(super().asset(), self.measures)
+
+    def outlines(self) -> tuple[Polygon, ...]:
+        """Those of the car, and a rectangle below what is swung up."""
+        side, first, last = open_boot_box(self.measures)
+        return *super().outlines(), rectangle(-side, first, side, last)
 
 
 @dataclass(frozen=True)

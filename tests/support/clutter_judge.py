@@ -26,15 +26,15 @@ from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.errors import Garage2UsdError
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
-from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.grid import Cell
 
 PROFILES = ("cn-jgj100", "de-garvo", "us-ada", "uk-istructe")
-FLAT = {"floor", "stall", "ceiling", "sky", "floor_stain", "drain", "stall_number", "number_plate", "person_shadow"}
+FLAT = {"floor", "stall", "ceiling", "sky", "floor_stain", "drain", "stall_number", "number_plate"}
 PERSON_M = 2.0
 """What hangs higher is in nobody's way."""
 CAR_PATH_M = 1.8
 """Width of a car on the middle of a lane."""
-LEAF_M, ENTERED_M = 1.0, 1.0
+LEAF_M, ENTERED_M = 1.0, 3.0
 """Width of the door of a stair core; ground behind the door of an entrance or an exit."""
 STEP_M = 0.05
 TOUCH_M = 1e-4
@@ -127,7 +127,7 @@ def grounds(garage):
     yield from ((shapely.Polygon(stall.corners_m()), stall.name) for stall in layout.stalls)
     for core in layout.cores:
         yield swing(core), f"the door of a core on {core.square}"
-    yield from entered(layout.structure)
+    yield from entered(layout)
     yield from driven_lines(garage.graph)
     for car in dict.fromkeys((DesignCar(), design_car(garage.config.standard))):
         for proof in prove_stalls(layout, garage.graph, car=car):
@@ -148,22 +148,13 @@ def swing(core):
     return shapely.union_all(discs).intersection(before)
 
 
-def entered(structure):
-    """The ground behind the middle of the edge that each portal's door stands on."""
-    x, z = structure.column_edges_m, structure.row_edges_m
-    cells = np.pad(structure.cells, 1, constant_values=Cell.OBSTACLE)
-    for kind in (Cell.ENTRANCE, Cell.EXIT):
-        for row, col in structure.where(kind):
-            square = shapely.box(x[col], z[row], x[col + 1], z[row + 1])
-            for down, right in NEIGHBOUR_STEPS:
-                if cells[row + 1 + down, col + 1 + right] == Cell.OBSTACLE:
-                    continue
-                # a car drives between the door and the lane square
-                middle, other = square.centroid, affinity.translate(square, 0, 0).centroid
-                beyond = shapely.Point(
-                    middle.x + right * (x[col + 1] - x[col]) / 2, middle.y + down * (z[row + 1] - z[row]) / 2
-                )
-                yield shapely.LineString([other, beyond]).buffer(CAR_PATH_M / 2, cap_style="flat"), f"portal {row, col}"
+def entered(layout):
+    """The ground behind each vehicle door, as wide as it."""
+    for place in layout.placements:
+        if place.kind == "portal":
+            half = place.spec.door_width_m / 2
+            corners = map(place.to_world, ((-half, 0.0), (half, 0.0), (half, ENTERED_M), (-half, ENTERED_M)))
+            yield shapely.Polygon(corners), f"the door {place.name}"
 
 
 def driven_lines(graph):

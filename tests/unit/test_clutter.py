@@ -2,18 +2,23 @@
 
 import math
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 from shapely import affinity
+from support import clutter_judge
 
 from garage2usd.checks import check_layout
 from garage2usd.config import GarageConfig
 from garage2usd.config.clutter import ClutterConfig
 from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.errors import ConfigError
+from garage2usd.layout import ObjectTable
 from garage2usd.layout.building import ground_inside
+from garage2usd.layout.placement import placed
+from garage2usd.objects.person import PersonSpec
 from garage2usd.pipeline import generate
 from garage2usd.structure.grid import Cell
 
@@ -57,6 +62,8 @@ def test_usual_amounts_fill_in_what_is_not_given():
     assert ClutterConfig(amount="usual", bins=0).per_hundred("bins") == 0
     assert ClutterConfig(amount="usual").per_hundred("people") == 6
     assert ClutterConfig().per_hundred("people") == 0
+    assert ClutterConfig(amount="crowded", people=7).per_hundred("people") == 7
+    assert ClutterConfig(amount="crowded").per_hundred("bins") == 10
     with pytest.raises(ConfigError, match=r"clutter.people"):
         GarageConfig(clutter={"people": -1})
 
@@ -87,6 +94,34 @@ def test_over_many_garages_clutter_stands_on_ground_that_is_nobodys():
         assert not any(shape.intersects(lane) for shape in shapes for lane in carriageways(layout)), seed
     assert len(found) == len(MANY), found
     assert min(found.values()) > 20, found
+
+
+@pytest.mark.parametrize("seed", [0, 5, 7, 14, 23, 62])
+def test_a_judge_that_shares_no_code_finds_nothing_in_the_way(seed):
+    _, stalls, found, faults = clutter_judge.judged(seed)
+    assert stalls > 5
+    assert found
+    assert not faults
+
+
+def test_the_judge_sees_what_stands_in_the_way():
+    made = generate(GarageConfig(**clutter_judge.settings_of(7)))
+    layout = made.layout
+    person = PersonSpec(0)
+    stall, lane = layout.stalls[0], made.graph.middles_m[1]
+    car = next(iter(layout.of_kind("car")))
+    for point, height, met in (
+        (stall.centre_m, 0.0, stall.name),
+        (tuple(lane), 0.0, "lane"),
+        ((car.position_m[0], car.position_m[2]), 0.0, car.name),
+        ((-3.0, -3.0), 0.0, "edge of the floor"),
+        ((-3.0, -3.0), 0.2, "the floor, 0.2 m"),
+    ):
+        wrong = placed("Person_99", person, point, height_m=height)
+        faults, _ = clutter_judge.faults_of(
+            replace(made, layout=replace(layout, placements=ObjectTable([*layout.placements, wrong])))
+        )
+        assert any(name == "Person_99" and met in what for _, name, what in faults), met
 
 
 def carriageways(layout):

@@ -1,0 +1,264 @@
+"""Open boots: a tailgate or a boot lid cut out of a car's body and swung up, and the boot that is seen then."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.car_interior import behind_seats_m
+from garage2usd.assets.car_patches import Faces, flat
+from garage2usd.assets.car_shapes import SHAPES
+from garage2usd.assets.car_shell import Shell, both_sides, grid_quads
+from garage2usd.assets.cars import car
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.config.vehicles import CarBody
+
+__all__ = ["has_boot", "open_boot_box", "swung_up", "with_open_boot"]
+
+_Plane = tuple[tuple[float, float, float], float]
+"""Normal and distance: what is inside has `normal @ point >= distance`."""
+_CUT = ("Body", "Cabin", "Glass", "RearGlass", "Pillars", "Seams", "Trim", "Bright", "TailLamps", "ReverseLamps")
+_CUT += ("LampHousings", "PlateHolders")
+"""Parts of a car that a boot's shut line runs through."""
+_PANELS = ("Body", "Cabin")
+"""Those of them that have an inside."""
+_CREASES_DEG = {"Body": 32.0, "Cabin": 40.0}
+_GATE_FROM = 0.93
+"""Share of length from which a rear window ends at the tail, in a tailgate; else there is a boot lid behind it."""
+_OVER_SEAM_M = 0.012
+_BEFORE_ROOF_END_M, _BEHIND_DECK_M = 0.06, 0.035
+_WIDE = 0.715
+"""Half the width of a boot's lower part as a share of the body's: to the seam of the tailgate."""
+_THICK = np.array((0.0, -0.03, -0.05))
+"""From the outer skin of a panel to its inner one."""
+_RIM = np.array((0.0, -0.05, -0.10))
+"""The same around the opening."""
+_FLOOR_M = 0.10
+"""Of a boot below its sill."""
+_UNDER_SHELF_M = 0.03
+_GATE_RISES, _LID_TURNS = np.radians(8.0), np.radians(76.0)
+"""How far an open tailgate points up; how far a boot lid turns."""
+_HIGHEST_M = 1.85
+"""Up to where the far end of a tailgate rises over its hinge."""
+
+
+class _Boot(NamedTuple):
+    """The opening of a boot, in the car's axes: where it is cut, and what it turns about."""
+
+    shell: Shell
+    is_gate: bool
+    start_m: float
+    sill_m: float
+    half_m: float
+    belt_m: float
+
+    @property
+    def start_z(self) -> float:
+        """Z of its front edge."""
+        return self.start_m - self.shell.body.length_m / 2
+
+    @property
+    def hinge(self) -> tuple[float, float]:
+        """Y and Z of the axis that it turns about."""
+        return float(self.shell.surface(self.start_m, 16.0)[1]) - 0.03, self.start_z
+
+    @property
+    def turn_rad(self) -> float:
+        """How far it is open."""
+        if not self.is_gate:
+            return float(_LID_TURNS)
+        y, z = self.hinge
+        down, back = y - self.sill_m, self.shell.contour(self.sill_m, rear=True).line[0, 1] - z
+        most = np.arcsin(min(max((_HIGHEST_M - y) / np.hypot(down, back), 0.0), 1.0))
+        return float(np.arctan2(down, back) + min(_GATE_RISES, most))
+
+    def regions(self) -> list[list[_Plane]]:
+        """Convex pieces of space whose faces belong to what swings up: beside the windows and below them."""
+        over: list[_Plane] = [((0.0, 0.0, 1.0), self.start_z), ((0.0, 1.0, 0.0), self.belt_m)]
+        below: list[_Plane] = [
+            ((0.0, 0.0, 1.0), self.start_z),
+            ((0.0, -1.0, 0.0), -self.belt_m),
+            ((0.0, 1.0, 0.0), self.sill_m),
+            *_both(((-1.0, 0.0, 0.0), -self.half_m)),
+        ]
+        if not self.is_gate:
+            return [below, [*over, *_both(((-1.0, 0.0, 0.0), -self.half_m))]]
+        # along the outer edges of the rear window
+        top, foot = (self.shell.surface(s, 11.9) for s in (self.start_m, self.shell.deck - 0.02))
+        lean = (top[0] - foot[0]) / (top[1] - foot[1])
+        return [below, [*over, *_both(((-1.0, float(lean), 0.0), float(lean * foot[1] - foot[0])))]]
+
+
+def _both(plane: _Plane) -> tuple[_Plane, _Plane]:
+    """A plane on the right and its mirror image."""
+    (x, y, z), distance = plane
+    return plane, ((-x, y, z), distance)
+
+
+def has_boot(body: CarBody) -> bool:
+    """Whether a body of the catalogue has a tailgate or a boot lid: pickups and panel vans have neither."""
+    shape = SHAPES[body.name]
+    return shape.bed is None and shape.glass_until is None
+
+
+def with_open_boot(asset: Asset, body: CarBody) -> Asset:
+    """The same car with its boot open.
+
+    Parameters
+    ----------
+    asset
+        A car of the catalogue that has a boot.
+    body
+        Its measures.
+    """
+    boot = _boot(body)
+    kept: list[Part] = []
+    moved: list[Part] = []
+    rim: list[Faces] = []
+    for part in asset.parts:
+        if part.name == "Spoiler" and boot.is_gate:
+            moved.append(_swung(part, boot))
+            continue
+        if part.name not in _CUT:
+            kept.append(part)
+            continue
+        inside, outside = _divided(_faces(part), boot.regions())
+        crease = _CREASES_DEG.get(part.name, 38.0)
+        if outside:
+            kept.append(make_part(part.name, outside, part.material, collider=part.collider, crease_deg=crease))
+        if inside:
+            gate = make_part(f"Boot{part.name}", inside, part.material, crease_deg=crease)
+            moved.append(_swung(gate, boot))
+            if part.name in _PANELS:
+                edges = _border(gate)
+                inner = [face[::-1] + _THICK for face in inside]
+                lining = make_part(f"Boot{part.name}Lining", [*inner, *_band(edges, _THICK)], "interior_dark")
+                moved.append(_swung(lining, boot))
+                rim.append(_band(edges[:, ::-1], _RIM))
+    body_parts = [part for part in moved if part.name == "BootBody"]
+    moved = [replace(part, collider=Collider.CONVEX_HULL) if part in body_parts else part for part in moved]
+    well = make_part("BootWell", [*np.concatenate(rim), *flat(_well(boot))], "interior_dark", crease_deg=30.0)
+    return replace(asset, parts=(*kept, *moved, well))
+
+
+@lru_cache(maxsize=64)
+def open_boot_box(body: CarBody) -> tuple[float, float, float]:
+    """What an open boot covers on the floor in metres: the farthest X on either side, the first and the last Z."""
+    parts = [part for part in with_open_boot(car(body), body).parts if part.name.startswith("Boot")]
+    points = np.concatenate([part.points for part in parts if part.name != "BootWell"]).astype(float)
+    return float(np.abs(points[:, 0]).max()), float(points[:, 2].min()), float(points[:, 2].max())
+
+
+def swung_up(points: NDArray[np.float64], body: CarBody) -> NDArray[np.float64]:
+    """Points (x, y, z) on a boot, shape (n, 3), as they are when it is open."""
+    return _turned(points, _boot(body))
+
+
+@lru_cache(maxsize=64)
+def _boot(body: CarBody) -> _Boot:
+    shell = Shell(body, SHAPES[body.name])
+    is_gate = shell.deck > _GATE_FROM * body.length_m
+    start = shell.roof_rear - _BEFORE_ROOF_END_M if is_gate else shell.deck + _BEHIND_DECK_M
+    sill = shell.bumper_top(rear=True) + 0.03 + _OVER_SEAM_M
+    belt = float(shell.surface(shell.deck - 0.02, 10.0)[1]) if is_gate else (sill + shell.end_top(rear=True)) / 2
+    return _Boot(shell, is_gate, start, sill, _WIDE * body.width_m / 2, belt)
+
+
+def _turned(points: NDArray[np.float64], boot: _Boot) -> NDArray[np.float64]:
+    """Points turned about the hinge, the tail upwards."""
+    y, z = boot.hinge
+    cos, sin = np.cos(boot.turn_rad), np.sin(boot.turn_rad)
+    up, back = points[:, 1] - y, points[:, 2] - z
+    return np.stack([points[:, 0], y + up * cos + back * sin, z + back * cos - up * sin], axis=1)
+
+
+def _swung(part: Part, boot: _Boot) -> Part:
+    """A part that swings up with the boot."""
+    y, z = boot.hinge
+    points = _turned(part.points.astype(float), boot)
+    normals = _turned(part.normals.astype(float) + (0.0, y, z), boot) - (0.0, y, z)
+    return replace(part, points=points.astype(np.float32), normals=normals.astype(np.float32))
+
+
+def _faces(part: Part) -> list[Face]:
+    return np.split(part.points[part.face_indices].astype(float), np.cumsum(part.face_counts)[:-1])
+
+
+def _divided(faces: Sequence[Face], regions: Sequence[Sequence[_Plane]]) -> tuple[list[Face], list[Face]]:
+    """The pieces of planar convex faces inside of any of some convex regions, and those outside of all."""
+    inside: list[Face] = []
+    outside = list(faces)
+    for region in regions:
+        within, outside = outside, []
+        for normal, distance in region:
+            halves = [_halves(face, np.array(normal), distance) for face in within]
+            within = [near for near, _ in halves if near is not None]
+            outside += [far for _, far in halves if far is not None]
+        inside += within
+    return inside, outside
+
+
+def _halves(face: Face, normal: NDArray[np.float64], distance: float) -> tuple[Face | None, Face | None]:
+    """What of a face lies on either side of a plane (Sutherland and Hodgman, 1974)."""
+    height = face @ normal - distance
+    height[np.abs(height) < 1e-6] = 0.0  # noqa: PLR2004 - a micrometre
+    if (height >= 0).all():
+        return face, None
+    if (height <= 0).all():
+        return None, face
+    sides: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
+    for corner, after, low, high in zip(face, np.roll(face, -1, 0), height, np.roll(height, -1), strict=True):
+        for side, sign in zip(sides, (1, -1), strict=True):
+            if low * sign >= 0:
+                side.append(corner)
+            if low * high < 0:
+                side.append(corner + (after - corner) * (low / (low - high)))
+    return np.array(sides[0]), np.array(sides[1])
+
+
+def _border(part: Part) -> NDArray[np.float64]:
+    """The edges of a part that no other face shares, as its faces run; float64, shape (edges, 2, 3)."""
+    ends = np.cumsum(part.face_counts)
+    after = np.arange(len(part.face_indices)) + 1
+    after[ends - 1] = ends - part.face_counts
+    edges = np.stack([part.face_indices, part.face_indices[after]], axis=1)
+    known = set(map(tuple, edges.tolist()))
+    border = [edge for edge in edges.tolist() if (edge[1], edge[0]) not in known]
+    points: NDArray[np.float64] = part.points[np.array(border)].astype(float)
+    return points
+
+
+def _band(edges: NDArray[np.float64], inwards: NDArray[np.float64]) -> Faces:
+    """Quads from edges inwards, which go on where the faces of these edges end."""
+    start, end = edges[:, 0], edges[:, 1]
+    return np.stack([end, start, start + inwards, end + inwards], axis=1)
+
+
+def _well(boot: _Boot) -> Faces:
+    """Floor, sides, front and sill of the boot, seen from within, and its cover where a shelf lies over it."""
+    shell = boot.shell
+    half_length, x = shell.body.length_m / 2, boot.half_m - 0.005
+    first = min(behind_seats_m(shell), boot.start_m - 0.1)
+    front, floor = first - half_length, boot.sill_m - _FLOOR_M
+    across = np.linspace(0.0, x, 5)
+    contour = shell.contour(boot.sill_m, rear=True)
+    tail = contour.place(np.array([contour.arc_at_x(float(at)) for at in across]), 0.0)[:, 1] + _RIM[2]
+
+    def line(y: float, z: float | NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.stack([across, np.full(5, y), np.broadcast_to(z, 5)], axis=1)
+
+    def top(s: float) -> float:
+        return max(shell.shoulder(s) - _UNDER_SHELF_M, floor + 0.05)
+
+    spans = np.linspace(first, float(tail[-1]) + half_length, 6).tolist()
+    side = np.array([[(x, y, s - half_length) for y in (floor, top(s))] for s in spans])
+    sheets = [
+        np.stack([line(boot.sill_m + _RIM[1], tail), line(floor, tail), line(floor, front), line(top(first), front)]),
+        side[::-1],
+    ]
+    if not boot.is_gate:
+        sheets.append(np.stack([line(top(first), front), line(top(boot.start_m), boot.start_z)]))
+    return both_sides(np.concatenate([grid_quads(sheet).reshape(-1, 4, 3) for sheet in sheets]))
