@@ -16,7 +16,7 @@ from garage2usd.assets.cars import car
 from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
 from garage2usd.config.vehicles import CarBody
 
-__all__ = ["has_boot", "open_boot_box", "swung_up", "with_open_boot"]
+__all__ = ["has_boot", "open_boot_box", "with_open_boot", "with_rear_swung_up"]
 
 _Plane = tuple[tuple[float, float, float], float]
 """Normal and distance: what is inside has `normal @ point >= distance`."""
@@ -152,9 +152,15 @@ def open_boot_box(body: CarBody) -> tuple[float, float, float]:
     return float(np.abs(points[:, 0]).max()), float(points[:, 2].min()), float(points[:, 2].max())
 
 
-def swung_up(points: NDArray[np.float64], body: CarBody) -> NDArray[np.float64]:
-    """Points (x, y, z) on a boot, shape (n, 3), as they are when it is open."""
-    return _turned(points, _boot(body))
+def with_rear_swung_up(part: Part, body: CarBody) -> Part:
+    """Number plates of a car, of which the rear one goes with the open boot; each looks along Z."""
+    moved = _swung(part, _boot(body))
+    is_rear, looks_back = part.points[:, 2:] > 0, part.normals[:, 2:] > 0
+    return replace(
+        part,
+        points=np.where(is_rear, moved.points, part.points),
+        normals=np.where(looks_back, moved.normals, part.normals),
+    )
 
 
 @lru_cache(maxsize=64)

@@ -33,6 +33,7 @@ _USUAL = {
     "boxes": 2.0,
     "pallets": 1.0,
     "bags": 1.0,
+    "open_boots": 1.5,
 }
 """Per hundred stalls; assumed, as nobody has published a count."""
 
@@ -63,6 +64,8 @@ class ClutterConfig(Settings):
     """Pallets, bare or in stacks; usually 1."""
     bags: float | None = Field(None, ge=0, le=200)
     """Bags that are put down; usually 1."""
+    open_boots: float | None = Field(None, ge=0, le=200)
+    """Parked cars whose tailgate or boot lid is open; usually 1.5."""
 
     def per_hundred(self, what: str) -> float:
         """How many of something, a name of a setting, there are for each hundred stalls."""

@@ -13,8 +13,12 @@ from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits
 from garage2usd.layout import Layout, Placement, lay_out
+from garage2usd.layout.building import ground_inside
+from garage2usd.layout.clutter import used_grounds
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.grounds import Grounds
+from garage2usd.layout.open_boots import stalls_of_open_boots
+from garage2usd.layout.tiles import TileGrid
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneSquares
 
@@ -155,22 +159,29 @@ def with_clutter(
     -----
     What the ways of all proven stalls sweep is kept clear with a margin, so that these ways stay clear.
     """
-    swept = [
-        hull
-        for car in dict.fromkeys(cars)
-        for proof in prove_stalls(layout, graph, car=car, progress=progress)
-        for way in (proof.way_in, proof.way_out)
-        if way is not None and way.moves
-        for hull in _swept(way, car)
-    ]
-    kept_clear = shapely.buffer(shapely.union_all(swept), _CLEAR_M)
+    swept: dict[str, list[shapely.Geometry]] = {}
+    for car in dict.fromkeys(cars):
+        for proof in prove_stalls(layout, graph, car=car, progress=progress):
+            ways = (way for way in (proof.way_in, proof.way_out) if way is not None and way.moves)
+            swept.setdefault(proof.stall, []).extend(hull for way in ways for hull in _swept(way, car))
+    of_stall = {stall: shapely.buffer(shapely.union_all(hulls), _CLEAR_M) for stall, hulls in swept.items()}
+    open_boots = stalls_of_open_boots(
+        layout.placements,
+        layout.stalls,
+        inside=ground_inside(layout.structure),
+        used=used_grounds(TileGrid(layout.structure, graph, config.bay), layout.cores),
+        swept=of_stall,
+        per_hundred=config.clutter.per_hundred("open_boots"),
+        seed=config.seed,
+    )
     cluttered = lay_out(
         layout.structure,
         graph,
         config,
         unreachable=layout.unreachable,
         held_back=layout.held_back,
-        kept_clear=kept_clear,
+        kept_clear=shapely.union_all(list(of_stall.values())),
+        open_boots=open_boots,
     )
     return replace(cluttered, blocked=layout.blocked)
 

@@ -33,6 +33,7 @@ from garage2usd.layout.lighting import LightLevels, light_up
 from garage2usd.layout.mounts import mounted_objects
 from garage2usd.layout.no_parking import no_parking_signs
 from garage2usd.layout.number_plates import number_plates
+from garage2usd.layout.open_boots import opened
 from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.own_cars import with_own_cars
 from garage2usd.layout.parked_cars import park_cars
@@ -201,6 +202,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     unreachable: Collection[str] = (),
     held_back: Collection[str] = (),
     kept_clear: shapely.Geometry | None = None,
+    open_boots: Collection[str] = (),
 ) -> Layout:
     """Place every object of a garage.
 
@@ -220,6 +222,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
     kept_clear
         The ground (x, z) that cars need on their ways into stalls and out; without it nothing stands about, whatever
         ``clutter`` says.
+    open_boots
+        Names of the stalls whose cars have their boots open.
 
     Returns
     -------
@@ -256,6 +260,8 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         draws,
     )
 
+    cars = [opened(car) if car.stall in open_boots else car for car in parked.cars]
+
     def parts() -> Iterator[Iterable[Placement]]:
         # what lies on the lanes decides what is painted there
         crossings = _crossings(grid, cores)
@@ -268,7 +274,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         # a coat on the stalls covers what was painted before it
         yield stall_panels(stalls, look.markings, grid, drawn.ghosts if look.floor.bays == AISLE else {})
         yield wheel_stops(stalls, fittings, config.standard)
-        yield [*parked.cars, *number_plates(stalls, parked.cars, draws, country)]
+        yield [*cars, *number_plates(stalls, cars, draws, country)]
         yield (closing := cones(grid, stalls, parked.touched, fittings, draws, built_on=core_on))
         yield stall_numbers(stalls, grid, look, fittings)
         yield (charging := chargers(stalls))
@@ -293,7 +299,7 @@ def lay_out(  # noqa: PLR0915 - a statement or two for each kind of object
         yield zone_plates(pillars, walls, blocks, stalls, zones) if zones else ()
         yield hung
         if kept_clear is not None:
-            standing = [*pillars, *walls, *blocks, *parked.cars, *closing, *charging, *signs, *gates]
+            standing = [*pillars, *walls, *blocks, *cars, *closing, *charging, *signs, *gates]
             yield clutter(grid, stalls, cores, standing, hung, config, kept_clear=kept_clear)
 
     return Layout(

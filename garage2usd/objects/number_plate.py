@@ -3,14 +3,15 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
+from garage2usd.assets.car_boot import with_rear_swung_up
 from garage2usd.assets.countries import Country
 from garage2usd.assets.mesh import Asset
 from garage2usd.assets.number_plates import PLATE_STYLES, number_plates
 from garage2usd.config.vehicles import CarBody, body_named
-from garage2usd.objects.car import CarSpec, OwnCarSpec
+from garage2usd.objects.car import CarSpec, OpenCarSpec, OwnCarSpec
 from garage2usd.objects.kind import Kind, Spec, TilePart, VariantSet
 
-__all__ = ["KIND", "NumberPlateSpec", "OwnPlateSpec", "plates_on"]
+__all__ = ["KIND", "NumberPlateSpec", "OpenPlateSpec", "OwnPlateSpec", "plates_on"]
 
 KIND = Kind(
     "number_plate",
@@ -48,6 +49,16 @@ class NumberPlateSpec(Spec, kind=KIND):
 
 
 @dataclass(frozen=True)
+class OpenPlateSpec(NumberPlateSpec):
+    """The plates of a car of the catalogue whose boot is open, with the rear plate on it."""
+
+    def asset(self) -> Asset:
+        """Both plates with the text."""
+        asset = super().asset()
+        return replace(asset, parts=tuple(with_rear_swung_up(part, self.measures) for part in asset.parts))
+
+
+@dataclass(frozen=True)
 class OwnPlateSpec(NumberPlateSpec):
     """The plates of a car that is a model of one's own.
 
@@ -69,4 +80,5 @@ def plates_on(car: CarSpec, text: str, country: Country) -> NumberPlateSpec:
     """The plates of a car, whether it is of the catalogue or a model of one's own."""
     if isinstance(car, OwnCarSpec):
         return OwnPlateSpec(car.body, text, country, car.measures)
-    return NumberPlateSpec(car.body, text, country)
+    of = OpenPlateSpec if isinstance(car, OpenCarSpec) else NumberPlateSpec
+    return of(car.body, text, country)
