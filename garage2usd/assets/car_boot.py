@@ -183,9 +183,9 @@ def _turned(points: NDArray[np.float64], boot: _Boot) -> NDArray[np.float64]:
 
 def _swung(part: Part, boot: _Boot) -> Part:
     """A part that swings up with the boot."""
-    y, z = boot.hinge
+    hinge = np.array((0.0, *boot.hinge))
     points = _turned(part.points.astype(float), boot)
-    normals = _turned(part.normals.astype(float) + (0.0, y, z), boot) - (0.0, y, z)
+    normals = _turned(part.normals.astype(float) + hinge, boot) - hinge
     return replace(part, points=points.astype(np.float32), normals=normals.astype(np.float32))
 
 

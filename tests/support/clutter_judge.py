@@ -21,9 +21,9 @@ from shapely import affinity
 from garage2usd.checks.swept_path import design_car
 from garage2usd.config import GarageConfig
 from garage2usd.driving import DesignCar
-
 from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.errors import Garage2UsdError
+from garage2usd.objects.car import OpenCarSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Cell
@@ -73,10 +73,11 @@ def faults_of(garage):
     grown = [shape.buffer(-TOUCH_M) for shape in shapes]
     found = [
         (clutter[one].kind, clutter[one].name, taken[other][1])
-        for one, other in shapely.STRtree([shape for shape, _ in taken]).query(grown, predicate="intersects").T
+        for one, other in shapely.STRtree([shape for shape, _, _ in taken]).query(grown, predicate="intersects").T
     ]
     one, other = shapely.STRtree(grown).query(grown, predicate="intersects")
     found += [(clutter[i].kind, clutter[i].name, clutter[j].name) for i, j in zip(one, other, strict=True) if i < j]
+    found += boots_in_the_way(layout, taken)
     inside = floors(layout)
     for place, shape in zip(clutter, shapes, strict=True):
         low = min(float(part.points[:, 1].min()) for part in asset_of(place.spec).parts)
@@ -88,20 +89,36 @@ def faults_of(garage):
 
 
 def objects(layout):
-    """Each piece of an object, as high as people are, seen from above."""
+    """Each piece of an object, as high as people are, seen from above, with its name and the stall that it is of."""
     for place in layout.placements:
         if place.spec.kind.group != "Clutter" and place.kind not in FLAT:
             for shape, low in pieces(place):
                 if place.position_m[1] + low < PERSON_M:
-                    yield shape, place.name
+                    yield shape, place.name, place.stall
+
+
+def boots_in_the_way(layout, taken):
+    """What an open boot meets that is not of the stall where its car stands."""
+    tree = shapely.STRtree([shape for shape, _, _ in taken])
+    for place in layout.placements:
+        if isinstance(place.spec, OpenCarSpec):
+            parts = [part for part in asset_of(place.spec).parts if part.name.startswith("Boot")]
+            points = np.concatenate([part.points[:, [0, 2]] for part in parts]).astype(float)
+            boot = placed_at(shapely.MultiPoint(points).convex_hull, place).buffer(-TOUCH_M)
+            for other in tree.query(boot, predicate="intersects").tolist():
+                if taken[other][2] != place.stall:
+                    yield "car", f"the boot of {place.name} in {place.stall}", taken[other][1]
 
 
 def pieces(place):
     """The convex hull of each mesh of an object seen from above, and how low it reaches, by shapely's own turns."""
+    return ((placed_at(shape, place), low) for shape, low in _hulls(place.spec.shape))
+
+
+def placed_at(shape, place):
+    """A shape on the floor where an object's origin is."""
     x, _, z = place.position_m
-    for shape, low in _hulls(place.spec.shape):
-        turned = affinity.rotate(shape, -math.degrees(place.yaw_rad), origin=(0, 0))
-        yield affinity.translate(turned, x, z), low
+    return affinity.translate(affinity.rotate(shape, -math.degrees(place.yaw_rad), origin=(0, 0)), x, z)
 
 
 @lru_cache(maxsize=4096)
@@ -124,16 +141,16 @@ def floors(layout):
 def grounds(garage):
     """The ground that is somebody's: stalls, doors and what they swing over, lanes, what cars sweep on their ways."""
     layout = garage.layout
-    yield from ((shapely.Polygon(stall.corners_m()), stall.name) for stall in layout.stalls)
+    yield from ((shapely.Polygon(stall.corners_m()), stall.name, stall.name) for stall in layout.stalls)
     for core in layout.cores:
-        yield swing(core), f"the door of a core on {core.square}"
+        yield swing(core), f"the door of a core on {core.square}", None
     yield from entered(layout)
     yield from driven_lines(garage.graph)
     for car in dict.fromkeys((DesignCar(), design_car(garage.config.standard))):
         for proof in prove_stalls(layout, garage.graph, car=car):
             for way in (proof.way_in, proof.way_out):
                 if way is not None and way.moves:
-                    yield swept(way, car), f"a way of {proof.stall}"
+                    yield swept(way, car), f"a way of {proof.stall}", proof.stall
 
 
 def swing(core):
@@ -154,14 +171,14 @@ def entered(layout):
         if place.kind == "portal":
             half = place.spec.door_width_m / 2
             corners = map(place.to_world, ((-half, 0.0), (half, 0.0), (half, ENTERED_M), (-half, ENTERED_M)))
-            yield shapely.Polygon(corners), f"the door {place.name}"
+            yield shapely.Polygon(corners), f"the door {place.name}", None
 
 
 def driven_lines(graph):
     """A car's width along the middle of each lane from square to square."""
     for edge in graph.edges:
         line = shapely.LineString(graph.middles_m[[edge.start, edge.end]])
-        yield line.buffer(CAR_PATH_M / 2, cap_style="flat"), f"the lane from {edge.start} to {edge.end}"
+        yield line.buffer(CAR_PATH_M / 2, cap_style="flat"), f"the lane from {edge.start} to {edge.end}", None
 
 
 def swept(way, car):
@@ -184,7 +201,9 @@ def judged(seed):
     except Garage2UsdError as error:
         return seed, 0, Counter(), [("none", "garage", f"{type(error).__name__}: {error}")]
     faults, clutter = faults_of(garage)
-    return seed, len(garage.layout.stalls), Counter(place.kind for place in clutter), faults
+    kinds = Counter(place.kind for place in clutter)
+    kinds["open boot"] = sum(isinstance(place.spec, OpenCarSpec) for place in garage.layout.placements)
+    return seed, len(garage.layout.stalls), kinds, faults
 
 
 def main():

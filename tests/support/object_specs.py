@@ -2,6 +2,7 @@
 
 import string
 
+from garage2usd.assets.car_boot import has_boot
 from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS
@@ -10,7 +11,7 @@ from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
 from garage2usd.objects.bicycle import BicycleSpec
 from garage2usd.objects.cable_tray import CableTraySpec
-from garage2usd.objects.car import CarSpec, OwnCarSpec
+from garage2usd.objects.car import CarSpec, OpenCarSpec, OwnCarSpec
 from garage2usd.objects.cardboard_box import BoxSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
@@ -27,7 +28,7 @@ from garage2usd.objects.lamp import LampSpec
 from garage2usd.objects.mirror import MirrorSpec
 from garage2usd.objects.motorbike import MotorbikeSpec
 from garage2usd.objects.no_parking_sign import NoParkingSignSpec
-from garage2usd.objects.number_plate import NumberPlateSpec, OwnPlateSpec
+from garage2usd.objects.number_plate import NumberPlateSpec, OpenPlateSpec, OwnPlateSpec
 from garage2usd.objects.obstacle import ObstacleSpec
 from garage2usd.objects.pallet import PalletSpec
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -147,6 +148,8 @@ SPECS = {
     **{f"pallets_{count}": PalletSpec(count) for count in (1, 5)},
     "pallets_upright": PalletSpec(2, is_upright=True),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
+    **{f"open_{body.name}": OpenCarSpec(body.name, PAINTS[0]) for body in CAR_BODIES if has_boot(body)},
+    "open_plate": OpenPlateSpec("saloon", "K47 M92"),
     "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
     "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),
     "lit": CarSpec("small_suv", PAINTS[0], is_lit=True),
