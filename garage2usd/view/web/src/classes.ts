@@ -36,6 +36,17 @@ const COLOURS: Record<string, string> = {
   hatching: "#ff9d5c",
   stall_symbol: "#86e0ff",
   number_plate: "#f7f3c4",
+  waste_bin: "#3f8f4f",
+  cardboard_box: "#c69a5b",
+  pallet: "#d8b483",
+  bicycle: "#00b4ff",
+  motorbike: "#0a6fd6",
+  shopping_trolley: "#9aa7ff",
+  pram: "#ff9ad5",
+  bag: "#7c4dff",
+  person: "#ff2e2e",
+  hydrant_cabinet: "#d81b1b",
+  fire_extinguisher: "#ff5e5e",
 };
 
 /** Colour of a class, as CSS has it; one that is not known gets a hue of its own by its name. */
@@ -68,8 +79,11 @@ export const OVERHEAD = new Set([
   "light",
 ]);
 
+/** People and things that stand about. */
+const STANDING = ["person", "bicycle", "motorbike", "shopping_trolley", "pram", "waste_bin", "cardboard_box", "pallet", "bag"];
+
 /** What keeps light from the floor around it. */
-export const SHADING = new Set(["car", "column", "wall", "obstacle", "charger", "traffic_cone", "barrier", "vehicle_door"]);
+export const SHADING = new Set(["car", "column", "wall", "obstacle", "charger", "traffic_cone", "barrier", "vehicle_door", ...STANDING]);
 
 export const USE_COLOURS: Record<string, string> = {
   standard: "#4aa3ff",
