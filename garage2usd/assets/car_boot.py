@@ -1,8 +1,9 @@
 """Open boots: a tailgate or a boot lid cut out of a car's body and swung up, and the boot that is seen then."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from itertools import compress
 from typing import NamedTuple
 
 import numpy as np
@@ -118,18 +119,14 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
     kept: list[Part] = []
     moved: list[Part] = []
     rim: list[Faces] = []
-    for part in asset.parts:
-        if part.name == "Spoiler" and boot.is_gate:
-            moved.append(_swung(part, boot))
-            continue
-        if part.name not in _CUT:
+    for part, inside, outside in _cut(asset, boot):
+        if not inside:
             kept.append(part)
-            continue
-        inside, outside = _divided(_faces(part), boot.regions())
-        crease = _CREASES_DEG.get(part.name, 38.0)
-        if outside:
+        elif not outside:
+            moved.append(_swung(part, boot))
+        else:
+            crease = _CREASES_DEG.get(part.name, 38.0)
             kept.append(make_part(part.name, outside, part.material, collider=part.collider, crease_deg=crease))
-        if inside:
             gate = make_part(f"Boot{part.name}", inside, part.material, crease_deg=crease)
             moved.append(_swung(gate, boot))
             if part.name in _PANELS:
@@ -138,8 +135,7 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
                 lining = make_part(f"Boot{part.name}Lining", [*inner, *_band(edges, _THICK)], "interior_dark")
                 moved.append(_swung(lining, boot))
                 rim.append(_band(edges[:, ::-1], _RIM))
-    body_parts = [part for part in moved if part.name == "BootBody"]
-    moved = [replace(part, collider=Collider.CONVEX_HULL) if part in body_parts else part for part in moved]
+    moved = [replace(part, collider=Collider.CONVEX_HULL) if part.name == "BootBody" else part for part in moved]
     well = make_part("BootWell", [*np.concatenate(rim), *flat(_well(boot))], "interior_dark", crease_deg=30.0)
     return replace(asset, parts=(*kept, *moved, well))
 
@@ -147,8 +143,9 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
 @lru_cache(maxsize=64)
 def open_boot_box(body: CarBody) -> tuple[float, float, float]:
     """What an open boot covers on the floor in metres: the farthest X on either side, the first and the last Z."""
-    parts = [part for part in with_open_boot(car(body), body).parts if part.name.startswith("Boot")]
-    points = np.concatenate([part.points for part in parts if part.name != "BootWell"]).astype(float)
+    boot = _boot(body)
+    cut = [np.concatenate(inside) for _, inside, _ in _cut(car(body), boot) if inside]
+    points = _turned(np.concatenate([each + off for each in cut for off in (0.0, _THICK)]), boot)
     return float(np.abs(points[:, 0]).max()), float(points[:, 2].min()), float(points[:, 2].max())
 
 
@@ -179,6 +176,24 @@ def _turned(points: NDArray[np.float64], boot: _Boot) -> NDArray[np.float64]:
     cos, sin = np.cos(boot.turn_rad), np.sin(boot.turn_rad)
     up, back = points[:, 1] - y, points[:, 2] - z
     return np.stack([points[:, 0], y + up * cos + back * sin, z + back * cos - up * sin], axis=1)
+
+
+def _cut(asset: Asset, boot: _Boot) -> Iterator[tuple[Part, list[Face], list[Face]]]:
+    """Each part of a car with its faces that belong to what swings up, and the others where there are such."""
+    for part in asset.parts:
+        if part.name == "Spoiler" and boot.is_gate:
+            yield part, _faces(part), []
+        elif part.name in _CUT:
+            faces = _faces(part)
+            behind = [face[:, 2].max() > boot.start_z for face in faces]
+            inside, outside = _divided(list(compress(faces, behind)), boot.regions())
+            yield (
+                part,
+                inside,
+                [*(face for face, is_behind in zip(faces, behind, strict=True) if not is_behind), *outside],
+            )
+        else:
+            yield part, [], []
 
 
 def _swung(part: Part, boot: _Boot) -> Part:

@@ -13,12 +13,9 @@ from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits
 from garage2usd.layout import Layout, Placement, lay_out
-from garage2usd.layout.building import ground_inside
-from garage2usd.layout.clutter import used_grounds
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.grounds import Grounds
 from garage2usd.layout.open_boots import stalls_of_open_boots
-from garage2usd.layout.tiles import TileGrid
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneSquares
 
@@ -168,8 +165,6 @@ def with_clutter(
     open_boots = stalls_of_open_boots(
         layout.placements,
         layout.stalls,
-        inside=ground_inside(layout.structure),
-        used=used_grounds(TileGrid(layout.structure, graph, config.bay), layout.cores),
         swept=of_stall,
         per_hundred=config.clutter.per_hundred("open_boots"),
         seed=config.seed,

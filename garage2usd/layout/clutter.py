@@ -28,7 +28,7 @@ from garage2usd.objects.waste_bin import BIN_COLOURS, BinSpec
 from garage2usd.randomness import Step, named_generator
 from garage2usd.structure.grid import Cell
 
-__all__ = ["clutter", "used_grounds"]
+__all__ = ["clutter"]
 
 _QUARTER_TURN = np.pi / 2
 _TRIES = 600
@@ -144,29 +144,21 @@ def _free_grounds(
     kept_clear: shapely.Geometry,
 ) -> list[shapely.Polygon]:
     """The pieces of ground that nobody needs, in the order of their places."""
+    cores = tuple(cores)
+    driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
     parked = grounds_of([stall.corners_m() for stall in stalls])
     touched = grounds_of([outline for place in standing for outline in place.outlines()])
     reached = grounds_of([outline for place in hung for outline in place.outlines()])
     used = [
         kept_clear,
-        *used_grounds(grid, cores),
-        *shapely.buffer(parked, _LINE_M, join_style="mitre"),
+        *shapely.buffer([*driven, *parked], _LINE_M, join_style="mitre"),
+        *grounds_of([core_and_landing(core) for core in cores]),
+        *(shapely.Point(core.door_m).buffer(_DOOR_M) for core in cores),
         *shapely.buffer(touched, _APART_M),
         *shapely.buffer(reached, _BEFORE_EQUIPMENT_M),
     ]
     free = ground_inside(grid.structure).difference(shapely.union_all(used))
     return sorted(_wide_pieces(free), key=lambda piece: piece.bounds)
-
-
-def used_grounds(grid: TileGrid, cores: Iterable[Core]) -> list[shapely.Geometry]:
-    """Carriageways, and the ground before the doors of stair cores: where nobody and nothing stands."""
-    cores = tuple(cores)
-    driven = [carriageway(tile, grid.setback_m) for tile in grid if tile.cell is not Cell.FREE]
-    return [
-        *shapely.buffer(driven, _LINE_M, join_style="mitre"),
-        *grounds_of([core_and_landing(core) for core in cores]),
-        *(shapely.Point(core.door_m).buffer(_DOOR_M) for core in cores),
-    ]
 
 
 def _wide_pieces(ground: shapely.Geometry) -> list[shapely.Polygon]:

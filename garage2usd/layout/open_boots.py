@@ -1,9 +1,8 @@
-"""Parked cars whose boots are open: as many as there is room for behind cars, on ground that nobody needs."""
+"""Parked cars whose boots are open: within their stalls, where no other car needs the ground on its way."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import astuple
 
-import numpy as np
 import shapely
 
 from garage2usd.assets.car_boot import has_boot
@@ -16,7 +15,6 @@ __all__ = ["opened", "stalls_of_open_boots"]
 
 _APART_M = 0.05
 """What is left around an open boot."""
-_TOUCH_M = 1e-3
 
 
 def opened(car: Placement) -> Placement:
@@ -31,8 +29,6 @@ def stalls_of_open_boots(
     placements: Iterable[Placement],
     stalls: Iterable[Stall],
     *,
-    inside: shapely.Geometry,
-    used: Iterable[shapely.Geometry],
     swept: Mapping[str, shapely.Geometry],
     per_hundred: float,
     seed: int,
@@ -43,10 +39,6 @@ def stalls_of_open_boots(
     ----------
     placements, stalls
         All objects and stalls of the garage.
-    inside
-        Its ground (x, z).
-    used
-        Ground that is kept clear for everybody, such as carriageways and the landings of stair cores.
     swept
         Ground that cars need on their ways into each stall and out, by the stall's name. A car that stands in a stall
         need not keep its own clear.
@@ -65,11 +57,10 @@ def stalls_of_open_boots(
     wanted = int(per_hundred * len(stalls) / 100 + rng.random())
     cars = [place for place in placements if type(place.spec) is CarSpec and has_boot(place.spec.measures)]
     taken = [
-        *((stall.name, shapely.Polygon(stall.corners_m()).buffer(-_TOUCH_M)) for stall in stalls),
         *swept.items(),
-        *(("", ground) for ground in used),
         *((place.stall or "", ground) for place in placements for ground in grounds_of(place.outlines())),
     ]
+    grounds = {stall.name: shapely.Polygon(stall.corners_m()) for stall in stalls}
     tree = shapely.STRtree([ground for _, ground in taken])
     chosen: list[str] = []
     for number in rng.permutation(len(cars)).tolist():
@@ -78,6 +69,6 @@ def stalls_of_open_boots(
         car = cars[number]
         boot = shapely.Polygon(opened(car).outlines()[-1])
         met = {taken[found][0] for found in tree.query(boot.buffer(_APART_M), predicate="intersects").tolist()}
-        if car.stall is not None and met <= {car.stall} and inside.contains(boot):
+        if car.stall is not None and met <= {car.stall} and grounds[car.stall].contains(boot):
             chosen.append(car.stall)
-    return np.sort(chosen).tolist()
+    return sorted(chosen)
