@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,7 +12,11 @@ from support.label_tables import labelled_objects
 from support.unity import layer, reader
 
 import garage2usd
+from garage2usd.checks import check
+from garage2usd.checks.plan_reader import plan_subject
+from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.objects import KINDS
+from garage2usd.objects.car import OpenCarSpec
 from garage2usd.progress import silent
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
@@ -52,7 +57,7 @@ def made(tmp_path_factory):
     config = garage2usd.GarageConfig(
         seed=4,
         site={"height_cells": 5, "width_cells": 5},
-        clutter=dict.fromkeys(SETTINGS, 12.0),
+        clutter=dict.fromkeys(SETTINGS, 12.0) | {"open_boots": 10.0},
         stage={"texture_quality": "low"},
     )
     built = garage2usd.build(config, tmp_path_factory.mktemp("clutter") / "garage.usdc")
@@ -76,6 +81,16 @@ def test_the_table_has_the_nine_classes_with_their_cityscapes_names(made):
     for label, kind in KINDS_OF_CLUTTER.items():
         assert classes[label]["id"] == kind.number
         assert classes[label]["cityscapes"] == CITYSCAPES.get(label, "dynamic")
+
+
+def test_stage_and_report_are_judged_as_the_garage(made):
+    """A report holds no people and things, and none of them changes what is found."""
+    built = made.built
+    assert any(isinstance(place.spec, OpenCarSpec) for place in built.garage.layout.placements)
+    expected = Counter(finding.rule for finding in built.findings)
+    profile = built.garage.config.standard
+    for subject in (subject_of_stage(made.stage, source="stage"), plan_subject(built.report)[0]):
+        assert Counter(finding.rule for finding in check(subject, profile)) == expected, subject.source
 
 
 @pytest.fixture(scope="module")

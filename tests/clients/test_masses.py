@@ -16,7 +16,8 @@ MOVABLE = {"car", "cone", *(kind.name for kind in KINDS if kind.group == "Clutte
 CONFIG = garage2usd.GarageConfig(
     seed=4,
     site={"height_cells": 5, "width_cells": 5},
-    clutter=dict.fromkeys(
+    clutter={"open_boots": 10.0}
+    | dict.fromkeys(
         ("people", "bicycles", "motorbikes", "trolleys", "prams", "bins", "boxes", "pallets", "bags"), 25.0
     ),
     stage={"texture_quality": "low"},

@@ -125,12 +125,13 @@ def test_the_judge_sees_what_stands_in_the_way():
         (stall.centre_m, 0.0, stall.name),
         (tuple(lane), 0.0, "lane"),
         ((car.position_m[0], car.position_m[2]), 0.0, car.name),
+        ((car.position_m[0], car.position_m[2]), 0.0, f"a way of {car.stall}"),
         ((-3.0, -3.0), 0.0, "edge of the floor"),
         ((-3.0, -3.0), 0.2, "the floor, 0.2 m"),
     ):
         wrong = placed("Person_99", person, point, height_m=height)
         faults, _ = clutter_judge.faults_of(
-            replace(made, layout=replace(layout, placements=ObjectTable([*layout.placements, wrong])))
+            replace(made, layout=replace(layout, placements=ObjectTable([[*layout.placements, wrong]])))
         )
         assert any(name == "Person_99" and met in what for _, name, what in faults), met
 
