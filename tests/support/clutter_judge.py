@@ -12,6 +12,7 @@ import math
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import astuple, replace
 from functools import lru_cache
 
 import numpy as np
@@ -23,7 +24,8 @@ from garage2usd.config import GarageConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.layout_garage import prove_stalls
 from garage2usd.errors import Garage2UsdError
-from garage2usd.objects.car import OpenCarSpec
+from garage2usd.layout import ObjectTable
+from garage2usd.objects.car import CarSpec, OpenCarSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.structure.grid import Cell
@@ -147,10 +149,20 @@ def grounds(garage):
     yield from entered(layout)
     yield from driven_lines(garage.graph)
     for car in dict.fromkeys((DesignCar(), design_car(garage.config.standard))):
-        for proof in prove_stalls(layout, garage.graph, car=car):
+        for proof in prove_stalls(without_clutter(layout), garage.graph, car=car):
             for way in (proof.way_in, proof.way_out):
                 if way is not None and way.moves:
                     yield from ((shape, f"a way of {proof.stall}", proof.stall) for shape in swept(way, car))
+
+
+def without_clutter(layout):
+    """The layout with closed boots and without people and things, on which ways are proven that these keep clear."""
+    kept = [place for place in layout.placements if place.spec.kind.group != "Clutter"]
+    closed = [
+        replace(place, spec=CarSpec(*astuple(place.spec))) if isinstance(place.spec, OpenCarSpec) else place
+        for place in kept
+    ]
+    return replace(layout, placements=ObjectTable([closed]))
 
 
 def swing(core):
@@ -220,6 +232,8 @@ def main():
     with ProcessPoolExecutor(asked.workers) as pool:
         for seed, count, found, faults in pool.map(judged, range(asked.first, asked.first + asked.seeds)):
             stalls, bad = stalls + count, bad + bool(faults)
+            if seed % 20 == 0:
+                print(f"{seed} ...", flush=True)
             kinds += found
             for kind, name, what in faults:
                 print(f"{seed}: {name} ({kind}) meets {what}", flush=True)
