@@ -1,23 +1,51 @@
-"""Cars of one's own in every reader: Unity's importer, GLB, LiDAR and nuScenes know them as cars with plates."""
+"""Cars of one's own in every reader: each knows them as cars with ids, and their boxes hold what is seen of them."""
 
+import importlib.util
+import io
 import json
+import os
+import subprocess
+import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
+from support.browser import find_browser
 from support.foreign_cars import write_glb, write_parts, write_z_up
 from support.glb_reader import Glb
-from support.label_tables import labelled_objects
+from support.label_tables import cars_of_plates, labelled_objects
+from support.recordings import Recorded
+from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
 from support.unity import layer, reader
+from support.viewer_page import viewed
 
 import garage2usd
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
 from garage2usd.objects.car import OwnCarSpec
 from garage2usd.recordings import CloudFormat, Sequence, record
-from garage2usd.sensors.rig import read_rig
+from garage2usd.render import Picture
+from garage2usd.sensors.nuscenes import NUSCENES_VERSION, write_nuscenes
+from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.stage.arrangement import arrange
+from garage2usd.view.drawing import Region
+from garage2usd.view.plan_picture import draw_plan
 
 pytestmark = pytest.mark.client
+needs_blender = pytest.mark.skipif(
+    importlib.util.find_spec("bpy") is None, reason="Blender's bpy is made for Python 3.11 only"
+)
+STRONGEST = {"box.glb": {1, 2}, "van.usdc": {0}, "parts.usda": {1}}
+"""Which channels of red, green and blue a model's paint may be strongest in: the GLB is green with a blue cabin."""
+EDGE_PX = 2
+CAMERA = {
+    "kind": "pinhole",
+    "name": "front",
+    "position_m": [1.6, 0.0, 1.6],
+    "size_px": [240, 120],
+    "focal_px": [100.0, 100.0],
+}
 
 
 @pytest.fixture(scope="module")
@@ -35,12 +63,16 @@ def own(tmp_path_factory):
         vehicles={"models": str(models), "share": 1.0},
     )
     built = garage2usd.build(config, folder / "garage.usdc")
-    cars = [place for place in built.garage.layout.placements if isinstance(place.spec, OwnCarSpec)]
-    assert {car.spec.model.path for car in cars} == {
+    layout = built.garage.layout
+    paths = arrange(layout, nested=False).paths()
+    cars = {
+        path: place for path, place in zip(paths, layout.placements, strict=True) if isinstance(place.spec, OwnCarSpec)
+    }
+    assert {car.spec.model.path for car in cars.values()} == {
         str(models / name) for name in ("box.glb", "van.usdc", "parts.usda")
     }
     entries = {entry["path"]: entry for entry in labelled_objects(built.labels) if entry["class"] == "car"}
-    assert len(entries) == len(cars)
+    assert entries.keys() == cars.keys()
     return SimpleNamespace(built=built, cars=cars, entries=entries, folder=folder)
 
 
@@ -61,7 +93,7 @@ def test_lidar_and_nuscenes_know_their_points_and_boxes(own):
         own.built.stage,
         own.folder / "drive",
         rig=read_rig("lidar_32"),
-        along="1:" + own.cars[0].stall,
+        along="1:" + next(iter(own.cars.values())).stall,
         every_m=8.0,
         pictures=(),
         points=(CloudFormat.NPZ,),
@@ -99,3 +131,122 @@ def test_unity_imports_them_with_colliders(own, tmp_path_factory):
     hulls = [item for item in prefab.objects if "/Car_" in item["path"] and "collider" in item]
     assert len(hulls) >= len(own.cars)
     assert all(item["collider"].get("convex") for item in hulls)
+
+
+def test_a_build_in_another_process_is_the_same_bytes(own, tmp_path):
+    config, again = own.folder / "garage.toml", tmp_path / "garage.usdc"
+    config.write_text(
+        "site.width_cells = 5\nsite.height_cells = 5\nparking.occupancy = 0.9\n"
+        'vehicles.models = "models"\nvehicles.share = 1.0\n'
+    )
+    command = [sys.executable, "-m", "garage2usd", "build", str(config), "-o", str(again)]
+    subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": "7"}, capture_output=True)
+    for stage in (own.built.stage, again):
+        export(stage, [stage.with_name("same.glb")])
+    for name in ("garage.usdc", "garage_labels.json", "same.glb"):
+        assert again.with_name(name).read_bytes() == own.built.stage.with_name(name).read_bytes(), name
+    reports = [json.loads(stage.with_name("garage_report.json").read_text()) for stage in (own.built.stage, again)]
+    assert all(report.pop("seconds") for report in reports)
+    assert reports[0] == reports[1]
+
+
+@pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
+def test_the_viewer_shows_each_with_its_class_id_and_paint(own):
+    with viewed(own.built.stage) as page:
+        count = page.page.query_selector('.class[data-label="car"]').get_attribute("data-count")
+        assert int(count) == len(own.cars)
+        for path, car in own.cars.items():
+            x, _, z = car.position_m
+            page.eval(
+                f"viewer.setMode('orbit'), viewer.orbit.target.set({x}, 0, {z}),"
+                f" viewer.camera.position.set({x + 1}, 22, {z + 4}), viewer.orbit.update(), viewer.touch()"
+            )
+            page.rest()
+            column, row = page.screen((x, 0.8, z))
+            seen = np.asarray(Image.open(io.BytesIO(page.page.screenshot())).convert("RGB"), dtype=int)
+            colour = seen[round(row) - 3 : round(row) + 4, round(column) - 3 : round(column) + 4].mean(axis=(0, 1))
+            assert int(colour.argmax()) in STRONGEST[car.spec.model.path.rpartition("/")[2]], (path, colour)
+            page.page.mouse.click(column, row)
+            facts = page.facts()
+            assert (facts["Class"], facts["Prim"]) == ("car", path)
+            assert facts["Instance id"] == str(own.entries[path]["id"])
+        assert page.complaints == []
+
+
+@needs_blender
+def test_masks_along_a_drive_show_them_within_their_boxes(own):
+    folder = own.folder / "pictures"
+    record(
+        own.built.stage,
+        folder,
+        rig=rig_from_mapping({"name": "front", "sensors": [CAMERA]}),
+        along="1:" + next(iter(own.cars.values())).stall,
+        every_m=5.0,
+        samples=1,
+        pictures=(Picture.INSTANCE, Picture.SEMANTIC),
+    )
+    classes = {each["name"]: each["id"] for each in json.loads(own.built.labels.read_text())["classes"]}
+    of_cars = [classes["car"], classes["number_plate"]]  # plates are pixels of their cars
+    boxes = {
+        entry["id"]: np.stack(np.meshgrid(*zip(entry["min_m"], entry["max_m"], strict=True)), axis=-1).reshape(-1, 3)
+        for entry in own.entries.values()
+    }
+    seen, whole = set(), 0
+    for frame in json.loads((folder / "frames.json").read_text())["frames"]:
+        instance = np.asarray(Image.open(folder / frame["files"]["instance"])).astype(int) @ [1, 256, 65536]
+        semantic = np.asarray(Image.open(folder / frame["files"]["semantic"]))
+        assert np.array_equal(np.isin(instance, list(boxes)), np.isin(semantic, of_cars))
+        for number in np.unique(instance[np.isin(instance, list(boxes))]).tolist():
+            seen.add(number)
+            at = np.insert(boxes[number], 3, 1.0, axis=1) @ np.array(frame["world_to_camera"]).T
+            if (at[:, 2] < 0.1).any():
+                continue  # reaches behind the camera
+            corners = at[:, :3] @ np.array(frame["intrinsics"]).T
+            corners = corners[:, :2] / corners[:, 2:]
+            rows, columns = np.nonzero(instance == number)
+            pixels = np.stack([columns, rows], axis=1) + 0.5
+            assert (pixels > corners.min(axis=0) - EDGE_PX).all()
+            assert (pixels < corners.max(axis=0) + EDGE_PX).all()
+            whole += len(pixels)
+    assert len(seen) >= 8
+    assert len({car.spec.model.path for path, car in own.cars.items() if own.entries[path]["id"] in seen}) == 3
+    assert whole > 2000
+
+
+@pytest.mark.skipif(not HAS_SENSOR_JUDGES, reason="no environment with nuscenes-devkit")
+def test_nuscenes_devkit_finds_their_points_in_their_boxes(own, tmp_path):
+    (tmp_path / "recorded").mkdir()
+    (tmp_path / "data").mkdir()
+    rig = read_rig("lidar_32")
+    exact = [sensor.model_copy(update={"range_noise_m": 0.0}) for sensor in rig.lidars]
+    recorded = Recorded(own.built, rig.model_copy(update={"sensors": (*rig.cameras, *exact)}), tmp_path / "recorded")
+    parts = {"stage": recorded.stage, "labels": recorded.labels, "scene": recorded.scene}
+    write_nuscenes(recorded.recording, tmp_path / "data", **parts)
+    run_judge("nuscenes_dump.py", tmp_path / "data", NUSCENES_VERSION, tmp_path / "found.json", folder=tmp_path)
+    found = json.loads((tmp_path / "found.json").read_text())
+    plates_car = cars_of_plates(own.built.labels)
+    numbers = {entry["id"] for entry in own.entries.values()}
+    met = 0
+    for sample, cloud in zip(found["samples"], recorded.clouds, strict=True):
+        of_cars = {found["instances"][box["instance"]]["id"]: box for box in sample["boxes"]}
+        instance = np.array([plates_car.get(number, number) for number in cloud.instance.tolist()])
+        for number in numbers & set(instance.tolist()):
+            box = of_cars[number]
+            assert box["name"] == "vehicle.car"
+            assert box["said"] == np.count_nonzero(instance == number)
+            assert set(np.flatnonzero(instance == number).tolist()) <= set(box["inside"])
+            met += box["said"]
+    assert met > 1000
+
+
+def test_the_plan_draws_each_as_long_and_wide_as_it_is(own):
+    garage = own.built.garage
+    elements = draw_plan(garage.layout, garage.graph).elements
+    found = [np.array(each.points) for each in elements if isinstance(each, Region) and each.kind == "car"]
+    assert len(found) == len(own.cars)
+    for points, car in zip(found, own.cars.values(), strict=True):
+        body = car.spec.measures
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        assert middle == pytest.approx((car.position_m[0], car.position_m[2]), abs=0.02)
+        along = max(np.ptp(points, axis=0))
+        assert along == pytest.approx(max(body.half_extents_m(car.yaw_rad, width_m=body.width_m)) * 2, abs=0.03)
