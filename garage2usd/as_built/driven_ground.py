@@ -17,6 +17,7 @@ from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
 from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.grounds import Grounds
 from garage2usd.limits import allow_seconds
+from garage2usd.objects import CAR_LABELS
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]
 
@@ -26,7 +27,6 @@ CAR_HEIGHT_M = 2.0
 _DRIVEN_THROUGH = {"vehicle_door", "ramp"}
 """What a convex outline would close; it counts by its section instead."""
 _DRIVEN_OVER = {"speed_bump"}
-_CAR = "car"
 _SKIN_M = 0.02
 """What stands out of a car less than that counts as its colliders."""
 _CORNERS, _DIRECTIONS = 4, 8
@@ -72,7 +72,7 @@ def _standing(garage: BuiltGarage, height_m: float) -> Iterator[StandingThing]:
     pieces = np.array([piece for _, _, pieces in grounds for piece in pieces], dtype=object)
     owner, pieces = _simple(owner, pieces)
     hulls = _hulls(owner, pieces)
-    things = {thing.name: thing for thing in garage.things if thing.label == _CAR}
+    things = {thing.name: thing for thing in garage.things if thing.label in CAR_LABELS}
     cars = {number: things[name] for number, (name, _, _) in enumerate(grounds) if name in things}
     out_of, mirrors = _standing_out(cars, hulls, height_m)
     owner = np.concatenate([owner, out_of])

@@ -13,6 +13,7 @@ from garage2usd.as_built.shapes import Thing
 from garage2usd.as_built.solids import Solid, Solids
 from garage2usd.as_built.stall_grounds import StallGrounds
 from garage2usd.garage import Fault, LaneGraph, Point, Stall
+from garage2usd.objects import CAR_LABELS
 from garage2usd.planning import MeasuredCirculation, measured_circulation
 from garage2usd.structure.grid import Structure
 
@@ -103,7 +104,7 @@ class BuiltGarage:
     @cached_property
     def cars(self) -> dict[str, tuple[shapely.Polygon, Stall | None]]:
         """The convex ground of each car, and the stall that more than half of it stands in."""
-        pieces = list(self.solids.standing("car"))
+        pieces = list(self.solids.standing(*CAR_LABELS))
         names = list(dict.fromkeys(solid.name for solid in pieces))
         number_of = {name: number for number, name in enumerate(names)}
         owner = np.array([number_of[solid.name] for solid in pieces], dtype=np.int64)

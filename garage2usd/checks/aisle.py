@@ -10,6 +10,7 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.solids import Solid
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook
 from garage2usd.garage import LaneEdge, Point, StallUse
+from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Profile
 
 __all__ = ["BOOK"]
@@ -78,7 +79,7 @@ def _blocked(garage: BuiltGarage, _: Profile) -> Iterator[Miss]:
 
 
 def _is_parked(solid: Solid, garage: BuiltGarage) -> bool:
-    return solid.label == "car" and garage.stall_grounds.home_of(solid.footprint) is not None
+    return solid.label in CAR_LABELS and garage.stall_grounds.home_of(solid.footprint) is not None
 
 
 def _serving_edges(garage: BuiltGarage) -> list[LaneEdge]:

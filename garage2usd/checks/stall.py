@@ -9,6 +9,7 @@ import shapely
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out
 from garage2usd.garage import Stall
+from garage2usd.objects import CAR_LABELS
 from garage2usd.profiles import Length, Profile
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ BOOK = RuleBook()
 _TOUCH_M = 0.02
 _OVER_LINE_M = 0.1
 """What the proofs of the next stall usually leave of it; what a car needs more than is left `swept-path` finds."""
-_BELONGS = {"car", "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
+_BELONGS = {*CAR_LABELS, "traffic_cone", "wheel_stop", "charger", "speed_bump", "column"}
 """What may stand in a stall, or has a rule of its own."""
 
 

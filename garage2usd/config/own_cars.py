@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, field_validator
 
-from garage2usd.config.vehicles import CarBody
+from garage2usd.config.vehicles import CarBody, VehicleClass
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
@@ -60,6 +60,8 @@ class _Facts(Settings):
     """The three together, where no wheels are found."""
     plate_heights_m: tuple[float, float] | None = None
     """Of the middle of the front plate and of the rear one over the floor."""
+    semantic_class: VehicleClass = VehicleClass.CAR
+    """What labels, point clouds and masks call it."""
 
 
 class OwnCar(NamedTuple):
@@ -76,6 +78,8 @@ class OwnCar(NamedTuple):
         is added then: to the axes of a parked car.
     outlines
         Convex outlines (x, z) of its body and, where they are known, of its mirrors.
+    semantic_class
+        What labels call it.
     """
 
     body: CarBody
@@ -83,6 +87,7 @@ class OwnCar(NamedTuple):
     sha256: str
     to_car: tuple[tuple[float, float, float], ...]
     outlines: tuple[tuple[tuple[float, float], ...], ...]
+    semantic_class: VehicleClass = VehicleClass.CAR
 
 
 class VehiclesConfig(Settings):
@@ -126,7 +131,7 @@ def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]
         allowed = f"1 to {_MOST_MODELS} files that end in {', '.join(MODEL_SUFFIXES)}"
         raise ConfigError(FIELD, f"{folder.folder} with {len(models)}", allowed)
     cars = _read(folder.folder, models, stamps)
-    told = [(car.body, car.sha256, car.to_car, car.outlines) for car in cars]
+    told = [(car.body, car.sha256, car.to_car, car.outlines, str(car.semantic_class)) for car in cars]
     digest = hashlib.sha256(repr(told).encode()).hexdigest()
     if folder.sha256 not in {"", digest}:
         raise ConfigError(FIELD, folder.folder, f"the models that it was given with, of SHA-256 {folder.sha256[:16]}")
@@ -216,7 +221,7 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
     groups = [[p for p, m in zip(placed, is_mirror, strict=True) if m is wanted] for wanted in (False, True)]
     outlines = tuple(_hull(np.concatenate(group)) for group in groups if group)
     rows = [_row(row) for row in (*np.round(turn * scale, 9), np.round(offset, 6))]
-    return OwnCar(body, str(path), digest, tuple(rows), outlines)
+    return OwnCar(body, str(path), digest, tuple(rows), outlines, facts.semantic_class)
 
 
 def _row(values: NDArray[np.float64]) -> tuple[float, float, float]:

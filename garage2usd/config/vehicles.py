@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 
 __all__ = [
     "CAR_BODIES",
@@ -11,11 +12,20 @@ __all__ = [
     "PAINTS",
     "SEGMENTS",
     "CarBody",
+    "VehicleClass",
     "body_named",
 ]
 
 SEGMENTS = ("city", "hatchback", "saloon", "estate", "suv", "mpv", "van", "pickup", "sports")
 """The classes of bodies, by which markets differ."""
+
+
+class VehicleClass(StrEnum):
+    """The semantic class of a parked vehicle; those of the catalogue are all cars."""
+
+    CAR = "car"
+    VAN = "van"
+    TRUCK = "truck"
 
 
 @dataclass(frozen=True)

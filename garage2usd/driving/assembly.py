@@ -8,11 +8,11 @@ import shapely
 from garage2usd.driving.garage import DrivenGarage
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.garage import LaneGraph, Stall
+from garage2usd.objects import CAR_LABELS
 
 __all__ = ["BELONGINGS", "StandingThing", "assembled"]
 
-_CAR = "car"
-BELONGINGS = frozenset({_CAR, "wheel_stop", "traffic_cone"})
+BELONGINGS = frozenset({*CAR_LABELS, "wheel_stop", "traffic_cone"})
 """Classes of what is not in the way of the car whose stall it stands in."""
 
 
@@ -50,7 +50,7 @@ def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[Stan
         What a car could touch, the parked cars included.
     """
     # the proof names what is in the way in the order of the obstacles, and cars last
-    things = sorted(standing, key=lambda thing: thing.label == _CAR)
+    things = sorted(standing, key=lambda thing: thing.label in CAR_LABELS)
     own: dict[str, tuple[str, ...]] = {}
     for thing in things:
         if thing.label in BELONGINGS and thing.home is not None:
@@ -59,6 +59,6 @@ def assembled(stalls: Iterable[Stall], lanes: LaneGraph, standing: Iterable[Stan
         tuple(stall for stall in stalls if stall.takes_cars),
         lanes,
         Obstacles.of((thing.name, thing.ground) for thing in things),
-        frozenset(thing.home for thing in things if thing.label == _CAR and thing.home is not None),
+        frozenset(thing.home for thing in things if thing.label in CAR_LABELS and thing.home is not None),
         own,
     )

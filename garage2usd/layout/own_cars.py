@@ -4,11 +4,11 @@ import math
 from dataclasses import replace
 
 from garage2usd.config.own_cars import OwnCar, VehiclesConfig, read_own_cars
-from garage2usd.config.vehicles import PAINTS, CarBody
+from garage2usd.config.vehicles import CarBody
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parked_cars import ParkedCars
 from garage2usd.layout.placement import Placement, Stall, rounded
-from garage2usd.objects.car import CarSpec, OwnCarSpec
+from garage2usd.objects.car import CarSpec, own_car_spec
 from garage2usd.randomness import Step
 
 __all__ = ["with_own_cars"]
@@ -68,8 +68,7 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: Stall) -> 
     if side < 0 or z > mouth or z < half_z - stall.length_m / 2 + _CLEARANCE_M:
         return None
     point = rounded(stall.to_world((min(max(x, -side), side), z)))
-    own = OwnCarSpec(model.body.name, PAINTS[0], model=model)
-    return replace(car, spec=own, position_m=(point[0], car.position_m[1], point[1]))
+    return replace(car, spec=own_car_spec(model), position_m=(point[0], car.position_m[1], point[1]))
 
 
 def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:

@@ -18,7 +18,7 @@ from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out
 from garage2usd.maps.glb_meshes import are_rigid, by_facets, joined, moved_triangles, rigid_inverses
 from garage2usd.maps.stage_facts import stage_facts
 from garage2usd.maps.stall_facts import StallFacts
-from garage2usd.objects import PIECE_LABELS
+from garage2usd.objects import CAR_LABELS, PIECE_LABELS
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.looks import MeshLooks
@@ -31,7 +31,7 @@ from garage2usd.reading.walk import placed_objects
 __all__ = ["write_glb"]
 
 _STALLS = "stalls"
-_CAR, _STALL = "car", "parking_stall"
+_STALL = "parking_stall"
 _IDENTITY = np.eye(4)
 
 
@@ -83,7 +83,7 @@ def write_glb(
     if not any(look.pieces or look.lights for _, look in looked_at):
         raise StageError(file, "nothing in it can be drawn")
     stalls = StallFacts(read_lanes(stage).stalls)
-    cars = [(placed, look) for placed, look in drawn if placed.label == _CAR]
+    cars = [(placed, look) for placed, look in drawn if placed.label in CAR_LABELS]
     grounds = hulls_of([look.on_ground(placed.matrix) for placed, look in cars])
     homes = stalls.park([placed.path for placed, _ in cars], grounds)
     mesh_of = once_for_each_look(lambda placed: glb.add_mesh(look_of(placed).pieces, name=_name(placed)))
@@ -191,7 +191,7 @@ class _Looks:
         lights = [part for part in placed.parts if part.prim.HasAPI(UsdLux.LightAPI)]
         left_out += [(reason, part) for part in lights if (reason := why_left_out(part.prim, glows=glows))]
         lights = [part for part in lights if not why_left_out(part.prim, glows=glows)]
-        if placed.label != _CAR or not pieces:
+        if placed.label not in CAR_LABELS or not pieces:
             return _Look(pieces, np.zeros((0, 3)), np.zeros((0, 3)), lights, left_out)
         points_m = np.concatenate([piece.triangles.positions_m for piece in pieces])
         outline = _hull(np.concatenate([self._outline_of(piece.triangles) for piece in pieces]))

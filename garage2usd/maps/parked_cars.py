@@ -9,10 +9,9 @@ import shapely
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.placed_pieces import placed_pieces
+from garage2usd.objects import CAR_LABELS
 
 __all__ = ["ParkedCar", "parked_cars"]
-
-_CAR = "car"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +55,7 @@ def parked_cars(garage: BuiltGarage, *, free: Collection[str] = ()) -> list[Park
     cars that pass beside it. ASAM OSI has the boxes of vehicles without mirrors as well.
     """
     cars: list[ParkedCar] = []
-    things = [thing for thing in garage.things if thing.label == _CAR and thing.bodies]
+    things = [thing for thing in garage.things if thing.label in CAR_LABELS and thing.bodies]
     bodies = [body for thing in things for body in thing.bodies]
     pieces = placed_pieces(bodies, np.ones(len(bodies), dtype=bool))
     first = np.cumsum([0, *(len(thing.bodies) for thing in things)])

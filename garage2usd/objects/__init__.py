@@ -8,11 +8,13 @@ numbers of kinds, whatever the modules are called.
 from importlib import import_module
 from pkgutil import iter_modules
 
+from garage2usd.objects.car import CAR_KINDS
 from garage2usd.objects.kind import Kind, Spec, TilePart
 from garage2usd.objects.mounted import Mounted
 from garage2usd.objects.pieces import PIECES, PieceClass
 
 __all__ = [
+    "CAR_LABELS",
     "CLASSES",
     "CLASSES_VERSION",
     "KINDS",
@@ -27,6 +29,10 @@ __all__ = [
 
 _MODULES = [import_module(module.name) for module in iter_modules(__path__, prefix=f"{__name__}.")]
 
+_OTHER_CARS = CAR_KINDS[1:]
+CAR_LABELS = frozenset(kind.label for kind in CAR_KINDS)
+"""The classes of vehicles that park."""
+
 
 def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
     """Kinds by their numbers.
@@ -36,7 +42,7 @@ def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
     ValueError
         If two have the same number, name or label, or one has that of a class of pieces.
     """
-    declared: list[Kind | PieceClass] = [*kinds, *PIECES]
+    declared: list[Kind | PieceClass] = [*kinds, *_OTHER_CARS, *PIECES]
     numbers, labels = [str(each.number) for each in declared], [each.label for each in declared]
     for facts in (numbers, labels, [kind.name for kind in kinds]):
         twice = sorted({fact for fact in facts if facts.count(fact) > 1})
@@ -48,10 +54,10 @@ def _in_order(kinds: list[Kind]) -> tuple[Kind, ...]:
 KINDS = _in_order([module.KIND for module in _MODULES if hasattr(module, "KIND")])
 """All kinds of objects, in the order of their numbers."""
 
-_ALL: list[Kind | PieceClass] = [*KINDS, *PIECES]
+_ALL: list[Kind | PieceClass] = [*KINDS, *_OTHER_CARS, *PIECES]
 CLASSES: tuple[Kind | PieceClass, ...] = tuple(sorted(_ALL, key=lambda each: each.number))
 """All semantic classes, of objects and of pieces of them, in the order of their numbers: the one table of them."""
-CLASSES_VERSION = 5
+CLASSES_VERSION = 6
 """Of the table: one more whenever a class is added, or covers something else than before."""
 PIECE_LABELS = frozenset(piece.label for piece in PIECES)
 """The classes of pieces, which belong to the object that they are part of."""

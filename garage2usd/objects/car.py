@@ -13,9 +13,13 @@ from garage2usd.config.vehicles import PAINTS, CarBody, body_named
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec"]
+__all__ = ["CAR_KINDS", "KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec", "own_car_spec"]
 
 KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
+_VAN = replace(KIND, number=46, label="van")
+_TRUCK = replace(KIND, number=47, label="truck", cityscapes="truck")
+CAR_KINDS = (KIND, _VAN, _TRUCK)
+"""The kinds of parked vehicles: all are cars to layouts and reports, each has a semantic class of its own."""
 
 PAINT_SET = "paint"
 """Variant set of every car's asset."""
@@ -138,3 +142,19 @@ class OwnCarSpec(CarSpec):
     def outlines(self) -> tuple[Polygon, ...]:
         """Its body, and its mirrors where they are known."""
         return self.model.outlines
+
+
+@dataclass(frozen=True)
+class _OwnVanSpec(OwnCarSpec, kind=_VAN):
+    """A model of the class van."""
+
+
+@dataclass(frozen=True)
+class _OwnTruckSpec(OwnCarSpec, kind=_TRUCK):
+    """A model of the class truck."""
+
+
+def own_car_spec(model: OwnCar) -> OwnCarSpec:
+    """A model of one's own, of the kind that has its semantic class."""
+    spec = {spec.kind.label: spec for spec in (OwnCarSpec, _OwnVanSpec, _OwnTruckSpec)}[model.semantic_class]
+    return spec(model.body.name, PAINTS[0], model=model)

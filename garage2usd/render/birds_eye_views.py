@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.sensors.birds_eye import BirdsEye
@@ -15,7 +16,7 @@ __all__ = ["OVERHEAD", "birds_eye_view", "looked_through"]
 OVERHEAD = frozenset(OBJECT_LABELS[kind] for kind, switch in SWITCHES.items() if switch.variant_set == "ceiling")
 """Classes of what hangs overhead, but for lights, which a stage switches by themselves."""
 _LIGHT = frozenset({OBJECT_LABELS["light"]})
-_CAR = frozenset({OBJECT_LABELS["car"], OBJECT_LABELS["number_plate"]})
+_CAR = CAR_LABELS | {OBJECT_LABELS["number_plate"]}
 _NAME = "birds_eye"
 _ASIDE_M = np.array([1.3e-5, 0.7e-5, 0.0])
 """By which the camera stands aside, so that no row of rays runs down exactly where two tiles meet, and misses both."""

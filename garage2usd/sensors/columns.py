@@ -12,7 +12,7 @@ from garage2usd.garage import Point, Stall
 
 __all__ = ["column_to_y_up"]
 
-_CAR, _COLUMN = "car", "column"
+_COLUMN = "column"
 _HIDES_FROM_M = 1.9
 """What is lower than that does not hide a stall from a column's camera, nor do cars, which come and go."""
 _NEAREST_M = 2.5
@@ -68,6 +68,6 @@ def _is_before(stall: Stall, place: Point) -> bool:
 def _is_hidden(garage: BuiltGarage, column: str, place: Point, middle: Point) -> bool:
     sight = shapely.LineString([place, middle])
     return any(
-        solid.name != column and solid.label != _CAR and solid.top_m >= _HIDES_FROM_M
+        solid.name != column and solid.label not in CAR_LABELS and solid.top_m >= _HIDES_FROM_M
         for solid in garage.solids.at(sight)
     )

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
 from garage2usd.sensors.boxes import ObjectBox, share_in_sight
 from garage2usd.sensors.nuscenes_classes import BOXED
@@ -66,7 +67,7 @@ def add_boxes(
                 sample_token=token_of("sample", pose),
                 instance_token=token_of("instance", box.id),
                 visibility_token=next(token for token, _, least in reversed(VISIBILITY) if share >= least),
-                attribute_tokens=[token_of("attribute", PARKED)] if name == "car" else [],
+                attribute_tokens=[token_of("attribute", PARKED)] if name in CAR_LABELS else [],
                 **_box_fields(box, world),
                 prev=chains[box.id][-1]["token"] if chains[box.id] else "",
                 next="",

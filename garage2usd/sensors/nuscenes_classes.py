@@ -46,6 +46,8 @@ CATEGORIES = (
 """Of nuScenes-lidarseg; the place in the list is what files of classes hold."""
 BOXED = {
     "car": "vehicle.car",
+    "van": "vehicle.car",
+    "truck": "vehicle.truck",
     "traffic_cone": "movable_object.trafficcone",
     "barrier": "movable_object.barrier",
     "waste_bin": "movable_object.pushable_pullable",

@@ -39,7 +39,8 @@ def label_table(layout: Layout, paths: Sequence[str]) -> LabelTable:
     """
     placements = layout.placements
     objects: dict[str, list[LabelledObject]] = defaultdict(list)
-    numbers = [KINDS[kind].number for kind in placements.kind.tolist()]
+    of_spec = [spec.kind.number for spec in placements.specs]
+    numbers = [of_spec[spec] for spec in placements.spec.tolist()]
     for number, (path, class_id, (least, most)) in enumerate(
         zip(paths, numbers, _bounds_m(placements), strict=True), 1
     ):

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -23,6 +24,7 @@ from support.viewer_page import viewed
 import garage2usd
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
+from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec
 from garage2usd.recordings import CloudFormat, Sequence, record
 from garage2usd.render import Picture
@@ -38,6 +40,8 @@ needs_blender = pytest.mark.skipif(
 )
 STRONGEST = {"box.glb": {1, 2}, "van.usdc": {0}, "parts.usda": {1}}
 """Which channels of red, green and blue a model's paint may be strongest in: the GLB is green with a blue cabin."""
+CLASS_OF = {"box.glb": "car", "van.usdc": "van", "parts.usda": "truck"}
+CATEGORY_OF = {"car": "vehicle.car", "van": "vehicle.car", "truck": "vehicle.truck"}
 EDGE_PX = 2
 CAMERA = {
     "kind": "pinhole",
@@ -57,6 +61,8 @@ def own(tmp_path_factory):
     write_glb(models / "box.glb")
     write_z_up(models / "van.usdc")
     write_parts(models)
+    with (models / "models.toml").open("a") as file:
+        file.write('semantic_class = "van"\n[parts]\nsemantic_class = "truck"\n')
     config = GarageConfig(
         site={"width_cells": 5, "height_cells": 5},
         parking={"occupancy": 0.9},
@@ -71,8 +77,10 @@ def own(tmp_path_factory):
     assert {car.spec.model.path for car in cars.values()} == {
         str(models / name) for name in ("box.glb", "van.usdc", "parts.usda")
     }
-    entries = {entry["path"]: entry for entry in labelled_objects(built.labels) if entry["class"] == "car"}
-    assert entries.keys() == cars.keys()
+    entries = {entry["path"]: entry for entry in labelled_objects(built.labels) if entry["class"] in CAR_LABELS}
+    assert {path: entry["class"] for path, entry in entries.items()} == {
+        path: CLASS_OF[car.spec.model.path.rpartition("/")[2]] for path, car in cars.items()
+    }
     return SimpleNamespace(built=built, cars=cars, entries=entries, folder=folder)
 
 
@@ -80,8 +88,11 @@ def test_a_glb_has_them_with_class_and_id(own):
     path = own.folder / "garage.glb"
     export(own.built.stage, [path])
     glb = Glb(path.read_bytes())
-    extras = {node["name"]: node["extras"] for node in glb.nodes if node.get("extras", {}).get("class") == "car"}
-    assert extras.keys() == own.entries.keys()
+    extras = {node["name"]: node["extras"] for node in glb.nodes if node.get("extras", {}).get("class") in CAR_LABELS}
+    assert {name: said["class"] for name, said in extras.items()} == {
+        name: entry["class"] for name, entry in own.entries.items()
+    }
+    assert all("stall" in said for said in extras.values())
     for name, said in extras.items():
         assert said["id"] == own.entries[name]["id"]
         number = next(number for number, node in enumerate(glb.nodes) if node["name"] == name)
@@ -110,10 +121,10 @@ def test_lidar_and_nuscenes_know_their_points_and_boxes(own):
     annotations = json.loads((folder / "sample_annotation.json").read_text())
     instances = {each["token"]: each for each in json.loads((folder / "instance.json").read_text())}
     categories = {each["token"]: each["name"] for each in json.loads((folder / "category.json").read_text())}
-    names = {categories[instances[each["instance_token"]]["category_token"]] for each in annotations}
-    assert any("car" in name for name in names), names
     sizes = [
-        each["size"] for each in annotations if "car" in categories[instances[each["instance_token"]]["category_token"]]
+        each["size"]
+        for each in annotations
+        if categories[instances[each["instance_token"]]["category_token"]] in CATEGORY_OF.values()
     ]
     assert {round(size[1], 1) for size in sizes} == {4.2}
     assert made.frames.exists()
@@ -126,7 +137,8 @@ def test_unity_imports_them_with_colliders(own, tmp_path_factory):
         prefab = layer.Prefab(running.ask("prefab", own.built.stage))
     finally:
         running.close()
-    assert len(prefab.labelled("car")) == len(own.cars)
+    for label, count in Counter(entry["class"] for entry in own.entries.values()).items():
+        assert len(prefab.labelled(label)) == count
     assert len(prefab.labelled("number_plate")) == len(own.cars)
     hulls = [item for item in prefab.objects if "/Car_" in item["path"] and "collider" in item]
     assert len(hulls) >= len(own.cars)
@@ -153,8 +165,9 @@ def test_a_build_in_another_process_is_the_same_bytes(own, tmp_path):
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
 def test_the_viewer_shows_each_with_its_class_id_and_paint(own):
     with viewed(own.built.stage) as page:
-        count = page.page.query_selector('.class[data-label="car"]').get_attribute("data-count")
-        assert int(count) == len(own.cars)
+        for label, count in Counter(entry["class"] for entry in own.entries.values()).items():
+            shown = page.page.query_selector(f'.class[data-label="{label}"]').get_attribute("data-count")
+            assert int(shown) == count
         for path, car in own.cars.items():
             x, _, z = car.position_m
             page.eval(
@@ -168,7 +181,7 @@ def test_the_viewer_shows_each_with_its_class_id_and_paint(own):
             assert int(colour.argmax()) in STRONGEST[car.spec.model.path.rpartition("/")[2]], (path, colour)
             page.page.mouse.click(column, row)
             facts = page.facts()
-            assert (facts["Class"], facts["Prim"]) == ("car", path)
+            assert (facts["Class"], facts["Prim"]) == (own.entries[path]["class"], path)
             assert facts["Instance id"] == str(own.entries[path]["id"])
         assert page.complaints == []
 
@@ -186,7 +199,7 @@ def test_masks_along_a_drive_show_them_within_their_boxes(own):
         pictures=(Picture.INSTANCE, Picture.SEMANTIC),
     )
     classes = {each["name"]: each["id"] for each in json.loads(own.built.labels.read_text())["classes"]}
-    of_cars = [classes["car"], classes["number_plate"]]  # plates are pixels of their cars
+    class_of = {entry["id"]: classes[entry["class"]] for entry in own.entries.values()}
     boxes = {
         entry["id"]: np.stack(np.meshgrid(*zip(entry["min_m"], entry["max_m"], strict=True)), axis=-1).reshape(-1, 3)
         for entry in own.entries.values()
@@ -195,9 +208,11 @@ def test_masks_along_a_drive_show_them_within_their_boxes(own):
     for frame in json.loads((folder / "frames.json").read_text())["frames"]:
         instance = np.asarray(Image.open(folder / frame["files"]["instance"])).astype(int) @ [1, 256, 65536]
         semantic = np.asarray(Image.open(folder / frame["files"]["semantic"]))
-        assert np.array_equal(np.isin(instance, list(boxes)), np.isin(semantic, of_cars))
+        of_cars = np.isin(semantic, [classes["number_plate"], *class_of.values()])  # plates are pixels of their cars
+        assert np.array_equal(np.isin(instance, list(boxes)), of_cars)
         for number in np.unique(instance[np.isin(instance, list(boxes))]).tolist():
             seen.add(number)
+            assert set(semantic[instance == number].tolist()) <= {class_of[number], classes["number_plate"]}
             at = np.insert(boxes[number], 3, 1.0, axis=1) @ np.array(frame["world_to_camera"]).T
             if (at[:, 2] < 0.1).any():
                 continue  # reaches behind the camera
@@ -225,14 +240,14 @@ def test_nuscenes_devkit_finds_their_points_in_their_boxes(own, tmp_path):
     run_judge("nuscenes_dump.py", tmp_path / "data", NUSCENES_VERSION, tmp_path / "found.json", folder=tmp_path)
     found = json.loads((tmp_path / "found.json").read_text())
     plates_car = cars_of_plates(own.built.labels)
-    numbers = {entry["id"] for entry in own.entries.values()}
+    class_of = {entry["id"]: entry["class"] for entry in own.entries.values()}
     met = 0
     for sample, cloud in zip(found["samples"], recorded.clouds, strict=True):
         of_cars = {found["instances"][box["instance"]]["id"]: box for box in sample["boxes"]}
         instance = np.array([plates_car.get(number, number) for number in cloud.instance.tolist()])
-        for number in numbers & set(instance.tolist()):
+        for number in class_of.keys() & set(instance.tolist()):
             box = of_cars[number]
-            assert box["name"] == "vehicle.car"
+            assert box["name"] == CATEGORY_OF[class_of[number]]
             assert box["said"] == np.count_nonzero(instance == number)
             assert set(np.flatnonzero(instance == number).tolist()) <= set(box["inside"])
             met += box["said"]

@@ -5,7 +5,9 @@ import pytest
 import shapely
 from support.object_specs import SPECS
 
-from garage2usd.objects import CLASSES, CLASSES_VERSION, KINDS, PIECE_LABELS, Kind, Spec, _in_order
+from garage2usd.config.vehicles import VehicleClass
+from garage2usd.objects import CAR_LABELS, CLASSES, CLASSES_VERSION, KINDS, PIECE_LABELS, Kind, Spec, _in_order
+from garage2usd.objects.car import CAR_KINDS
 from garage2usd.objects.kind import VariantSet
 from garage2usd.objects.panel import Paint
 from garage2usd.objects.pieces import PAINT_CLASSES
@@ -16,7 +18,7 @@ HEAD_M, FOOT_M = 2.0, 0.06
 """Between a car's roof and what a wheel goes over."""
 CITYSCAPES = {
     "road", "sidewalk", "parking", "building", "wall", "fence", "guard rail", "pole", "traffic sign", "car", "sky",
-    "person", "bicycle", "motorcycle", "static", "dynamic", "ground",
+    "truck", "person", "bicycle", "motorcycle", "static", "dynamic", "ground",
 }  # fmt: skip
 
 
@@ -37,8 +39,9 @@ def test_a_kind_declares_what_labels_need(kind):
 
 def test_every_class_of_shapes_belongs_to_a_kind_and_has_a_case():
     classes = set(spec_classes())
-    assert {cls.kind for cls in classes} == set(KINDS)
+    assert {cls.kind for cls in classes} == {*KINDS, *CAR_KINDS}
     assert {type(spec) for spec in SPECS.values()} == classes
+    assert {str(label) for label in VehicleClass} == CAR_LABELS
 
 
 def test_numbers_of_classes_stay_as_they_are_in_data_sets():
@@ -47,14 +50,14 @@ def test_numbers_of_classes_stay_as_they_are_in_data_sets():
         "cable_tray", "speed_bump", "wheel_stop", "traffic_sign", "traffic_cone", "car", "ramp", "sky", "barrier",
         "stall_number", "zone_plate", "charger", "sprinkler", "exit_sign", "mirror", "floor_stain",
     ]  # fmt: skip
-    assert [(each.number, each.label) for each in CLASSES[28:45]] == [
+    assert [(each.number, each.label) for each in CLASSES[28:47]] == [
         (29, "stall_line"), (30, "lane_line"), (31, "lane_arrow"), (32, "crossing"), (33, "hatching"),
         (34, "stall_symbol"), (35, "number_plate"), (36, "drain"), (37, "waste_bin"), (38, "cardboard_box"),
         (39, "pallet"), (40, "bicycle"), (41, "motorbike"), (42, "shopping_trolley"), (43, "pram"), (44, "bag"),
-        (45, "person"),
+        (45, "person"), (46, "van"), (47, "truck"),
     ]  # fmt: skip
     assert [each.number for each in CLASSES] == list(range(1, len(CLASSES) + 1))
-    assert (len(CLASSES), CLASSES_VERSION) == (45, 5), "a new version of the table for new classes"
+    assert (len(CLASSES), CLASSES_VERSION) == (47, 6), "a new version of the table for new classes"
 
 
 def test_pieces_are_of_classes_that_there_are_and_all_paint_has_one():

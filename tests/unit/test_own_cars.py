@@ -95,6 +95,13 @@ def test_same_models_give_the_same_bytes_and_a_changed_file_another_digest(model
         (lambda path: path.write_bytes(b"glTF and no more"), "a GLB that can be read"),
         (lambda path: write_glb(path, wheels=False), "with 0 wheels"),
         (lambda path: write_glb(path, length_m=40.0), r"of 40\.\d\d m.*2\.0 to 7\.0 m long"),
+        (
+            lambda path: (
+                write_glb(path),
+                path.with_name("models.toml").write_text('[bad]\nsemantic_class = "boat"\n'),
+            ),
+            r"vehicles\.models\.bad\.semantic_class: got 'boat'.*'car', 'van' or 'truck'",
+        ),
     ],
 )
 def test_what_is_no_car_is_refused_in_a_line(tmp_path, write, said):
@@ -102,4 +109,4 @@ def test_what_is_no_car_is_refused_in_a_line(tmp_path, write, said):
     with pytest.raises(ConfigError, match=said) as error:
         settings(tmp_path)
     assert "\n" not in str(error.value)
-    assert "bad.glb" in str(error.value)
+    assert "bad" in str(error.value)
