@@ -86,6 +86,8 @@ def config_error(error: ValidationError, model: type[Settings], *, within: str =
         given = finding["input"].get("kind", "nothing") if isinstance(finding["input"], dict) else finding["input"]
         return ConfigError(".".join([*keys, "kind"]), given, f"one of {', '.join(kinds)}")
     place = ".".join(keys) or "configuration"
+    if isinstance(cause, ConfigError):
+        return ConfigError(place, cause.value, cause.allowed)
     if finding["type"] == "missing":
         needed = [key for group in holders for key, field in group.model_fields.items() if field.is_required()]
         is_key = keys[-1] in needed  # and not a number that a row lacks

@@ -18,7 +18,7 @@ from garage2usd.assets.materials import MATERIALS
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
 from garage2usd.config.vehicles import PAINTS, CarBody
 
-__all__ = ["PLATE_M", "car", "dusty", "lit", "plate_places"]
+__all__ = ["PLATE_M", "car", "dusty", "lamps_of", "lit", "plate_places"]
 
 _ARCH_LIP_M = 0.03
 _ARCH_LIP_OUT_M = 0.01
@@ -34,7 +34,7 @@ _DUST_TOP = 0.97
 _CLEAN_END_M = 0.34
 """Length of nose and tail that dust leaves out."""
 _DUST_LIFT_M, _DUST_TOLERANCE_M = 0.0018, 0.0012
-_LIT = {"HeadLamps": "lamp_front_lit", "TailLamps": "lamp_rear_lit"}
+_LIT = {"lamp_front": "lamp_front_lit", "lamp_rear": "lamp_rear_lit"}
 _RAIL_M = 0.034
 """Height of a rail over the edge of the roof."""
 
@@ -93,9 +93,22 @@ def dusty(asset: Asset, body: CarBody) -> Asset:
 
 
 def lit(asset: Asset) -> Asset:
-    """A car whose head and tail lamps glow."""
-    parts = tuple(replace(part, material=_LIT.get(part.name, part.material)) for part in asset.parts)
-    return replace(asset, parts=parts)
+    """A car whose head and tail lamps glow, whether it is of the catalogue or a model of one's own."""
+    glowing = {part.name: key for end, key in _LIT.items() for part in lamps_of(asset, end)}
+    return replace(
+        asset, parts=tuple(replace(part, material=glowing.get(part.name, part.material)) for part in asset.parts)
+    )
+
+
+def lamps_of(asset: Asset, end: str) -> list[Part]:
+    """The parts of a car that are its ``lamp_front``, or its ``lamp_rear``."""
+    name = {"lamp_front": "HeadLamps", "lamp_rear": "TailLamps"}[end]
+    finishes = asset.finishes
+    return [
+        part
+        for part in asset.parts
+        if part.name == name or (part.material in finishes and finishes[part.material].key == end)
+    ]
 
 
 def plate_places(body: CarBody) -> list[tuple[float, float, float]]:

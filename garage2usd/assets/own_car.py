@@ -40,7 +40,7 @@ def own_car(car: OwnCar) -> Asset:
     for given in placed_parts(car):
         kind = _kind(given)
         if (kind, given.surface) not in keys:
-            key = keys[kind, given.surface] = f"{car.body.name}_{len(keys) + 1:02d}"
+            key = keys[kind, given.surface] = f"{car.name}_{len(keys) + 1:02d}"
             finishes[key] = Finish(kind, _material(given.surface, kind))
         made = _part(f"Part_{len(parts) + 1:03d}", given, keys[kind, given.surface])
         if made is not None:

@@ -4,7 +4,7 @@
 import hashlib
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, field_validator
 
-from garage2usd.config.vehicles import CarBody, VehicleClass
+from garage2usd.config.vehicles import CAR_BODIES, CarBody, VehicleClass
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
 from garage2usd.settings import Settings, validated
 
-__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "placed_parts", "read_own_cars"]
+__all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "placed_parts", "read_own_cars"]
 
 FIELD = "vehicles.models"
 FACTS_FILE = "models.toml"
@@ -64,13 +64,12 @@ class _Facts(Settings):
     """What labels, point clouds and masks call it."""
 
 
-class OwnCar(NamedTuple):
-    """A car of one's own as a value: its measures, and where its meshes are.
+@dataclass(frozen=True, kw_only=True)
+class OwnCar(CarBody):
+    """A car of one's own: its measures as they were found or given, and where its meshes are.
 
     Attributes
     ----------
-    body
-        Measures, and places of the plates.
     path, sha256
         The file, and the digest of it and of all that it refers to when it was read.
     to_car
@@ -78,16 +77,12 @@ class OwnCar(NamedTuple):
         is added then: to the axes of a parked car.
     outlines
         Convex outlines (x, z) of its body and, where they are known, of its mirrors.
-    semantic_class
-        What labels call it.
     """
 
-    body: CarBody
     path: str
     sha256: str
     to_car: tuple[tuple[float, float, float], ...]
     outlines: tuple[tuple[tuple[float, float], ...], ...]
-    semantic_class: VehicleClass = VehicleClass.CAR
 
 
 class VehiclesConfig(Settings):
@@ -131,11 +126,25 @@ def read_own_cars(folder: ModelFolder) -> tuple[ModelFolder, tuple[OwnCar, ...]]
         allowed = f"1 to {_MOST_MODELS} files that end in {', '.join(MODEL_SUFFIXES)}"
         raise ConfigError(FIELD, f"{folder.folder} with {len(models)}", allowed)
     cars = _read(folder.folder, models, stamps)
-    told = [(car.body, car.sha256, car.to_car, car.outlines, str(car.semantic_class)) for car in cars]
+    told = [replace(car, path="") for car in cars]
     digest = hashlib.sha256(repr(told).encode()).hexdigest()
     if folder.sha256 not in {"", digest}:
         raise ConfigError(FIELD, folder.folder, f"the models that it was given with, of SHA-256 {folder.sha256[:16]}")
     return ModelFolder(folder=folder.folder, sha256=digest), cars
+
+
+def cars_by_name(folder: ModelFolder | None) -> dict[str, CarBody]:
+    """The catalogue of cars by name, with the models of a folder by the names of their files without the endings.
+
+    A model takes the place of a body of the catalogue that has its name.
+
+    Raises
+    ------
+    ConfigError
+        As `read_own_cars`.
+    """
+    own = read_own_cars(folder)[1] if folder else ()
+    return {body.name: body for body in CAR_BODIES} | {Path(car.path).stem: car for car in own}
 
 
 @lru_cache(maxsize=16)
@@ -205,7 +214,8 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
     triangles = whole.reshape(-1, 3, 3)
     heights = facts.plate_heights_m or (None, None)
     plates = tuple(_plate(triangles, toward, height) for toward, height in zip((-1, 1), heights, strict=True))
-    body = CarBody(
+    groups = [[p for p, m in zip(placed, is_mirror, strict=True) if m is wanted] for wanted in (False, True)]
+    return OwnCar(
         name=f"own_{re.sub(r'[^a-z0-9]+', '_', path.stem.lower()).strip('_') or 'car'}_{digest[:8]}",
         length_m=float(size[2]),
         width_m=float(size[0]),
@@ -217,11 +227,12 @@ def _car(path: Path, facts: _Facts) -> OwnCar:
         mirrors_m=_mirrors(placed, is_mirror, float(size[2])),
         segment="",
         plates=plates,
+        semantic_class=facts.semantic_class,
+        path=str(path),
+        sha256=digest,
+        to_car=tuple(_row(row) for row in (*np.round(turn * scale, 9), np.round(offset, 6))),
+        outlines=tuple(_hull(np.concatenate(group)) for group in groups if group),
     )
-    groups = [[p for p, m in zip(placed, is_mirror, strict=True) if m is wanted] for wanted in (False, True)]
-    outlines = tuple(_hull(np.concatenate(group)) for group in groups if group)
-    rows = [_row(row) for row in (*np.round(turn * scale, 9), np.round(offset, 6))]
-    return OwnCar(body, str(path), digest, tuple(rows), outlines, facts.semantic_class)
 
 
 def _row(values: NDArray[np.float64]) -> tuple[float, float, float]:

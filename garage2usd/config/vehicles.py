@@ -51,6 +51,8 @@ class CarBody:
     plates
         Of the front plate and of the rear one, where they are given: the way along Z that it looks, -1 or 1, and Y and
         Z of its middle in metres; else they follow from the shape.
+    semantic_class
+        What labels call it.
     """
 
     name: str
@@ -64,6 +66,7 @@ class CarBody:
     mirrors_m: float
     segment: str
     plates: tuple[tuple[float, float, float], ...] = ()
+    semantic_class: VehicleClass = VehicleClass.CAR
 
     @property
     def ahead_m(self) -> float:

@@ -4,11 +4,11 @@ import math
 from dataclasses import replace
 
 from garage2usd.config.own_cars import OwnCar, VehiclesConfig, read_own_cars
-from garage2usd.config.vehicles import CarBody
+from garage2usd.config.vehicles import PAINTS, CarBody
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parked_cars import ParkedCars
 from garage2usd.layout.placement import Placement, Stall, rounded
-from garage2usd.objects.car import CarSpec, own_car_spec
+from garage2usd.objects.car import CarSpec, car_spec
 from garage2usd.randomness import Step
 
 __all__ = ["with_own_cars"]
@@ -59,16 +59,16 @@ def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: Stall) -> 
     dx, dz = car.position_m[0] - stall.centre_m[0], car.position_m[2] - stall.centre_m[1]
     cos, sin = math.cos(stall.yaw_rad), math.sin(stall.yaw_rad)
     x, z = dx * cos - dz * sin, dx * sin + dz * cos
-    half_x, half_z = model.body.half_extents_m(turn)
+    half_x, half_z = model.half_extents_m(turn)
     side = stall.width_m / 2 - _CLEARANCE_M - half_x
     # the wheels at the rear stand where those of the other car did, before the wheel stop
     rear = z - _behind_wheels(spec.measures, is_reversed=is_reversed)
-    z = rear + _behind_wheels(model.body, is_reversed=is_reversed)
+    z = rear + _behind_wheels(model, is_reversed=is_reversed)
     mouth = stall.length_m / 2 - _CLEARANCE_M - half_z
     if side < 0 or z > mouth or z < half_z - stall.length_m / 2 + _CLEARANCE_M:
         return None
     point = rounded(stall.to_world((min(max(x, -side), side), z)))
-    return replace(car, spec=own_car_spec(model), position_m=(point[0], car.position_m[1], point[1]))
+    return replace(car, spec=car_spec(model, PAINTS[0]), position_m=(point[0], car.position_m[1], point[1]))
 
 
 def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:

@@ -13,7 +13,7 @@ from garage2usd.config.vehicles import PAINTS, CarBody, body_named
 from garage2usd.objects.kind import Kind, Look, Spec, TilePart, VariantSet
 from garage2usd.objects.outline import Polygon, rectangle
 
-__all__ = ["CAR_KINDS", "KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec", "own_car_spec"]
+__all__ = ["CAR_KINDS", "KIND", "PAINT_SET", "CarSpec", "OpenCarSpec", "OwnCarSpec", "car_spec"]
 
 KIND = Kind("car", number=16, label="car", cityscapes="car", follows=VariantSet.OCCUPANCY, part=TilePart.PARKING)
 _VAN = replace(KIND, number=46, label="van")
@@ -123,7 +123,7 @@ class OwnCarSpec(CarSpec):
     @property
     def measures(self) -> CarBody:
         """As they were found in its file, or given."""
-        return self.model.body
+        return self.model
 
     @property
     def shape(self) -> Self:
@@ -154,7 +154,9 @@ class _OwnTruckSpec(OwnCarSpec, kind=_TRUCK):
     """A model of the class truck."""
 
 
-def own_car_spec(model: OwnCar) -> OwnCarSpec:
-    """A model of one's own, of the kind that has its semantic class."""
-    spec = {spec.kind.label: spec for spec in (OwnCarSpec, _OwnVanSpec, _OwnTruckSpec)}[model.semantic_class]
-    return spec(model.body.name, PAINTS[0], model=model)
+def car_spec(car: CarBody, paint: str) -> CarSpec:
+    """A car of the catalogue in a paint, or a model of one's own in that of its file."""
+    if not isinstance(car, OwnCar):
+        return CarSpec(car.name, paint)
+    spec = {spec.kind.label: spec for spec in (OwnCarSpec, _OwnVanSpec, _OwnTruckSpec)}[car.semantic_class]
+    return spec(car.name, paint, model=car)

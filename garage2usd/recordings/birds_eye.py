@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config.vehicles import DRIVEN_PAINT, CarBody
 from garage2usd.errors import ConfigError
-from garage2usd.objects.car import CarSpec
+from garage2usd.objects.car import car_spec
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
@@ -126,5 +126,5 @@ class BirdsEyeViews:
 
 def _outlines_m(car: CarBody) -> list[NDArray[np.float64]]:
     """Grounds of a car and its mirrors in ISO 8855's axes, from the middle of the rear axle."""
-    outlines = [np.array(outline) - (0.0, car.rear_axle_m) for outline in CarSpec(car.name, DRIVEN_PAINT).outlines()]
+    outlines = [np.array(outline) - (0.0, car.rear_axle_m) for outline in car_spec(car, DRIVEN_PAINT).outlines()]
     return [np.insert(each, 1, 0.0, axis=1) @ CAR_FROM_VEHICLE[:3, :2] for each in outlines]

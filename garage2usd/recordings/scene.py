@@ -41,7 +41,7 @@ class Scene:
     def __init__(self, stage: Usd.Stage, labels: Labels, way: Way, rig: Rig, birds_eye: BirdsEye | None = None) -> None:
         self._stage, self._way, self._rig = stage, way, rig
         self._ego_id = max(labels.ids.values(), default=0) + 1
-        cars = [number for number, entry in labels.classes.items() if entry.name == "car"]
+        cars = [number for number, entry in labels.classes.items() if entry.name == rig.body.semantic_class]
         self.labels = replace(
             labels,
             ids={**labels.ids, EGO_PATH: self._ego_id},
@@ -181,7 +181,7 @@ class Scene:
             "effects": [None if view.effects is None else view.effects.model_dump(mode="json") for view in self.views],
             "motion": [None if view.twist is None else view.twist.facts for view in self.views if view.shows_motion],
             "hidden": self.hidden(),
-            "car": self._rig.car,
+            "car": [self._rig.car, self._rig.models.sha256 if self._rig.models else ""],
             "lamps": self._rig.lamps,
             "kinds": kinds,
             "samples": samples,

@@ -9,7 +9,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from garage2usd.config.vehicles import CAR_BODIES, CarBody, body_named
+from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
+from garage2usd.config.vehicles import CarBody
 from garage2usd.documents import read_toml
 from garage2usd.errors import ConfigError
 from garage2usd.sensors.around_view_camera import AroundViewCamera
@@ -50,9 +51,11 @@ class Rig(Settings):
     """Short name of the rig."""
     title: str = Field("", max_length=500)
     """What it is made after."""
+    models: ModelFolder | None = None
+    """A folder of models of cars of one's own, as USD or GLB, that `car` may name (see the guide of own cars)."""
     car: str = "hatchback"
-    """Body of the ego car in garage2usd's catalogue, which masks show: `"hatchback"`, `"saloon"`, `"suv"`, `"van"`,
-    `"pickup"` or `"compact_ev"`. What is driven is the way of the design car."""
+    """The ego car, which masks show: a body of garage2usd's catalogue, such as `"saloon"`, `"suv"` or `"van"`, or a
+    model in `models` by the name of its file without the ending. What is driven is the way of the design car."""
     ego_visible: bool = False
     """Whether cameras on the car see its body, where their masks say; around views never do."""
     lamps: Literal["off", "on"] = "off"
@@ -60,10 +63,21 @@ class Rig(Settings):
     sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
     """The sensors."""
 
+    @field_validator("models", mode="before")
+    @classmethod
+    def _folder(cls, models: object) -> object:
+        return {"folder": models} if isinstance(models, str) else models
+
+    @field_validator("models")
+    @classmethod
+    def _read(cls, models: ModelFolder | None) -> ModelFolder | None:
+        """The folder with the digest of what it holds; refused where that is not what it was given with."""
+        return read_own_cars(models)[0] if models else None
+
     @field_validator("car")
     @classmethod
-    def _known_body(cls, car: str) -> str:
-        names = [body.name for body in CAR_BODIES]
+    def _known_car(cls, car: str, settings: ValidationInfo) -> str:
+        names = cars_by_name(settings.data.get("models"))
         if car not in names:
             raise ValueError(f"one of {', '.join(names)}")
         return car
@@ -80,16 +94,16 @@ class Rig(Settings):
     @field_validator("sensors")
     @classmethod
     def _through_its_cameras(cls, sensors: tuple[Sensor, ...], settings: ValidationInfo) -> tuple[Sensor, ...]:
-        if "car" not in settings.data:
+        if not {"models", "car"} <= settings.data.keys():
             return sensors
         if not any(not isinstance(sensor, Camera) or sensor.recorded for sensor in sensors):
             raise ValueError("one that is recorded at least")
-        return _looking_through(sensors, body_named(settings.data["car"]))
+        return _looking_through(sensors, cars_by_name(settings.data["models"])[settings.data["car"]])
 
     @property
     def body(self) -> CarBody:
-        """The body of the ego car."""
-        return body_named(self.car)
+        """The ego car."""
+        return cars_by_name(self.models)[self.car]
 
     @property
     def cameras(self) -> tuple[Camera, ...]:
@@ -149,7 +163,10 @@ def read_rig(name_or_path: str | Path) -> Rig:
         return _shipped(name)
     if not name.lower().endswith(".toml"):
         raise ConfigError("rig", name, f"one of {', '.join(RIG_NAMES)}, or a path that ends in .toml")
-    return rig_from_mapping(read_toml(Path(name), field="rig"))
+    settings = read_toml(Path(name), field="rig")
+    if isinstance(models := settings.get("models"), str) and models:
+        settings = {**settings, "models": str((Path(name).parent / models).absolute())}
+    return rig_from_mapping(settings)
 
 
 def rig_from_mapping(settings: Mapping[str, Any]) -> Rig:

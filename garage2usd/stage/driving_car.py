@@ -10,24 +10,31 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf
 
-from garage2usd.assets import MATERIALS, NON_VISUAL, Asset, Part, pascal_case
+from garage2usd.assets import MATERIALS, NON_VISUAL, Asset, Part, finished, pascal_case
 from garage2usd.assets.number_plates import painted_plates
+from garage2usd.config.own_cars import OwnCar
+from garage2usd.config.stage import TextureQuality
 from garage2usd.config.vehicles import DRIVEN_BODIES, DRIVEN_PAINT, DRIVEN_PLATE, CarBody
 from garage2usd.driving import DesignCar
 from garage2usd.driving.timing import Motion
 from garage2usd.driving.trajectory import Trajectory
-from garage2usd.objects.car import CarSpec
+from garage2usd.objects.car import car_spec
 from garage2usd.stage.authoring import attribute, define, new_layer, operation, order_operations
 from garage2usd.stage.cameras import FRAMES_PER_SECOND, bends, set_frames
-from garage2usd.stage.looks import define_material
+from garage2usd.stage.looks import TEXTURE_FOLDER, define_material
 from garage2usd.stage.prototype_layer import define_mesh
 from garage2usd.stage.prototypes import asset_of
+from garage2usd.stage.texture_files import named_textures, textures_of
 
-__all__ = ["CAR_NAME", "body_within", "define_car_looks", "driven_asset", "write_driving_car"]
+__all__ = ["CAR_NAME", "body_within", "define_car_looks", "driven_asset", "write_car_textures", "write_driving_car"]
 
 CAR_NAME = "DrivingCar"
 """Name of the car below ``/Garage``."""
 _PAINT = "car_paint"
+_QUALITY = TextureQuality.HIGH
+"""Of textures that only models of one's own have, which are as they are in every quality."""
+_WHEEL_REACH_M, _WHEEL_MARGIN_M = 0.45, 0.01
+"""How far wheels reach inwards from a car's side, and beyond their radius where they are round by chords."""
 _TYPES = Sdf.ValueTypeNames
 
 
@@ -47,8 +54,22 @@ def _lies_within(body: CarBody, car: DesignCar) -> bool:
     return body.ahead_m <= car.ahead_m and behind_m <= car.rear_overhang_m and body.width_m <= car.width_m
 
 
-def write_driving_car(path: Path, motion: Motion) -> None:
+def write_driving_car(path: Path, motion: Motion, car: CarBody | None = None) -> tuple[Path, ...]:
     """Write the layer: ``over /Garage`` with the car at ``/Garage/DrivingCar``, its wheels below it.
+
+    Parameters
+    ----------
+    path
+        The file.
+    motion
+        What the design car drives.
+    car
+        What is seen of it, of the catalogue or a model of one's own; left out, what `body_within` finds.
+
+    Returns
+    -------
+    tuple
+        The textures beside the file that it refers to, as a model of one's own may.
 
     Notes
     -----
@@ -59,14 +80,16 @@ def write_driving_car(path: Path, motion: Motion) -> None:
     last = math.ceil(motion.ends_s * FRAMES_PER_SECOND - 1e-6)
     frames = np.arange(last + 1)
     states = motion.at(frames / FRAMES_PER_SECOND)
-    body = body_within(motion.car)
+    body = car or body_within(motion.car)
     with new_layer(path, default_prim="Garage") as layer:
         set_frames(layer, last)
         garage = Sdf.CreatePrimInLayer(layer, "/Garage")
         garage.specifier = Sdf.SpecifierOver
-        car = define(layer, garage.path.AppendChild(CAR_NAME), "Xform", kind=Kind.Tokens.component, label="car")
-        _author_drive(layer, car, states)
-        _author_body(layer, car.path, body, states)
+        place = garage.path.AppendChild(CAR_NAME)
+        root = define(layer, place, "Xform", kind=Kind.Tokens.component, label=body.semantic_class.value)
+        _author_drive(layer, root, states)
+        _author_body(layer, root.path, body, states)
+    return write_car_textures(path.parent, driven_asset(body))
 
 
 def _author_drive(layer: Sdf.Layer, car: Sdf.PrimSpec, states: Trajectory) -> None:
@@ -84,19 +107,47 @@ def _author_drive(layer: Sdf.Layer, car: Sdf.PrimSpec, states: Trajectory) -> No
 
 @lru_cache(maxsize=32)
 def driven_asset(body: CarBody) -> Asset:
-    """A car that drives, with number plates of its own; its axes are those of a parked one."""
-    asset = asset_of(CarSpec(body.name, DRIVEN_PAINT).shape)
+    """A car that drives, with number plates of its own; its axes are those of a parked one.
+
+    Raises
+    ------
+    ConfigError
+        If the file of a model of one's own has changed since the settings were read.
+    """
+    asset = asset_of(car_spec(body, DRIVEN_PAINT))
     return replace(asset, parts=(*asset.parts, *painted_plates(body, DRIVEN_PLATE)))
 
 
 def define_car_looks(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> Sdf.Path:
-    """Write the materials of a car that drives below it; returns the path of their scope."""
+    """Write the materials of a car that drives below it; returns the path of their scope.
+
+    A layer names the textures of a model of one's own in the folder ``textures`` beside it, which
+    `write_car_textures` writes.
+    """
     looks = define(layer, car.AppendChild("Looks"), "Scope").path
-    for key in sorted({part.material for part in asset.parts}):
+    for key in sorted(asset.materials):
         # the paint is that of one variant; the catalogue's own material has none
-        material = MATERIALS[asset.paints[DRIVEN_PAINT] if key == _PAINT else key]
-        define_material(layer, looks.AppendChild(pascal_case(key)), material, non_visual=NON_VISUAL[key])
+        finish = finished(asset.paints[DRIVEN_PAINT] if key == _PAINT and asset.paints else key, asset.finishes)
+        material = named_textures(finish.material, _QUALITY, folder=f"./{TEXTURE_FOLDER}")
+        is_own = key in asset.finishes
+        define_material(
+            layer,
+            looks.AppendChild(pascal_case(key)),
+            material,
+            non_visual=NON_VISUAL[finish.key if is_own else key],
+            finish=finish.key if is_own else "",
+        )
     return looks
+
+
+def write_car_textures(folder: Path, asset: Asset) -> tuple[Path, ...]:
+    """Write the textures of a car that drives into the folder ``textures`` of a folder; returns the files."""
+    files = textures_of(asset.materials, asset.finishes, _QUALITY)
+    if files:
+        (folder / TEXTURE_FOLDER).mkdir(exist_ok=True)
+    for file in files:
+        (folder / TEXTURE_FOLDER / file.name).write_bytes(file.data)
+    return tuple(folder / TEXTURE_FOLDER / file.name for file in files)
 
 
 def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Trajectory) -> None:
@@ -108,11 +159,13 @@ def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Traject
     order_operations(shell, ["translate"])
     wheels: dict[tuple[int, int], list[Part]] = {}
     for part in asset.parts:
-        if part.material not in {"tyre", "rim"}:
-            define_mesh(layer, shell.path.AppendChild(part.name), replace(part, collider=None), looks)
-            continue
-        for corner, piece in _by_corner(part, axle_m - body.wheelbase_m / 2):
+        turns = _turns(part, body)
+        for corner, piece in _by_corner(part, turns, axle_m - body.wheelbase_m / 2):
             wheels.setdefault(corner, []).append(piece)
+        if not turns.all():
+            finish = finished(part.material, asset.finishes).material
+            still = replace(part if not turns.any() else _with_faces(part, ~turns), collider=None)
+            define_mesh(layer, shell.path.AppendChild(part.name), still, looks, finish=finish)
     rolled = np.concatenate([[0.0], np.cumsum(states.gear[1:] * np.diff(states.arc_m))])
     rolled_deg = -np.degrees(rolled / body.wheel_radius_m)
     for (side, end), parts in sorted(wheels.items()):
@@ -128,26 +181,46 @@ def _author_body(layer: Sdf.Layer, car: Sdf.Path, body: CarBody, states: Traject
         _sampled(layer, wheel, "rotateX", rolled_deg[:, None])
         order_operations(wheel, [*order, "rotateX"])
         for part in parts:
-            # tyres and rims have the names of their materials here
+            # tyres and rims of the catalogue have the names of their materials here
             moved = replace(part, points=part.points - hub, collider=None)
-            define_mesh(layer, wheel.path.AppendChild(pascal_case(part.material)), moved, looks)
+            is_own = part.material in asset.finishes
+            name = part.name if is_own else pascal_case(part.material)
+            finish = finished(part.material, asset.finishes).material
+            define_mesh(layer, wheel.path.AppendChild(name), moved, looks, finish=finish)
 
 
-def _by_corner(part: Part, middle_z_m: float) -> Iterator[tuple[tuple[int, int], Part]]:
-    """A part of several wheels as one part a wheel, by the signs of its x and of its z from the middle of the axles."""
+def _turns(part: Part, body: CarBody) -> NDArray[np.bool_]:
+    """Which faces of a part belong to wheels: its tyres and rims, or what lies within the wheels of one's own car."""
+    if not isinstance(body, OwnCar):
+        return np.full(len(part.face_counts), part.material in {"tyre", "rim"})
+    x, y, z = part.points.astype(np.float64).T
+    is_at_side = np.abs(x) > body.width_m / 2 - _WHEEL_REACH_M
+    result = np.zeros(len(part.face_counts), dtype=np.bool_)
+    for axle_z_m in (body.front_overhang_m - body.length_m / 2, body.rear_axle_m):
+        is_inside = is_at_side & (
+            np.hypot(y - body.wheel_radius_m, z - axle_z_m) < body.wheel_radius_m + _WHEEL_MARGIN_M
+        )
+        starts = np.cumsum(part.face_counts) - part.face_counts
+        result |= np.logical_and.reduceat(is_inside[part.face_indices], starts)
+    return result
+
+
+def _by_corner(part: Part, turns: NDArray[np.bool_], middle_z_m: float) -> Iterator[tuple[tuple[int, int], Part]]:
+    """The wheels of a part as one part a wheel, by the signs of its x and of its z from the middle of the axles."""
     starts = np.cumsum(part.face_counts) - part.face_counts
-    face_of = np.repeat(np.arange(len(starts)), part.face_counts)
     first = part.points[part.face_indices[starts]]
     corners = np.stack([np.sign(first[:, 0]), np.sign(first[:, 2] - middle_z_m)], axis=1).astype(int)
-    for corner in np.unique(corners, axis=0).tolist():
-        faces = (corners == corner).all(axis=1)
-        yield (corner[0], corner[1]), _with_faces(part, faces, faces[face_of])
+    for corner in np.unique(corners[turns], axis=0).tolist():
+        yield (corner[0], corner[1]), _with_faces(part, turns & (corners == corner).all(axis=1))
 
 
-def _with_faces(part: Part, faces: NDArray[np.bool_], corners: NDArray[np.bool_]) -> Part:
-    """Some of a part's faces, with the points and normals that they use."""
+def _with_faces(part: Part, faces: NDArray[np.bool_]) -> Part:
+    """Some of a part's faces, with the points, normals and texture coordinates that they use."""
+    corners = np.repeat(faces, part.face_counts)
     used, indices = np.unique(part.face_indices[corners], return_inverse=True)
     normals, normal_indices = np.unique(part.normal_indices[corners], return_inverse=True)
+    is_textured = len(part.st_indices) > 0 and part.material not in MATERIALS
+    st, st_indices = np.unique(part.st_indices[corners] if is_textured else part.st_indices[:0], return_inverse=True)
     return replace(
         part,
         points=part.points[used],
@@ -155,8 +228,8 @@ def _with_faces(part: Part, faces: NDArray[np.bool_], corners: NDArray[np.bool_]
         face_indices=indices.astype(np.int32),
         normals=part.normals[normals],
         normal_indices=normal_indices.astype(np.int32),
-        st=part.st[:0],
-        st_indices=part.st_indices[:0],
+        st=part.st[st],
+        st_indices=st_indices.astype(np.int32),
     )
 
 

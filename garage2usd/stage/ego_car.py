@@ -4,11 +4,12 @@ from pathlib import Path
 
 from pxr import Gf, Sdf, Usd, UsdGeom
 
+from garage2usd.assets import finished
 from garage2usd.assets.cars import lit
 from garage2usd.config.vehicles import CarBody
 from garage2usd.reading.values import metres_per_unit, metres_y_up
 from garage2usd.stage.authoring import define, operation, order_operations, save_file
-from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset
+from garage2usd.stage.driving_car import CAR_NAME, define_car_looks, driven_asset, write_car_textures
 from garage2usd.stage.lamp_lights import define_lamp_lights
 from garage2usd.stage.prototype_layer import define_mesh
 
@@ -40,6 +41,7 @@ def write_stage_with_car(path: Path, stage: Usd.Stage, car: CarBody, *, is_lit: 
                 over.active = False
         _author_car(layer, stage, car, is_lit=is_lit)
     save_file(layer, path)
+    write_car_textures(path.parent, driven_asset(car))
 
 
 def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: bool) -> None:
@@ -52,6 +54,7 @@ def _author_car(layer: Sdf.Layer, stage: Usd.Stage, car: CarBody, *, is_lit: boo
     operation(body, "translate", Sdf.ValueTypeNames.Float3, Gf.Vec3f(0, 0, -car.rear_axle_m))
     order_operations(body, ["translate"])
     for part in asset.parts:
-        define_mesh(layer, body.path.AppendChild(part.name), part, looks)
+        finish = finished(part.material, asset.finishes).material
+        define_mesh(layer, body.path.AppendChild(part.name), part, looks, finish=finish)
     if is_lit:
         define_lamp_lights(layer, body.path, asset)

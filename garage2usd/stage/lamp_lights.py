@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, UsdLux
 
 from garage2usd.assets import Asset, Rgb
+from garage2usd.assets.cars import lamps_of
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
 from garage2usd.errors import ConfigError
 from garage2usd.reading.lights import luminance_of
@@ -30,9 +31,10 @@ _TAIL_CD, _TAIL_DOWN_DEG = 12.0, 20.0
 
 
 class _Lamp(NamedTuple):
-    """How a lamp shines: which prim it is, its radius, strength along its axis, colour and dip."""
+    """How a lamp shines: which part it is, in words too, its light, radius, strength along its axis, colour and dip."""
 
     part: str
+    words: str
     type_name: str
     radius_m: float
     candela: float
@@ -42,14 +44,15 @@ class _Lamp(NamedTuple):
 
 _LAMPS = {
     "Head": _Lamp(
-        "HeadLamps",
+        "lamp_front",
+        "head lamps",
         "SphereLight",
         0.04,
         _HEAD_LM / (math.tau * (1 - math.cos(math.radians(_CONE_DEG)))),
         USUAL_LAMP_RGB,
         _CONE_DEG + _CUT_OFF_DEG,
     ),
-    "Tail": _Lamp("TailLamps", "DiskLight", 0.06, _TAIL_CD, _TAIL_RGB, _TAIL_DOWN_DEG),
+    "Tail": _Lamp("lamp_rear", "tail lamps", "DiskLight", 0.06, _TAIL_CD, _TAIL_RGB, _TAIL_DOWN_DEG),
 }
 
 
@@ -64,14 +67,14 @@ def lamp_places(asset: Asset) -> dict[str, NDArray[np.float64]]:
     Raises
     ------
     ConfigError
-        If the car has no parts ``HeadLamps`` and ``TailLamps``, as a model of one's own may.
+        If the car has no head lamps or no tail lamps, as a model of one's own may.
     """
-    parts = {part.name: part for part in asset.parts}
     places = {}
     for end, lamp in _LAMPS.items():
-        if lamp.part not in parts:
-            raise ConfigError("lamps", "on", f"a car that has the part {lamp.part}")
-        points = parts[lamp.part].points.astype(np.float64)
+        parts = lamps_of(asset, lamp.part)
+        if not parts:
+            raise ConfigError("lamps", "on", f"a car with parts or materials named as {lamp.words} are")
+        points = np.concatenate([part.points for part in parts]).astype(np.float64)
         for name, side in (("Left", -1.0), ("Right", 1.0)):
             own = points[points[:, 0] * side > 0]
             x, y = own[:, :2].mean(axis=0)

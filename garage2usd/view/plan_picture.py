@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import shapely
 
-from garage2usd.config.vehicles import CAR_BODIES
+from garage2usd.config.vehicles import CarBody
 from garage2usd.layout import Layout, Placement, Stall, StallUse
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
@@ -130,7 +130,11 @@ def _stalls(layout: Layout) -> Iterator[Region | Line | Text]:
         yield Region(corners, STALL_COLOUR[stall.use], kind, stall.name)
         yield Line([corners[0], corners[3], corners[2], corners[1]], PAPER, LINE_M)
     # some cars reach into the next stall
-    yield from (Region(_car_outline(car), _CAR, "car") for car in cars.values())
+    yield from (
+        Region(_car_outline(car, car.spec.measures), _CAR, "car")
+        for car in cars.values()
+        if isinstance(car.spec, CarSpec)
+    )
     for stall in layout.stalls:
         if stall.number:
             yield _number(stall)
@@ -143,9 +147,8 @@ def _clutter(layout: Layout) -> Iterator[Region]:
             yield from (Region(outline, _STANDING, kind.name, place.name) for outline in place.outlines())
 
 
-def _car_outline(car: Placement) -> list[Point]:
+def _car_outline(car: Placement, body: CarBody) -> list[Point]:
     """A body with a pointed nose, which tells where it looks."""
-    body = car.spec.measures if isinstance(car.spec, CarSpec) else CAR_BODIES[0]
     half_x, half_z = body.width_m / 2, body.length_m / 2
     nose = 0.45 * half_x
     shape = [

@@ -84,6 +84,33 @@ def own(tmp_path_factory):
     return SimpleNamespace(built=built, cars=cars, entries=entries, folder=folder)
 
 
+@needs_blender
+def test_one_drives_and_carries_cameras_that_see_it_where_their_mask_says(own):
+    folder = own.folder / "driven"
+    over_roof = {**CAMERA, "name": "roof", "position_m": [0.2, 0.0, 1.75], "pitch_deg": 25.0}
+    rig = {"name": "own", "models": str(own.folder / "models"), "car": "box", "ego_visible": True}
+    record(
+        own.built.stage,
+        folder,
+        rig=rig_from_mapping({**rig, "sensors": [over_roof, {**CAMERA, "name": "nose", "position_m": [3.4, 0, 0.7]}]}),
+        along="1:" + next(iter(own.cars.values())).stall,
+        every_m=12.0,
+        samples=4,
+        pictures=(Picture.COLOUR, Picture.INSTANCE),
+    )
+    ego = max(entry["id"] for entry in labelled_objects(own.built.labels)) + 1
+    frames = json.loads((folder / "frames.json").read_text())["frames"]
+    assert len(frames) >= 4
+    for frame in frames:
+        instance = np.asarray(Image.open(folder / frame["files"]["instance"])).astype(int) @ [1, 256, 65536]
+        mask = np.asarray(Image.open(folder / frame["ego_mask"])) > 0
+        assert np.mean((instance == ego) != mask) < 0.002
+        assert mask.any() == (frame["sensor"] == "roof")
+        if mask.any():
+            red, green, blue = np.asarray(Image.open(folder / frame["files"]["colour"])).astype(int)[mask].mean(axis=0)
+            assert max(green, blue) > red + 5, "a blue cabin, and a bonnet as green as its texture"
+
+
 def test_a_glb_has_them_with_class_and_id(own):
     path = own.folder / "garage.glb"
     export(own.built.stage, [path])

@@ -1,6 +1,7 @@
 """Shapes of every kind of object, by a name for each case."""
 
 import string
+from dataclasses import replace
 
 from garage2usd.assets.car_boot import has_boot
 from garage2usd.assets.figures import POSES
@@ -11,7 +12,7 @@ from garage2usd.objects.barrier import BarrierSpec
 from garage2usd.objects.beam import BeamNodeSpec, BeamSpec
 from garage2usd.objects.bicycle import BicycleSpec
 from garage2usd.objects.cable_tray import CableTraySpec
-from garage2usd.objects.car import CarSpec, OpenCarSpec, own_car_spec
+from garage2usd.objects.car import CarSpec, OpenCarSpec, car_spec
 from garage2usd.objects.cardboard_box import BoxSpec
 from garage2usd.objects.ceiling import CeilingSpec
 from garage2usd.objects.charger import ChargerSpec
@@ -133,10 +134,10 @@ SPECS = {
     "column_plates_bent": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3,) * 4, is_round=True),
     "column_plates_near": ColumnPlatesSpec(("A1", "B1", "", "K12"), 0.6, (0.3, 0.21, 0.3, 0.21)),
     "number_plate": NumberPlateSpec("saloon", "K47 M92"),
-    "own_car": own_car_spec(own_car()),
-    "own_van": own_car_spec(own_car()._replace(semantic_class=VehicleClass.VAN)),
-    "own_truck": own_car_spec(own_car()._replace(semantic_class=VehicleClass.TRUCK)),
-    "own_plate": OwnPlateSpec(own_car().body.name, "K47 M92", car=own_car().body),
+    "own_car": car_spec(own_car(), PAINTS[0]),
+    "own_van": car_spec(replace(own_car(), semantic_class=VehicleClass.VAN), PAINTS[0]),
+    "own_truck": car_spec(replace(own_car(), semantic_class=VehicleClass.TRUCK), PAINTS[0]),
+    "own_plate": OwnPlateSpec(own_car().name, "K47 M92", car=own_car()),
     **{f"bin_{colour}": BinSpec(colour) for colour in BIN_COLOURS},
     "bicycle": BicycleSpec("red"),
     "motorbike": MotorbikeSpec("blue"),

@@ -38,7 +38,7 @@ def test_measures_are_found_whatever_units_axes_and_files(models):
     _, cars = read_own_cars(ModelFolder(folder=str(models)))
     assert len(cars) == 3
     for car in cars:
-        body = car.body
+        body = car
         assert [body.length_m, body.height_m, body.wheelbase_m, body.wheel_radius_m] == pytest.approx(
             [4.2, 1.5, 2.5, 0.32], abs=0.01
         )
