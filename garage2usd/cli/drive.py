@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from garage2usd.as_built import BuiltGarage
     from garage2usd.config.maps import DriveConfig
+    from garage2usd.config.vehicles import CarBody
     from garage2usd.driving import StallProof
     from garage2usd.maps.drives import Drive
     from garage2usd.pipeline import Garage
@@ -40,6 +41,7 @@ _TRAJECTORY_FORMATS, _ANIMATION_FORMATS = (".csv", ".json"), (".usda", ".usdc")
 )
 @drive_options("With --stall", "Drive from an entrance to this stall, park, and drive to an exit")
 @click.option("--animate", is_flag=True, help="With --stall: write the car in time, to put over the stage.")
+@click.option("--rig", metavar="RIG", help="With --animate: draw the car of a rig, which may be a model of one's own.")
 def drive(
     *,
     path: Path | None,
@@ -50,6 +52,7 @@ def drive(
     exit_: int | None,
     leg: str | None,
     animate: bool,
+    rig: str | None,
 ) -> None:
     """Prove that a car drives into each stall and out again without a touch.
 
@@ -67,9 +70,12 @@ def drive(
       garage2usd drive --seed 7 -o ways.json
       garage2usd drive garage.usdz --stall A1-08 -o trajectory.csv
       garage2usd drive garage.usdz --stall A1-08 --animate -o car.usdc
+      garage2usd drive garage.usdz --stall A1-08 --animate --rig own.toml -o car.usdc
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.output import check_file, check_name  # noqa: PLC0415 - keeps --help instant
 
+    if rig is not None and not animate:
+        raise ConfigError("rig", rig, "only with --animate")
     if stall is None:
         _refuse_without_stall(entrance=entrance, exit=exit_, leg=leg, animate=animate or None)
     elif animate and output is None:
@@ -82,7 +88,7 @@ def drive(
         check_name(output, of_layer=output.suffix.lower() in _ANIMATION_FORMATS)
         check_file(output)
     if stall is not None:
-        _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output)
+        _drive_to(path, seed, stall, entrance=entrance, exit_=exit_, leg=leg or "both", output=output, rig=rig)
         return
     with Bars(sys.stderr) as progress:
         proofs = _proofs_of(path, seed, progress)
@@ -108,16 +114,19 @@ def _drive_to(
     exit_: int | None,
     leg: str,
     output: Path | None,
+    rig: str | None,
 ) -> None:
     """Drive to one stall and tell of it."""
     from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
+    from garage2usd.sensors.rig import read_rig  # noqa: PLC0415
 
+    car = None if rig is None else read_rig(rig).body
     with Bars(sys.stderr) as progress:
         garage, settings = _garage_of(path, seed, progress)
         driven = DrivePlanner(garage, settings).drive(stall, entrance=entrance, exit=exit_, leg=Leg(leg))
     if output is not None:
-        _write_drive(output, driven)
+        _write_drive(output, driven, car)
     route, states = driven.route, driven.trajectory
     ways = {"in": ("arrival", route.arrival), "out": ("departure", route.departure)}
     for name, (word, way) in ways.items():
@@ -180,17 +189,18 @@ def _generated(path: Path | None, seed: int | None, progress: "Progress") -> "Ga
     return generate(load_config(path) if path else None, seed=seed, progress=progress)
 
 
-def _write_drive(output: Path, driven: "Drive") -> None:
+def _write_drive(output: Path, driven: "Drive", car: "CarBody | None") -> None:
     from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json  # noqa: PLC0415
     from garage2usd.stage.driving_car import write_driving_car  # noqa: PLC0415
 
-    def write(file: Path) -> None:
+    def write(file: Path) -> "Sequence[Path]":
         if file.suffix == ".csv":
             write_trajectory_csv(file, driven.trajectory)
         elif file.suffix == ".json":
             write_trajectory_json(file, driven.trajectory, driven.car, driven.facts)
         else:
-            write_driving_car(file, driven.motion)
+            return write_driving_car(file, driven.motion, car)
+        return ()
 
     _publish(output, write)
 
@@ -199,23 +209,24 @@ def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415 - keeps --help instant
     from garage2usd.stage.driving_layer import write_driving_layer  # noqa: PLC0415
 
-    def write(file: Path) -> None:
+    def write(file: Path) -> "Sequence[Path]":
         if file.suffix == ".json":
             write_witness(file, proofs)
         else:
             write_driving_layer(file, proofs)
+        return ()
 
     _publish(output, write)
 
 
-def _publish(output: Path, write: "Callable[[Path], None]") -> None:
-    """Have a file written whose name ends in small letters, and put it into its place."""
+def _publish(output: Path, write: "Callable[[Path], Sequence[Path]]") -> None:
+    """Have a file written whose name ends in small letters, and put it and what it refers to into their places."""
     from garage2usd.output import publish_at, staging_folder  # noqa: PLC0415 - keeps --help instant
 
     with staging_folder(output) as staging:
         file = staging / f"drive{output.suffix.lower()}"
-        write(file)
-        publish_at({file: output})
+        beside = write(file)
+        publish_at({**{path: output.parent / path.relative_to(staging) for path in beside}, file: output})
 
 
 def _describe(proofs: "Sequence[StallProof]") -> None:

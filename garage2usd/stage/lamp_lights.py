@@ -100,6 +100,6 @@ def define_lamp_lights(layer: Sdf.Layer, car: Sdf.Path, asset: Asset) -> None:
             attribute(light, UsdLux.Tokens.inputsShapingConeSoftness, _TYPES.Float, _SOFTNESS)
         # lights shine along their -Z, which is where cars look to
         operation(light, "translate", _TYPES.Float3, Gf.Vec3f(*place.tolist()))
-        operation(light, "rotateY", _TYPES.Float, 180.0 if lamp.part == "TailLamps" else 0.0)
+        operation(light, "rotateY", _TYPES.Float, 180.0 if lamp.part == "lamp_rear" else 0.0)
         operation(light, "rotateX", _TYPES.Float, -lamp.down_deg)
         order_operations(light, ["translate", "rotateY", "rotateX"])

@@ -36,10 +36,19 @@ def boxes(length_m=LENGTH_M):
     return parts
 
 
-def write_glb(path, *, wheels=True, **measures):
-    """Y up, metres, with a picture on its body."""
+def lamps():
+    """Two head lamps and two tail lamps, which stand out of the body."""
+    return {
+        f"{name}_{side}": trimesh.creation.box((0.3, 0.15, 0.04)).apply_translation((0.5 * x, 0.7, z))
+        for name, z in (("headlight", -LENGTH_M / 2), ("taillight", LENGTH_M / 2))
+        for side, x in (("left", -1), ("right", 1))
+    }
+
+
+def write_glb(path, *, wheels=True, lit=False, **measures):
+    """Y up, metres, with a picture on its body; with lamps where it is to be lit."""
     scene = trimesh.Scene()
-    for name, mesh in boxes(**measures).items():
+    for name, mesh in {**boxes(**measures), **(lamps() if lit else {})}.items():
         if not wheels and name.startswith("wheel"):
             continue
         material = trimesh.visual.material.PBRMaterial(

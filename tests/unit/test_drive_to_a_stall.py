@@ -159,6 +159,8 @@ def test_the_car_s_meshes_lie_within_the_design_car_and_its_wheels_roll(made, tm
         (["--entrance", "1", "-o", "way.json"], "entrance"),
         (["--leg", "in", "-o", "way.json"], "leg"),
         (["--animate", "-o", "way.usda"], "animate"),
+        (["--stall", STALL, "--rig", "avp_surround", "-o", "way.csv"], "rig"),
+        (["--stall", STALL, "--animate", "--rig", "none", "-o", "way.usda"], "rig"),
     ],
 )
 def test_what_is_asked_amiss_is_one_error_and_no_file(made, tmp_path, monkeypatch, options, field):

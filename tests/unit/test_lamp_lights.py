@@ -84,7 +84,7 @@ def test_lenses_glow_where_the_car_is_lit_and_a_dark_one_has_no_light(written):
 
 
 def test_a_car_without_lamps_cannot_have_them_on():
-    with pytest.raises(ConfigError, match=r"lamps.*HeadLamps"):
+    with pytest.raises(ConfigError, match=r"lamps.*head lamps"):
         lamp_places(Asset(()))
 
 

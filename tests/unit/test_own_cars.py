@@ -1,14 +1,23 @@
 """Cars of one's own: foreign models stand in garages as cars do, and what is no car is refused in one line."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
-from pxr import Gf, Usd, UsdGeom
+from pxr import Gf, Usd, UsdGeom, UsdShade
 from support.foreign_cars import write_glb, write_parts, write_z_up
 
 import garage2usd
+from garage2usd.assets import MATERIALS
+from garage2usd.assets.cars import lit
+from garage2usd.cli import main
 from garage2usd.config import GarageConfig
-from garage2usd.config.own_cars import ModelFolder, read_own_cars
+from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
 from garage2usd.errors import ConfigError
+from garage2usd.sensors.ego_mask import ego_triangles_m
+from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.stage.driving_car import CAR_NAME, driven_asset
+from garage2usd.stage.lamp_lights import lamp_places
 
 
 @pytest.fixture(scope="module")
@@ -87,6 +96,98 @@ def test_same_models_give_the_same_bytes_and_a_changed_file_another_digest(model
             garage2usd.build(given, tmp_path / "garage.usdc")
     finally:
         path.write_bytes(before)
+
+
+@pytest.fixture(scope="module")
+def rigs(models):
+    """A rig file for each model beside their folder."""
+    for name in ("box", "van", "parts"):
+        models.with_name(f"{name}.toml").write_text(
+            f'name = "own"\nmodels = "{models.name}"\ncar = "{name}"\n'
+            '[[sensors]]\nkind = "pinhole"\nname = "front"\nposition_m = [1, 0, 1.4]\n'
+            "size_px = [64, 48]\nfocal_px = [40, 40]\n"
+        )
+    return models.parent
+
+
+@pytest.mark.parametrize("name", ["box", "van", "parts"])
+def test_one_drives_with_wheels_that_roll_and_its_own_textures(built, rigs, tmp_path, name):
+    stall = next(stall.name for stall in built.garage.layout.stalls if stall.use == "standard")
+    layer = tmp_path / "car.usdc"
+    options = ["--stall", stall, "--leg", "in", "--animate", "--rig", str(rigs / f"{name}.toml"), "-o", str(layer)]
+    main(["drive", str(built.stage), *options], standalone_mode=False)
+    root = Usd.Stage.CreateInMemory()
+    root.GetRootLayer().subLayerPaths = [str(layer), str(built.stage)]
+    last = Usd.Stage.Open(str(layer)).GetEndTimeCode()
+    boxes, turns = UsdGeom.BBoxCache(0.0, ["default"]), set()
+    for wheel in ("FrontLeft", "FrontRight", "RearLeft", "RearRight"):
+        prim = root.GetPrimAtPath(f"/Garage/{CAR_NAME}/{wheel}Wheel")
+        size = np.array(boxes.ComputeUntransformedBound(prim).ComputeAlignedRange().GetSize())
+        assert size == pytest.approx([0.2, 0.64, 0.64], abs=0.01)
+        matrices = [UsdGeom.Xformable(prim).GetLocalTransformation(frame) for frame in np.linspace(0, last, 50)]
+        assert matrices[0].ExtractTranslation()[1] == pytest.approx(0.32, abs=0.005)
+        turns |= {round(matrix[1][1], 2) for matrix in matrices}
+    assert len(turns) > 20
+    body = root.GetPrimAtPath(f"/Garage/{CAR_NAME}/Body")
+    low, high = (np.array(corner) for corner in _range(boxes.ComputeUntransformedBound(body)))
+    assert low[1] == pytest.approx(0.25, abs=0.01), "no wheel is left in the body"
+    assert high[2] - low[2] == pytest.approx(4.2, abs=0.02)
+    files = [
+        UsdShade.Shader(prim).GetInput("file").Get().resolvedPath
+        for prim in root.Traverse()
+        if str(prim.GetPath()).startswith(f"/Garage/{CAR_NAME}") and prim.GetName() == "ColourTexture"
+    ]
+    assert len(files) == (name == "box")
+    assert all(Path(file).is_file() and Path(file).parent == tmp_path / "textures" for file in files)
+
+
+def _range(bound):
+    found = bound.ComputeAlignedRange()
+    return found.GetMin(), found.GetMax()
+
+
+def test_the_masks_of_a_rig_show_its_own_car(rigs, models):
+    rig = read_rig(rigs / "van.toml")
+    assert (rig.body.length_m, rig.body.name[:8]) == (pytest.approx(4.2), "own_van_")
+    triangles = ego_triangles_m(rig.body)
+    low, high = triangles.reshape(-1, 3).min(axis=0), triangles.reshape(-1, 3).max(axis=0)
+    assert high - low == pytest.approx([4.21, 1.99, 1.5], abs=0.02)
+    assert high[0] == pytest.approx(rig.body.ahead_m, abs=0.02)
+    assert rig_from_mapping(rig.model_dump(mode="json")) == rig
+    catalogue = read_rig("avp_surround").body
+    assert catalogue == cars_by_name(None)["hatchback"]
+    assert cars_by_name(ModelFolder(folder=str(models)))["van"] == rig.body
+
+
+def test_lamps_of_an_own_car_glow_and_shine_where_they_are(tmp_path):
+    write_glb(tmp_path / "lit.glb", lit=True)
+    write_glb(tmp_path / "dark.glb")
+    cars = cars_by_name(ModelFolder(folder=str(tmp_path)))
+    asset = driven_asset(cars["lit"])
+    places = lamp_places(asset)
+    assert places["HeadLeft"] == pytest.approx([-0.5, 0.7, -2.15], abs=0.03)
+    assert places["TailRight"] == pytest.approx([0.5, 0.7, 2.15], abs=0.03)
+    glowing = [
+        part.material for part in lit(asset).parts if part.material in MATERIALS and part.name.startswith("Part")
+    ]
+    assert sorted(glowing) == ["lamp_front_lit"] * 2 + ["lamp_rear_lit"] * 2
+    with pytest.raises(ConfigError, match="lamps: got 'on'; allowed: a car with parts or materials named as head"):
+        lamp_places(driven_asset(cars["dark"]))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"car": "lorry"}, r"rig\.car: got 'lorry'; allowed: one of .*hatchback, .*, van, .*, box, parts$"),
+        ({"models": "nowhere"}, r"rig\.models: got 'nowhere'; allowed: a folder that can be read"),
+        ({"car": 7}, r"rig\.car: got 7"),
+    ],
+)
+def test_a_rig_whose_car_is_not_there_is_refused_in_a_line(rigs, models, given, said):
+    sensors = read_rig(rigs / "van.toml").model_dump(mode="json")["sensors"]
+    with pytest.raises(ConfigError, match=said) as error:
+        rig_from_mapping({"name": "own", "models": str(models), "car": "van", "sensors": sensors, **given})
+    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
