@@ -41,7 +41,12 @@ class ForeignSurface:
     roughness, metallic, opacity
         0 to 1.
     picture
-        Texture of its colours as PNG, empty for none.
+        Texture of its colours as PNG, which `colour_rgb` tints; empty for none.
+    packed
+        Texture of its occlusion, roughness and metallic as the channels of a PNG, in place of those numbers; empty for
+        none.
+    normals
+        Texture of its normals as PNG, 8 bits hold (n + 1) / 2; empty for none.
     """
 
     name: str = ""
@@ -50,6 +55,8 @@ class ForeignSurface:
     metallic: float = 0.0
     opacity: float = 1.0
     picture: bytes = b""
+    packed: bytes = b""
+    normals: bytes = b""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,28 +169,65 @@ def _of_pbr(material: Any, path: Path, field: str) -> ForeignSurface:  # noqa: A
     given = getattr(material, "baseColorFactor", None)
     colour = np.ones(4) if given is None else np.asarray(given, dtype=np.float64) / _BYTE
     picture = getattr(material, "baseColorTexture", None)
+    rough, metal = factor("roughnessFactor", 1.0), factor("metallicFactor", 0.0 if picture is not None else 1.0)
+    packed, normals, occlusion = (
+        None if given is None else _image(given, path, field)
+        for given in (
+            getattr(material, name, None) for name in ("metallicRoughnessTexture", "normalTexture", "occlusionTexture")
+        )
+    )
+    if packed is not None:
+        metal = factor("metallicFactor", 1.0)
+        _, green, blue = packed.split()
+        packed = _packed(occlusion.getchannel("R") if occlusion else 1.0, _times(green, rough), _times(blue, metal))
     return ForeignSurface(
         str(getattr(material, "name", "") or ""),
         (round(float(colour[0]), 4), round(float(colour[1]), 4), round(float(colour[2]), 4)),
-        factor("roughnessFactor", 1.0),
-        factor("metallicFactor", 0.0 if picture is not None else 1.0),
+        rough,
+        metal,
         round(float(colour[3]), 4) if getattr(material, "alphaMode", None) == "BLEND" else 1.0,
-        b"" if picture is None else _as_png(picture, path, field),
+        b"" if picture is None else _png(_image(picture, path, field)),
+        b"" if packed is None else _png(packed),
+        b"" if normals is None else _png(normals),
     )
 
 
-def _as_png(picture: Any, path: Path, field: str) -> bytes:  # noqa: ANN401 - a picture, or the bytes of one
+def _image(picture: Any, path: Path, field: str) -> Image.Image:  # noqa: ANN401 - a picture, or the bytes of one
+    """A picture in red, green and blue, not larger than garages carry."""
     try:
-        image = Image.open(io.BytesIO(picture)) if isinstance(picture, bytes) else picture
+        image: Image.Image = Image.open(io.BytesIO(picture)) if isinstance(picture, bytes) else picture
         image = image.convert("RGB")
         if max(image.size) > _LARGEST_PX:
             scale = _LARGEST_PX / max(image.size)
-            image = image.resize([max(1, round(side * scale)) for side in image.size], Image.Resampling.BOX)
-        stream = io.BytesIO()
-        image.save(stream, format="PNG", compress_level=6)
+            width, height = (max(1, round(side * scale)) for side in image.size)
+            image = image.resize((width, height), Image.Resampling.BOX)
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise ConfigError(field, str(path), f"a model with textures that can be read ({error})") from None
+    return image
+
+
+def _png(image: Image.Image) -> bytes:
+    stream = io.BytesIO()
+    image.save(stream, format="PNG", compress_level=6)
     return stream.getvalue()
+
+
+def _times(channel: Image.Image, factor: float) -> Image.Image:
+    return channel.point([round(value * factor) for value in range(256)])
+
+
+def _packed(*channels: Image.Image | float) -> Image.Image:
+    """Three channels as one picture, of the size of the largest that is no number."""
+    size = max(channel.size for channel in channels if isinstance(channel, Image.Image))
+    return Image.merge(
+        "RGB",
+        [
+            channel.resize(size, Image.Resampling.BOX)
+            if isinstance(channel, Image.Image)
+            else Image.new("L", size, round(_BYTE * channel))
+            for channel in channels
+        ],
+    )
 
 
 def _of_usd(path: Path, field: str) -> Iterator[ForeignPart]:
@@ -283,22 +327,37 @@ def _of_preview(material: Any, path: Path, field: str) -> ForeignSurface:  # noq
         found = given.Get() if given and not given.HasConnectedSource() else None
         return usual if found is None else found
 
-    picture = b""
-    colour = surface.GetInput("diffuseColor")
-    if colour and colour.HasConnectedSource():
-        reader = UsdShade.Shader(colour.GetConnectedSources()[0][0].source.GetPrim())
+    def texture(key: str) -> tuple[Image.Image, str] | None:
+        """The picture that an input is connected to, and which output of its reader."""
+        given = surface.GetInput(key)
+        if not given or not given.HasConnectedSource():
+            return None
+        source = given.GetConnectedSources()[0][0]
+        reader = UsdShade.Shader(source.source.GetPrim())
         file = reader.GetInput("file") if reader else None
         asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(file.Get().resolvedPath)) if file and file.Get() else None
-        if asset:
-            with asset:
-                picture = _as_png(bytes(asset.GetBuffer()), path, field)
+        if not asset:
+            return None
+        with asset:
+            return _image(bytes(asset.GetBuffer()), path, field), str(source.sourceName)
+
+    def channel(key: str, number: float) -> Image.Image | float:
+        found = texture(key)
+        return found[0].getchannel({"g": "G", "b": "B"}.get(found[1], "R")) if found else number
+
+    colour, normals = texture("diffuseColor"), texture("normal")
+    rough, metal = float(value("roughness", 0.5)), float(value("metallic", 0.0))
+    finish = channel("occlusion", 1.0), channel("roughness", rough), channel("metallic", metal)
+    is_packed = any(isinstance(each, Image.Image) for each in finish[1:])
     return ForeignSurface(
         name,
-        _rgb(value("diffuseColor", (0.18, 0.18, 0.18))),
-        float(value("roughness", 0.5)),
-        float(value("metallic", 0.0)),
+        (1.0, 1.0, 1.0) if colour else _rgb(value("diffuseColor", (0.18, 0.18, 0.18))),
+        rough,
+        metal,
         float(value("opacity", 1.0)),
-        picture,
+        _png(colour[0]) if colour else b"",
+        _png(_packed(*finish)) if is_packed else b"",
+        _png(normals[0]) if normals else b"",
     )
 
 

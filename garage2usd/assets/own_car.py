@@ -54,10 +54,15 @@ def _kind(part: ForeignPart) -> str:
 
 
 def _material(surface: ForeignSurface, kind: str) -> Material:
-    picture = surface.picture
+    def stored(stem: str, data: bytes) -> StoredTexture | None:
+        return StoredTexture(f"own_car_{stem}", data) if data else None
+
     return Material(
         colour_rgb=surface.colour_rgb,
-        colour_texture=StoredTexture("own_car_colour", picture) if picture else None,
+        tint_rgb=surface.colour_rgb if surface.picture else (1.0, 1.0, 1.0),
+        colour_texture=stored("colour", surface.picture),
+        packed_texture=stored("packed", surface.packed),
+        normal_texture=stored("normal", surface.normals),
         roughness=surface.roughness,
         metallic=surface.metallic,
         opacity=surface.opacity if surface.opacity < _OPAQUE else 1.0,
@@ -78,7 +83,7 @@ def _part(name: str, given: ForeignPart, key: str) -> Part | None:
     collider = Collider.CONVEX_HULL if spans.max() >= _SMALLEST_HULL_M else None
     made = make_part(name, corners, "car_paint", collider=collider, crease_deg=_CREASE_DEG)
     st, st_indices = np.empty((0, 2)), np.empty(0, dtype=np.int64)
-    if given.surface.picture:
+    if given.surface.picture or given.surface.packed or given.surface.normals:
         st, st_indices = unique_rows(np.round(given.st[is_kept].reshape(-1, 2), WELD_DECIMALS) + 0.0)
     return Part(
         name=name,

@@ -45,8 +45,16 @@ def lamps():
     }
 
 
-def write_glb(path, *, wheels=True, lit=False, **measures):
-    """Y up, metres, with a picture on its body; with lamps where it is to be lit."""
+ROUGH_RGB, NORMAL_RGB, OCCLUSION_RGB = (9, 200, 100), (140, 120, 250), (180, 180, 180)
+"""Of the pictures of a finish: what glTF reads of the first is green for roughness and blue for metallic."""
+
+
+def plain(rgb, side=8):
+    return Image.fromarray(np.full((side, side, 3), rgb, np.uint8))
+
+
+def write_glb(path, *, wheels=True, lit=False, finish=False, **measures):
+    """Y up, metres, with a picture on its body; with lamps where it is to be lit, with pictures of its finish too."""
     scene = trimesh.Scene()
     for name, mesh in {**boxes(**measures), **(lamps() if lit else {})}.items():
         if not wheels and name.startswith("wheel"):
@@ -55,8 +63,17 @@ def write_glb(path, *, wheels=True, lit=False, **measures):
             name=name, baseColorFactor=(20, 60, 200, 255), metallicFactor=0.0
         )
         if name == "body":
-            picture = Image.fromarray(np.full((8, 8, 3), (10, 160, 40), np.uint8))
-            material = trimesh.visual.material.PBRMaterial(name=name, baseColorTexture=picture, metallicFactor=0.0)
+            pictures = {"baseColorTexture": plain((10, 160, 40)), "metallicFactor": 0.0}
+            if finish:
+                pictures |= {
+                    "metallicRoughnessTexture": plain(ROUGH_RGB),
+                    "normalTexture": plain(NORMAL_RGB),
+                    "occlusionTexture": plain(OCCLUSION_RGB, side=4),
+                    "roughnessFactor": 0.5,
+                    "metallicFactor": 1.0,
+                    "baseColorFactor": (255, 255, 51, 255),
+                }
+            material = trimesh.visual.material.PBRMaterial(name=name, **pictures)
         mesh.visual = trimesh.visual.TextureVisuals(uv=mesh.vertices[:, :2] * 0.3, material=material)
         scene.add_geometry(mesh, node_name=name, geom_name=name)
     Path(path).write_bytes(scene.export(file_type="glb"))
@@ -70,7 +87,7 @@ def _mesh(stage, path, mesh, points):
     return made
 
 
-def write_z_up(path):
+def write_z_up(path, *, finish=False):
     """Centimetres, Z up, the nose to +X, one mesh without names that tell anything but its front, and a material."""
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
@@ -80,6 +97,14 @@ def write_z_up(path):
     shader = UsdShade.Shader.Define(stage, "/Van/Red/Surface")
     shader.CreateIdAttr("UsdPreviewSurface")
     shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(0.6, 0.02, 0.02))
+    if finish:
+        plain(ROUGH_RGB).save(Path(path).with_name("finish.png"))
+        reader = UsdShade.Shader.Define(stage, "/Van/Red/Finish")
+        reader.CreateIdAttr("UsdUVTexture")
+        reader.CreateInput("file", Sdf.ValueTypeNames.Asset).Set("./finish.png")
+        for key, channel in (("roughness", "r"), ("metallic", "b")):
+            given = shader.CreateInput(key, Sdf.ValueTypeNames.Float)
+            given.ConnectToSource(reader.CreateOutput(channel, Sdf.ValueTypeNames.Float))
     material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
     whole = trimesh.util.concatenate(list(boxes().values()))
     x, y, z = whole.vertices.T

@@ -1,11 +1,13 @@
 """Cars of one's own: foreign models stand in garages as cars do, and what is no car is refused in one line."""
 
+import io
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from pxr import Gf, Usd, UsdGeom, UsdShade
-from support.foreign_cars import write_glb, write_parts, write_z_up
+from support.foreign_cars import NORMAL_RGB, ROUGH_RGB, write_glb, write_parts, write_z_up
 
 import garage2usd
 from garage2usd.assets import MATERIALS
@@ -14,6 +16,7 @@ from garage2usd.cli import main
 from garage2usd.config import GarageConfig
 from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
 from garage2usd.errors import ConfigError
+from garage2usd.foreign_models import read_model
 from garage2usd.sensors.ego_mask import ego_triangles_m
 from garage2usd.sensors.rig import read_rig, rig_from_mapping
 from garage2usd.stage.driving_car import CAR_NAME, driven_asset
@@ -96,6 +99,34 @@ def test_same_models_give_the_same_bytes_and_a_changed_file_another_digest(model
             garage2usd.build(given, tmp_path / "garage.usdc")
     finally:
         path.write_bytes(before)
+
+
+def test_finishes_of_own_cars_are_their_pictures(tmp_path):
+    (tmp_path / "models").mkdir()
+    write_glb(tmp_path / "models" / "box.glb", finish=True)
+    made = garage2usd.build(settings(tmp_path / "models"), tmp_path / "garage.usdc")
+    stage = Usd.Stage.Open(str(made.stage))
+    pictures, scales = {}, {}
+    for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+        if "/Looks/Own" in str(prim.GetPath()) and prim.GetName().endswith("Texture"):
+            shader = UsdShade.Shader(prim)
+            pictures[prim.GetName()] = Image.open(shader.GetInput("file").Get().resolvedPath).getpixel((3, 3))
+            scales[prim.GetName()] = shader.GetInput("scale").Get() if shader.GetInput("scale") else None
+    assert pictures == {
+        "ColourTexture": (10, 160, 40),
+        "PackedTexture": (180, 100, 100),  # occlusion, half the roughness, metallic
+        "NormalTexture": NORMAL_RGB,
+    }
+    assert tuple(scales["ColourTexture"]) == pytest.approx((1.0, 1.0, 0.2, 1.0))
+
+
+def test_channels_of_a_preview_surface_are_packed(tmp_path):
+    write_z_up(tmp_path / "van.usdc", finish=True)
+    surfaces = {part.surface for part in read_model(tmp_path / "van.usdc", field="models")}
+    (surface,) = surfaces
+    assert surface.colour_rgb == pytest.approx((0.6, 0.02, 0.02))
+    assert (surface.picture, surface.normals) == (b"", b"")
+    assert Image.open(io.BytesIO(surface.packed)).getpixel((0, 0)) == (255, ROUGH_RGB[0], ROUGH_RGB[2])
 
 
 @pytest.fixture(scope="module")
