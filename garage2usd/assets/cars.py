@@ -101,14 +101,10 @@ def lit(asset: Asset) -> Asset:
 
 
 def lamps_of(asset: Asset, end: str) -> list[Part]:
-    """The parts of a car that are its ``lamp_front``, or its ``lamp_rear``."""
+    """The parts of a car that are its ``lamp_front``, or its ``lamp_rear``, whether they glow or not."""
     name = {"lamp_front": "HeadLamps", "lamp_rear": "TailLamps"}[end]
-    finishes = asset.finishes
-    return [
-        part
-        for part in asset.parts
-        if part.name == name or (part.material in finishes and finishes[part.material].key == end)
-    ]
+    own = {key for key, finish in asset.finishes.items() if finish.key == end} | {_LIT[end]}
+    return [part for part in asset.parts if part.name == name or part.material in own]
 
 
 def plate_places(body: CarBody) -> list[tuple[float, float, float]]:

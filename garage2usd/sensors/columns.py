@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.errors import ConfigError
 from garage2usd.garage import Point, Stall
+from garage2usd.objects import CAR_LABELS
 
 __all__ = ["column_to_y_up"]
 

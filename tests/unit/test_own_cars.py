@@ -198,6 +198,10 @@ def test_lamps_of_an_own_car_glow_and_shine_where_they_are(tmp_path):
     places = lamp_places(asset)
     assert places["HeadLeft"] == pytest.approx([-0.5, 0.7, -2.15], abs=0.03)
     assert places["TailRight"] == pytest.approx([0.5, 0.7, 2.15], abs=0.03)
+    of_lit = lamp_places(lit(asset))
+    assert {name: place.tolist() for name, place in of_lit.items()} == {
+        name: place.tolist() for name, place in places.items()
+    }
     glowing = [
         part.material for part in lit(asset).parts if part.material in MATERIALS and part.name.startswith("Part")
     ]
