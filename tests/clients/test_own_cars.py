@@ -189,27 +189,37 @@ def test_a_build_in_another_process_is_the_same_bytes(own, tmp_path):
     assert reports[0] == reports[1]
 
 
+def colour_at(page, car):
+    """The colour of the middle of a car from above, red, green and blue."""
+    x, _, z = car.position_m
+    page.eval(
+        f"viewer.setMode('orbit'), viewer.orbit.target.set({x}, 0, {z}),"
+        f" viewer.camera.position.set({x + 1}, 22, {z + 4}), viewer.orbit.update(), viewer.touch()"
+    )
+    page.rest()
+    column, row = map(round, page.screen((x, 0.8, z)))
+    seen = np.asarray(Image.open(io.BytesIO(page.page.screenshot())).convert("RGB"), dtype=int)
+    return seen[row - 3 : row + 4, column - 3 : column + 4].mean(axis=(0, 1))
+
+
 @pytest.mark.skipif(find_browser() is None, reason="no Chromium on the path")
 def test_the_viewer_shows_each_with_its_class_id_and_paint(own):
     with viewed(own.built.stage) as page:
         for label, count in Counter(entry["class"] for entry in own.entries.values()).items():
             shown = page.page.query_selector(f'.class[data-label="{label}"]').get_attribute("data-count")
             assert int(shown) == count
+        colours = {}
         for path, car in own.cars.items():
+            colours[path] = colour_at(page, car)
+            assert int(colours[path].argmax()) in STRONGEST[car.spec.model.path.rpartition("/")[2]], (path, colours)
             x, _, z = car.position_m
-            page.eval(
-                f"viewer.setMode('orbit'), viewer.orbit.target.set({x}, 0, {z}),"
-                f" viewer.camera.position.set({x + 1}, 22, {z + 4}), viewer.orbit.update(), viewer.touch()"
-            )
-            page.rest()
-            column, row = page.screen((x, 0.8, z))
-            seen = np.asarray(Image.open(io.BytesIO(page.page.screenshot())).convert("RGB"), dtype=int)
-            colour = seen[round(row) - 3 : round(row) + 4, round(column) - 3 : round(column) + 4].mean(axis=(0, 1))
-            assert int(colour.argmax()) in STRONGEST[car.spec.model.path.rpartition("/")[2]], (path, colour)
-            page.page.mouse.click(column, row)
+            page.page.mouse.click(*page.screen((x, 0.8, z)))
             facts = page.facts()
             assert (facts["Class"], facts["Prim"]) == (own.entries[path]["class"], path)
             assert facts["Instance id"] == str(own.entries[path]["id"])
+        page.page.locator("label:has(#layer-cars)").click()
+        for path in {entry["class"]: path for path, entry in own.entries.items()}.values():
+            assert np.abs(colour_at(page, own.cars[path]) - colours[path]).max() > 20, path
         assert page.complaints == []
 
 

@@ -82,8 +82,11 @@ export const OVERHEAD = new Set([
 /** People and things that stand about. */
 const STANDING = ["person", "bicycle", "motorbike", "shopping_trolley", "pram", "waste_bin", "cardboard_box", "pallet", "bag"];
 
-/** What keeps light from the floor around it. */
-export const SHADING = new Set(["car", "column", "wall", "obstacle", "charger", "traffic_cone", "barrier", "vehicle_door", ...STANDING]);
+/** Parked vehicles. */
+export const CARS = ["car", "van", "truck"];
+
+/** Objects that shade the floor around them. */
+export const SHADING = new Set([...CARS, "column", "wall", "obstacle", "charger", "traffic_cone", "barrier", "vehicle_door", ...STANDING]);
 
 export const USE_COLOURS: Record<string, string> = {
   standard: "#4aa3ff",

@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Boxes, chunksOf } from "./boxes";
-import { OVERHEAD } from "./classes";
+import { CARS, OVERHEAD } from "./classes";
 import { Colliders, Frame, isInside, laneGraphOf, middleOf, stallPlanOf } from "./guides";
 import { Instances } from "./instances";
 import { footprint, lightPlanOf } from "./light_plan";
@@ -83,7 +83,7 @@ class Viewer {
       for (const guide of [this.lanes, this.stalls]) guide.visible = false;
       this.world.add(this.lanes, this.stalls);
     }
-    for (let object = 0; object < scene.count; object++) if (scene.labelOf(object) === "car") this.cars.push(object);
+    for (let object = 0; object < scene.count; object++) if (CARS.includes(scene.labelOf(object))) this.cars.push(object);
     this.map = new PlanMap(element("plan"), scene, this.boxes, (x, z) => this.goTo(x, z));
     this.showPanels();
     this.listen();
@@ -252,8 +252,8 @@ class Viewer {
         hint: "Slab, beams, lights, ducts, trays, pipes and signs; cut away when seen from above",
         change: (on: boolean) => classes("ceiling", on, OVERHEAD),
       });
-    if (has(["car"]))
-      rows.push({ id: "cars", name: "Cars", key: "V", on: true, hint: "Parked cars", change: (on: boolean) => classes("cars", on, ["car", "number_plate"]) });
+    if (has(CARS))
+      rows.push({ id: "cars", name: "Cars", key: "V", on: true, hint: "Parked cars", change: (on: boolean) => classes("cars", on, [...CARS, "number_plate"]) });
     const { lanes, stalls: plan } = this;
     if (lanes && plan && scene.lanes) {
       rows.push({

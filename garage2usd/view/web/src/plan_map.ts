@@ -18,6 +18,8 @@ const PAINT: [string, string][] = [
   ["obstacle", "#6d7683"],
   ["column", "#eef2f7"],
   ["car", "#e6e9ee"],
+  ["van", "#e6e9ee"],
+  ["truck", "#e6e9ee"],
 ];
 
 export interface Eye {
