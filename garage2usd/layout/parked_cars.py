@@ -23,7 +23,7 @@ from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_
 from garage2usd.randomness import Step
 from garage2usd.structure.lane_graph import Square
 
-__all__ = ["ParkedCars", "park_cars"]
+__all__ = ["ParkedCars", "fitting", "park_cars"]
 
 _END_CLEARANCE_M = 0.1
 """Between a car and the mouth of its stall."""
@@ -259,7 +259,7 @@ def _car(
     """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
     is_reversed = reverse < fleet.reversed_share
-    bodies = _fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
+    bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
     if not bodies:
         return None
     body = fleet.body_of(bodies, body_share)
@@ -372,8 +372,8 @@ def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, b
 
 
 @lru_cache
-def _fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarBody, ...]:
-    """The bodies that fit into a stall."""
+def fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarBody, ...]:
+    """The bodies that fit into a stall of some width and length in metres."""
     return tuple(
         body
         for body in CAR_BODIES

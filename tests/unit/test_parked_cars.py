@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from pxr import Usd, UsdShade
+from support.benchmarks import benchmark
 from support.footprints import footprint
 from support.overlaps import Solids
 
@@ -19,7 +20,7 @@ from garage2usd.driving import prove_stalls
 from garage2usd.errors import ConfigError
 from garage2usd.layout import lay_out
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.parked_cars import park_cars
+from garage2usd.layout.parked_cars import fitting, park_cars
 from garage2usd.layout.parking import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.maps.stall_facts import StallFacts
@@ -38,6 +39,8 @@ E=..==..=X
 ..........
 """
 GARAGES = 500
+fleet = benchmark("fleet")
+posture, body_ground = fleet.posture, fleet.body_ground
 
 
 def plan(config):
@@ -52,25 +55,6 @@ def parked(config, garages=GARAGES):
     grid, stalls = plan(config)
     found = [park_cars(stalls, config, SquareDraws(grid.tiles, seed=seed)) for seed in range(garages)]
     return found, {stall.name: stall for stall in stalls}
-
-
-def posture(car, stall):
-    """(metres to the side, degrees, whether it stands nose out) of a car in its stall, measured in the garage."""
-    (x, _, z), (cx, cz) = car.position_m, stall.centre_m
-    (ax, az), (bx, bz) = stall.corners_m()[:2]
-    across = np.array([bx - ax, bz - az]) / math.dist((ax, az), (bx, bz))
-    turn = math.remainder(car.yaw_rad - stall.yaw_rad, math.tau)
-    is_out = abs(turn) > math.pi / 2
-    yaw = math.remainder(turn - (math.pi if is_out else 0), math.tau)
-    return float(np.dot(across, (x - cx, z - cz))), math.degrees(yaw), is_out
-
-
-def body_ground(car):
-    """The (x, z) polygon of a car's body without its mirrors."""
-    body, (x, _, z) = body_named(car.spec.body), car.position_m
-    box = shapely.box(-body.width_m / 2, -body.length_m / 2, body.width_m / 2, body.length_m / 2)
-    turned = shapely.affinity.rotate(box, -math.degrees(car.yaw_rad), origin=(0, 0))
-    return shapely.affinity.translate(turned, x, z)
 
 
 @pytest.mark.parametrize(
@@ -97,6 +81,25 @@ def test_five_hundred_garages_have_the_shares_of_their_market(profile, market, s
     over = sum(not shapely.Polygon(stalls[car.stall].corners_m()).covers(body_ground(car)) for car in cars)
     assert over / len(cars) == pytest.approx(0.02, abs=0.01)
     assert over == sum(len(each.reaching) for each in garages)
+
+
+def test_whole_garages_of_all_profiles_have_the_shares_of_the_world():
+    """Each share to four standard deviations of its binomial distribution; benchmarks/fleet.py takes 500 garages."""
+    layouts = [generate(fleet.garage_config(number, "world")).layout for number in range(24)]
+    assert len({(stall.width_m, stall.length_m) for layout in layouts for stall in layout.stalls}) >= 4
+    cars = [car for layout in layouts for car in fleet.parked_in(layout)]
+    assert len(cars) > 1000
+    for name, wanted, found in fleet.shares_of(cars, "world"):
+        assert abs(found - wanted) < 4 * math.sqrt(wanted * (1 - wanted) / len(cars)), name
+
+
+@pytest.mark.parametrize("stall", [(2.3, 4.8), (2.4, 4.8), (2.4, 5.0), (2.4, 5.3), (2.5, 5.5), (2.75, 5.6)])
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_a_body_of_each_class_fits_into_every_usual_stall(stall, is_reversed):
+    """So no class gives its share to others."""
+    bodies = fitting(*stall, is_reversed=is_reversed)
+    assert {body.segment for body in bodies} == set(SEGMENTS)
+    assert len({body.length_m for body in bodies}) > 12
 
 
 def test_cars_stand_beside_and_aslant_as_people_leave_them():
