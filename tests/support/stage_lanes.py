@@ -1,5 +1,6 @@
 """Lanes and stalls of a stage, read with pxr alone from the curves that docs/stage.md tells of."""
 
+import json
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -47,10 +48,13 @@ class JudgedStage:
         self.stage = Usd.Stage.Open(str(path))
         self.lanes = lanes_of(self.stage)
         self.labelled = labelled_objects(path.with_name(f"{path.stem}_labels.json"))
+        report = path.with_name(f"{path.stem}_report.json")
+        stalls = json.loads(report.read_text(encoding="utf-8"))["stalls"] if report.exists() else []
+        self.blocked = {stall["name"] for stall in stalls if "blocked_by" in stall}
 
     @cached_property
     def taken(self):
-        """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr."""
+        """Ids of the stalls in which the origin of a car lies, by the table of labels and pxr, and of blocked ones."""
         cars = [thing["path"] for thing in self.labelled if thing["class"] == "car"]
         places = UsdGeom.XformCache()
         at = [places.GetLocalToWorldTransform(self.stage.GetPrimAtPath(path)).ExtractTranslation() for path in cars]
@@ -58,7 +62,7 @@ class JudgedStage:
         return {
             name
             for name, stall in self.lanes.stalls.items()
-            if len(tree.query(shapely.Polygon(stall["corners"]), predicate="contains"))
+            if name in self.blocked or len(tree.query(shapely.Polygon(stall["corners"]), predicate="contains"))
         }
 
 

@@ -5,10 +5,12 @@ import itertools
 import networkx as nx
 import numpy as np
 import pytest
+from support import misparked_garage
 from support.sample_files import SAMPLES
 from support.unity.layer import from_usd, place_of
 from support.unity.reader import PACKAGE
 
+from garage2usd import GarageConfig, build
 from garage2usd.structure.stalls import Edge
 
 SAMPLE = next(sample for sample in SAMPLES if sample.stem == "irregular")
@@ -90,6 +92,15 @@ def test_stalls(imported):
         # from the mouth inwards, as a car does that is parked nose-in
         inwards = np.subtract(found["centre"], found["mouth"])
         assert np.allclose(found["forward"], inwards / np.linalg.norm(inwards), atol=1e-3)
+
+
+def test_stalls_that_misparked_cars_block_are_taken(prefabs, tmp_path):
+    built = build(GarageConfig(**misparked_garage.SETTINGS), tmp_path / "garage.usdc")
+    layout = built.garage.layout
+    stalls = [item["stall"] for item in prefabs(built.stage).objects if "stall" in item]
+    assert {stall["id"] for stall in stalls if stall["occupied"]} == misparked_garage.taken_in(layout)
+    assert layout.blocked
+    assert not any(stall["car"] for stall in stalls if stall["id"] in layout.blocked)
 
 
 def test_ways_between_stalls_are_the_shortest(imported, prefab_dump):
