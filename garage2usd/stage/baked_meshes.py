@@ -1,9 +1,12 @@
 """Meshes that are made ahead: those of the shapes that many garages have, in a file that the package ships."""
 
+import hashlib
 import json
+import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,8 +21,23 @@ from garage2usd.objects import Spec
 __all__ = ["MESH_FILE", "bake_meshes", "baked_asset", "baked_shapes"]
 
 MESH_FILE = Path(__file__).with_name("meshes.npz")
-_ARRAYS = ("points", "face_counts", "face_indices", "normals", "normal_indices", "st", "st_indices")
-"""Of a part."""
+_STEPS = {
+    "points": 100_000,
+    "face_counts": 1,
+    "face_indices": 1,
+    "normals": 10_000,
+    "normal_indices": 1,
+    "st": 100_000,
+    "st_indices": 1,
+}
+"""The arrays of a part, and the fractions of 1 of which `garage2usd.assets.make_part` makes their numbers."""
+_WIDTHS = {"points": 3, "normals": 3, "st": 2}
+"""Numbers in a row of an array that has rows."""
+_OWN_GROUP_NUMBERS = 8192
+"""A shape of more numbers is read alone, others with all of their class."""
+_FLOAT = "<f4"
+_LEVEL = 9
+"""Of compression: files are written rarely and read often."""
 
 
 class _Entry(NamedTuple):
@@ -32,7 +50,7 @@ class _Entry(NamedTuple):
     parts
         Name, material, collider and piece of each part.
     first
-        Number of the first part among those of all assets.
+        Number of the first part among those of its group.
     """
 
     paints: dict[str, str]
@@ -40,8 +58,8 @@ class _Entry(NamedTuple):
     first: int
 
 
-class _Baked(NamedTuple):
-    """What the file holds.
+class _Group(NamedTuple):
+    """Assets that are read at a time.
 
     Attributes
     ----------
@@ -59,32 +77,94 @@ class _Baked(NamedTuple):
 
 
 def bake_meshes(shapes: Iterable[Spec], path: Path) -> None:
-    """Make the meshes of shapes that give no light and write them to a file, in NumPy's format ``.npz``."""
-    index: dict[str, _Entry] = {}
-    parts: list[Part] = []
+    """Make the meshes of shapes that give no light and write them to a file, in NumPy's format ``.npz``.
+
+    Notes
+    -----
+    The file holds the names of the groups, where each of them ends, and the groups, each compressed by itself, so that
+    a garage decompresses those that it has.
+    """
+    groups: dict[str, list[tuple[str, Asset]]] = {}
     for key, shape in sorted((_key(shape), shape) for shape in shapes):
-        asset = shape.asset()
-        kept = [(part.name, part.material, part.collider, part.piece) for part in asset.parts]
-        index[key] = _Entry(dict(asset.paints), kept, first=len(parts))
-        parts += asset.parts
-    columns = {name: [getattr(part, name) for part in parts] for name in _ARRAYS}
-    np.savez_compressed(
+        asset, name = shape.asset(), type(shape).__name__
+        numbers = sum(getattr(part, array).size for part in asset.parts for array in _STEPS)
+        groups.setdefault(_own_group(name, key) if numbers > _OWN_GROUP_NUMBERS else name, []).append((key, asset))
+    packed = {name: zlib.compress(_packed(assets), _LEVEL) for name, assets in sorted(groups.items())}
+    np.savez(
         path,
-        index=np.frombuffer(json.dumps(index).encode(), dtype=np.uint8),
-        lengths=np.array([[len(array) for array in column] for column in columns.values()], dtype=np.int32).T,
-        **{name: np.concatenate(column) for name, column in columns.items()},
+        names=np.frombuffer(json.dumps([*packed]).encode(), dtype=np.uint8),
+        ends=np.cumsum([len(data) for data in packed.values()], dtype=np.int64),
+        groups=np.frombuffer(b"".join(packed.values()), dtype=np.uint8),
     )
+
+
+def _packed(assets: Sequence[tuple[str, Asset]]) -> bytes:
+    """A group: a line of JSON with its assets and the types of its arrays, the lengths of arrays, and the arrays.
+
+    Arrays are whole numbers of steps in as few bytes as hold them, or floats where they are none, as the points of
+    wheels that are turned; columns first, which compress better so.
+    """
+    entries: dict[str, _Entry] = {}
+    parts: list[Part] = []
+    for key, asset in assets:
+        kept = [(part.name, part.material, part.collider, part.piece) for part in asset.parts]
+        entries[key] = _Entry(dict(asset.paints), kept, first=len(parts))
+        parts += asset.parts
+    columns = {name: [getattr(part, name) for part in parts] for name in _STEPS}
+    lengths = np.array([[len(array) for array in column] for column in columns.values()], dtype=np.int32).T
+    types, arrays = [], []
+    for name, column in columns.items():
+        whole = np.concatenate(column)
+        steps = np.rint(whole.astype(np.float64) * _STEPS[name]).astype(np.int32)
+        is_exact = (_of_steps(name, steps) == whole).all()
+        bounds = [np.min_scalar_type(bound) for bound in (steps.min(initial=0), steps.max(initial=0))]
+        types.append(np.result_type(*bounds).newbyteorder("<").str if is_exact else _FLOAT)
+        arrays.append(np.ascontiguousarray((steps if is_exact else whole).T, dtype=types[-1]).tobytes())
+    head = json.dumps({"entries": entries, "types": types}).encode()
+    return b"".join([head, b"\n", lengths.astype("<i4").tobytes(), *arrays])
+
+
+def _unpacked(data: bytes) -> _Group:
+    """The inverse of `_packed`."""
+    head, _, body = data.partition(b"\n")
+    said = json.loads(head)
+    entries = {key: _Entry(*entry) for key, entry in said["entries"].items()}
+    parts = sum(len(entry.parts) for entry in entries.values())
+    lengths = np.frombuffer(body, "<i4", parts * len(_STEPS)).reshape(parts, len(_STEPS))
+    borders = np.zeros((parts + 1, len(_STEPS)), dtype=np.int64)
+    lengths.cumsum(axis=0, out=borders[1:])
+    end, arrays = lengths.nbytes, []
+    for (name, length), kind in zip(zip(_STEPS, borders[-1].tolist(), strict=True), said["types"], strict=True):
+        width = _WIDTHS.get(name, 1)
+        steps = np.frombuffer(body, kind, length * width, offset=end)
+        end += steps.nbytes
+        rows = steps.reshape(width, length).T if name in _WIDTHS else steps
+        array = np.ascontiguousarray(rows) if kind == _FLOAT else _of_steps(name, rows)
+        array.flags.writeable = False  # all users of an asset share it
+        arrays.append(array)
+    return _Group(entries, arrays, borders)
+
+
+def _of_steps(name: str, steps: NDArray[Any]) -> NDArray[Any]:
+    """The numbers of an array that are so many steps, as `make_part` rounds them."""
+    if name not in _WIDTHS:
+        return steps.astype(np.int32)
+    if name == "normals":
+        return np.ascontiguousarray(steps.astype(np.float32) / np.float32(_STEPS[name]))
+    return np.ascontiguousarray((steps / _STEPS[name]).astype(np.float32))
 
 
 def baked_asset(shape: Spec) -> Asset | None:
     """The meshes of a shape as its method `asset` makes them; None where they are not made ahead."""
-    baked = _baked()
-    entry = baked.entries.get(_key(shape))
-    if entry is None:
+    key = _key(shape)
+    group = type(shape).__name__
+    baked = _group(_own_group(group, key)) or _group(group)
+    entry = baked.entries.get(key) if baked else None
+    if baked is None or entry is None:
         return None
     parts = []
     for number, (name, material, collider, piece) in enumerate(entry.parts, entry.first):
-        spans = zip(_ARRAYS, baked.arrays, *baked.borders[number : number + 2].tolist(), strict=True)
+        spans = zip(_STEPS, baked.arrays, *baked.borders[number : number + 2].tolist(), strict=True)
         arrays: dict[str, Any] = {of: array[start:end] for of, array, start, end in spans}
         touched = None if collider is None else Collider(collider)
         parts.append(Part(name=name, material=material, collider=touched, piece=piece, **arrays))
@@ -100,7 +180,7 @@ def baked_shapes() -> Iterator[Spec]:
         If a class of shapes was renamed or has other measures by now.
     """
     classes = {cls.__name__: cls for cls in _subclasses(Spec)}  # type: ignore[type-abstract]
-    for key in _baked().entries:
+    for key in chain.from_iterable(group.entries for group in map(_group, _packed_groups()) if group):
         name, measures = json.loads(key)
         try:
             shape = TypeAdapter(classes[name]).validate_python(measures)
@@ -110,14 +190,23 @@ def baked_shapes() -> Iterator[Spec]:
 
 
 @lru_cache(maxsize=1)
-def _baked() -> _Baked:
+def _packed_groups() -> dict[str, bytes]:
+    """The groups by their names, as `_packed` makes them, compressed."""
     with np.load(MESH_FILE) as file:
-        entries = {key: _Entry(*entry) for key, entry in json.loads(file["index"].tobytes()).items()}
-        lengths, arrays = file["lengths"], [file[name] for name in _ARRAYS]
-    for array in arrays:
-        array.flags.writeable = False  # all users of an asset share it
-    borders = np.concatenate([np.zeros_like(lengths[:1]), lengths]).cumsum(axis=0, dtype=np.int64)
-    return _Baked(entries, arrays, borders)
+        names, ends, groups = json.loads(file["names"].tobytes()), file["ends"].tolist(), file["groups"].tobytes()
+    return {name: groups[start:end] for name, start, end in zip(names, [0, *ends[:-1]], ends, strict=True)}
+
+
+@lru_cache(maxsize=1024)
+def _group(name: str) -> _Group | None:
+    """A group of assets; None where the file has none of that name."""
+    packed = _packed_groups().get(name)
+    return None if packed is None else _unpacked(zlib.decompress(packed))
+
+
+def _own_group(group: str, key: str) -> str:
+    """The group of a shape that is read alone."""
+    return f"{group}-{hashlib.blake2b(key.encode(), digest_size=8).hexdigest()}"
 
 
 def _key(shape: Spec) -> str:

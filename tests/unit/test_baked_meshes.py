@@ -1,6 +1,8 @@
 """The meshes that are made ahead: that they are what would be made, of the shapes that garages have."""
 
 import json
+import zlib
+from dataclasses import replace
 from functools import lru_cache
 from importlib import import_module
 
@@ -8,8 +10,10 @@ import numpy as np
 import pytest
 from support.object_specs import SPECS
 
+from garage2usd.assets import Asset
 from garage2usd.config import GarageConfig
 from garage2usd.errors import StageError
+from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage import baked_meshes
 from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_asset, baked_shapes
@@ -42,11 +46,19 @@ def test_what_is_made_ahead_is_what_would_be_made():
     assert MESH_FILE.stat().st_size < 3_500_000
 
 
-def test_a_change_of_one_number_is_found(tmp_path, monkeypatch):
+def rewritten(path, change):
+    """A copy of the file of meshes whose last group is changed."""
     with np.load(MESH_FILE) as file:
         kept = {name: file[name] for name in file.files}
-    kept["points"][1234, 1] += np.float32(1e-5)
-    np.savez_compressed(tmp_path / "meshes.npz", **kept)
+    start = kept["ends"][-2]
+    last = zlib.compress(change(zlib.decompress(kept["groups"][start:].tobytes())))
+    kept["groups"] = np.append(kept["groups"][:start], np.frombuffer(last, np.uint8))
+    kept["ends"][-1] = len(kept["groups"])
+    np.savez(path, **kept)
+
+
+def test_a_change_of_one_number_is_found(tmp_path, monkeypatch):
+    rewritten(tmp_path / "meshes.npz", lambda data: data[:-1] + bytes([data[-1] ^ 1]))
     use(tmp_path / "meshes.npz", monkeypatch)
     with pytest.raises(AssertionError, match="garage2usd meshes"):
         test_what_is_made_ahead_is_what_would_be_made()
@@ -54,7 +66,8 @@ def test_a_change_of_one_number_is_found(tmp_path, monkeypatch):
 
 def use(path, monkeypatch):
     monkeypatch.setattr(baked_meshes, "MESH_FILE", path)
-    monkeypatch.setattr(baked_meshes, "_baked", lru_cache(maxsize=1)(baked_meshes._baked.__wrapped__))
+    for name in ("_packed_groups", "_group"):
+        monkeypatch.setattr(baked_meshes, name, lru_cache(getattr(baked_meshes, name).__wrapped__))
 
 
 def test_usual_garages_find_almost_all_of_their_shapes():
@@ -82,6 +95,26 @@ def test_a_shape_is_found_by_all_its_measures(tmp_path, monkeypatch, spec):
     assert arrays(baked_asset(spec)) == arrays(spec.asset())
 
 
+def test_a_garage_reads_the_cars_that_it_has_alone(monkeypatch):
+    use(MESH_FILE, monkeypatch)
+    cars = [shape for shape in baked_shapes() if isinstance(shape, CarSpec)]
+    assert len({shape.body for shape in cars}) > 20
+    use(MESH_FILE, monkeypatch)
+    assert baked_asset(cars[0]) is not None
+    assert baked_asset(cars[0]) is not None
+    assert baked_meshes._group.cache_info().currsize == 1
+
+
+def test_a_mesh_that_is_not_rounded_is_kept_as_it_is(tmp_path, monkeypatch):
+    cone = SPECS["cone"]
+    part = cone.asset().parts[0]
+    odd = Asset((replace(part, points=part.points + np.float32(3e-6)),))
+    monkeypatch.setattr(type(cone), "asset", lambda _: odd)
+    bake_meshes([cone], tmp_path / "odd.npz")
+    use(tmp_path / "odd.npz", monkeypatch)
+    assert arrays(baked_asset(cone)) == arrays(odd)
+
+
 def test_nobody_changes_what_is_made_ahead():
     with pytest.raises(ValueError, match="read-only"):
         baked_asset(next(baked_shapes())).parts[0].points[0] = 0
@@ -89,11 +122,13 @@ def test_nobody_changes_what_is_made_ahead():
 
 @pytest.mark.parametrize("key", ['["Marquee", {}]', '["ColumnSpec", {"girth_m": 2.0}]'])
 def test_a_shape_that_is_none_any_longer_is_named(tmp_path, monkeypatch, key):
-    with np.load(MESH_FILE) as file:
-        kept = {name: file[name] for name in file.files}
-    index = json.loads(kept["index"].tobytes())
-    kept["index"] = np.frombuffer(json.dumps({key: next(iter(index.values()))}).encode(), dtype=np.uint8)
-    np.savez_compressed(tmp_path / "old.npz", **kept)
+    def renamed(data):
+        head, _, body = data.partition(b"\n")
+        said = json.loads(head)
+        said["entries"] = {key: next(iter(said["entries"].values()))}
+        return json.dumps(said).encode() + b"\n" + body
+
+    rewritten(tmp_path / "old.npz", renamed)
     use(tmp_path / "old.npz", monkeypatch)
     with pytest.raises(StageError, match="no such shape any longer"):
         list(baked_shapes())
