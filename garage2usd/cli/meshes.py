@@ -38,8 +38,10 @@ def meshes(folder: Path, *, choose: bool) -> None:
 
 
 def _usual_shapes() -> list["Spec"]:
-    """Shapes that some garages have in common and that give no light, of which almost every garage has another."""
+    """Shapes that some garages have in common and that give no light, and all bodies of cars."""
     from garage2usd.config import GarageConfig  # noqa: PLC0415
+    from garage2usd.config.vehicles import CAR_BODIES, PAINTS  # noqa: PLC0415
+    from garage2usd.objects.car import CarSpec  # noqa: PLC0415
     from garage2usd.pipeline import generate  # noqa: PLC0415
 
     asked = [(site, seed) for seeds, site in _GARAGES for seed in range(seeds)]
@@ -50,4 +52,6 @@ def _usual_shapes() -> list["Spec"]:
             config = GarageConfig.model_validate({"site": site, "seed": seed})
             specs = generate(config).layout.placements.specs
             garages.update({spec.shape for spec in specs})
-    return [shape for shape, count in garages.items() if count >= _LEAST_GARAGES and shape.asset().light is None]
+    shapes: dict[Spec, None] = {shape: None for shape, count in garages.items() if count >= _LEAST_GARAGES}
+    shapes |= dict.fromkeys(CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES)
+    return [shape for shape in shapes if shape.asset().light is None]

@@ -78,11 +78,13 @@ def without_unreachable(
         If none is left, or the configuration names a stall that is left out.
     """
     unreachable: set[str] = set()
-    asked, config = config, _with_cars_between_lines(config)
+    given, asked, config = layout, config, _with_cars_between_lines(config)
     layout = layout if config is asked else lay_out(layout.structure, graph, config)
     while True:
         proofs = prove_stalls(layout, graph, progress=progress)
         found = {proof.stall for proof in proofs if not proof.is_proven}
+        if not found and not unreachable:
+            return given
         if not found:
             return layout if config is asked else lay_out(layout.structure, graph, asked, unreachable=unreachable)
         # a charger, an access aisle or a car that went elsewhere may stand in another's way

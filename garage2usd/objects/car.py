@@ -74,10 +74,19 @@ class CarSpec(Spec, kind=KIND):
         body = self.measures
         return round(_DENSITY_KG_M3 * body.length_m * body.width_m * body.height_m, -1)
 
+    @property
+    def plain(self) -> "CarSpec":
+        """The same shape as it comes from the factory: wheels straight, clean, and lamps off."""
+        return replace(self.shape, steer_deg=0.0, is_dusty=False, is_lit=False)
+
     def asset(self) -> Asset:
         """The body with its wheels, dust and lamps, in every paint."""
+        return self.asset_from(car(self.measures))
+
+    def asset_from(self, plain: Asset) -> Asset:
+        """The asset made from that of the `plain` shape."""
         body = self.measures
-        asset = steered(car(body), body, self.steer_deg)
+        asset = steered(plain, body, self.steer_deg)
         if self.is_dusty:
             asset = dusty(asset, body)
         return lit(asset) if self.is_lit else asset
@@ -98,9 +107,14 @@ class CarSpec(Spec, kind=KIND):
 class OpenCarSpec(CarSpec):
     """A parked car of the catalogue whose boot is open, if it has one: see `garage2usd.assets.car_boot.has_boot`."""
 
-    def asset(self) -> Asset:
-        """The car with its tailgate or boot lid up."""
-        return with_open_boot(super().asset(), self.measures)
+    @property
+    def plain(self) -> CarSpec:
+        """The same body with its boot closed."""
+        return CarSpec(self.body, PAINTS[0])
+
+    def asset_from(self, plain: Asset) -> Asset:
+        """The asset made from that of the `plain` shape, with its tailgate or boot lid up."""
+        return with_open_boot(super().asset_from(plain), self.measures)
 
     def outlines(self) -> tuple[Polygon, ...]:
         """Those of the car, and a rectangle below what is swung up."""

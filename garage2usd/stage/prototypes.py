@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from garage2usd.assets import Asset, pascal_case
 from garage2usd.layout import Layout
+from garage2usd.objects.car import CarSpec
 from garage2usd.objects.kind import Look, Spec
 from garage2usd.stage.baked_meshes import baked_asset
 
@@ -73,4 +74,7 @@ def asset_of(spec: Spec) -> Asset:
 
 @lru_cache(maxsize=4096)
 def _asset_of_shape(shape: Spec) -> Asset:
-    return baked_asset(shape) or shape.asset()
+    asset = baked_asset(shape)
+    if asset is None and isinstance(shape, CarSpec) and (plain := baked_asset(shape.plain)) is not None:
+        asset = shape.asset_from(plain)  # to make the body takes ten times as long
+    return asset or shape.asset()

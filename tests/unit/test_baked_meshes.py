@@ -12,6 +12,7 @@ from support.object_specs import SPECS
 
 from garage2usd.assets import Asset
 from garage2usd.config import GarageConfig
+from garage2usd.config.vehicles import CAR_BODIES
 from garage2usd.errors import StageError
 from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import generate
@@ -98,11 +99,19 @@ def test_a_shape_is_found_by_all_its_measures(tmp_path, monkeypatch, spec):
 def test_a_garage_reads_the_cars_that_it_has_alone(monkeypatch):
     use(MESH_FILE, monkeypatch)
     cars = [shape for shape in baked_shapes() if isinstance(shape, CarSpec)]
-    assert len({shape.body for shape in cars}) > 20
+    assert {shape.body for shape in cars} == {body.name for body in CAR_BODIES}
     use(MESH_FILE, monkeypatch)
     assert baked_asset(cars[0]) is not None
     assert baked_asset(cars[0]) is not None
     assert baked_meshes._group.cache_info().currsize == 1
+
+
+def test_a_car_that_was_used_is_made_from_what_is_made_ahead(monkeypatch):
+    used = CarSpec("hatchback", "white", steer_deg=20.0, is_dusty=True, is_lit=True)
+    made = used.asset()
+    monkeypatch.setattr("garage2usd.objects.car.car", lambda _: pytest.fail("its body was made again"))
+    assert described(_asset_of_shape.__wrapped__(used)) == described(made)
+    assert arrays(_asset_of_shape.__wrapped__(used)) == arrays(made)
 
 
 def test_a_mesh_that_is_not_rounded_is_kept_as_it_is(tmp_path, monkeypatch):
@@ -143,5 +152,7 @@ def test_shapes_of_two_garages_are_chosen(monkeypatch):
         for seed, site in enumerate(sites)
     ]
     chosen = command._usual_shapes()
-    assert chosen
-    assert set(chosen) == {shape for shape in garages[0] & garages[1] if shape.asset().light is None}
+    cars = {shape for shape in chosen if isinstance(shape, CarSpec)}
+    assert {shape.body for shape in cars} == {body.name for body in CAR_BODIES}
+    common = {shape for shape in garages[0] & garages[1] if shape.asset().light is None}
+    assert set(chosen) - cars == {shape for shape in common if not isinstance(shape, CarSpec)} != set()
