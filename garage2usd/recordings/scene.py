@@ -157,8 +157,10 @@ class Scene:
         }
         name = f"{camera.name}_{number:04d}"
         is_carried = camera.mount == "vehicle"
-        to_vehicle = np.linalg.inv(pose.vehicle_to_world) @ sensor_to_world
-        twist = pose.twist if is_carried else pose.twist.reversed()
+        twist = None
+        if camera.effects is not None and camera.effects.shows_motion:
+            of_mount = pose.twist if is_carried else pose.twist.reversed()
+            twist = of_mount.of_part(np.linalg.inv(pose.vehicle_to_world) @ sensor_to_world)
         return View(
             name,
             camera.name,
@@ -168,7 +170,7 @@ class Scene:
             sensor_to_world @ USD_FROM_OPENCV,
             facts,
             camera.effects,
-            twist.of_part(to_vehicle),
+            twist,
             is_carried,
         )
 

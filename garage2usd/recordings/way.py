@@ -1,7 +1,7 @@
 """The way of a recording: where the vehicle is, and what it comes to."""
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -98,7 +98,7 @@ class Way:
                 seconds[number],
                 float(driven[number]),
                 self.to_stage @ _below(eyes[number]),
-                _twist(eyes, seconds, number),
+                partial(_twist, eyes, seconds, number),
             )
             for number in dict.fromkeys(nearest)
         ]
@@ -152,7 +152,7 @@ def _twist(eyes: Sequence[Matrix], seconds: Sequence[float], number: int) -> Twi
     """How the vehicle moves in a frame, from the one before to the one after, where there are such."""
     before, after = max(number - 1, 0), min(number + 1, len(eyes) - 1)
     if before == after:
-        return Twist(np.zeros(3), np.zeros(3))
+        return Twist.at_rest()
     return Twist.between(_below(eyes[before]), _below(eyes[after]), seconds[after] - seconds[before])
 
 

@@ -84,7 +84,8 @@ class View:
     effects
         How its colour differs from that of a perfect camera; None for one.
     twist
-        How the camera moves, in axes that look along +Z with +Y down, from what moves in its picture.
+        How the camera moves, in axes that look along +Z with +Y down, from what moves in its picture; None where its
+        effects do not show that.
     is_carried
         Whether the vehicle carries it: all but the vehicle moves in its picture, else the vehicle alone.
     """

@@ -1,6 +1,9 @@
 """Where a vehicle is when its sensors record: places along a drive, and the axes of what sensors are mounted on."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, partial
+from itertools import repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,14 +40,19 @@ class VehiclePose:
     vehicle_to_world
         From ISO 8855's axes, whose origin is the middle of the rear axle on the ground, to the stage's axes, in metres,
         for column vectors; float64, shape (4, 4).
-    twist
-        How it moves there, in ISO 8855's axes.
+    find_twist
+        Finds `twist`, which pictures without motion do without.
     """
 
     time_s: float
     distance_m: float
     vehicle_to_world: Matrix
-    twist: Twist = field(default_factory=lambda: Twist(np.zeros(3), np.zeros(3)))
+    find_twist: Callable[[], Twist] = Twist.at_rest
+
+    @cached_property
+    def twist(self) -> Twist:
+        """How it moves there, in ISO 8855's axes."""
+        return self.find_twist()
 
     @property
     def facts(self) -> dict[str, float]:
@@ -72,7 +80,7 @@ def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[Veh
     states = motion.at(times)
     around = np.clip(times - _HALF_S, 0.0, driven.time_s[-1]), np.clip(times + _HALF_S, 0.0, driven.time_s[-1])
     before, after = (vehicle_to_y_up(motion.at(each)) for each in around)
-    twists = map(Twist.between, before, after, (around[1] - around[0]).tolist())
+    twists = map(partial, repeat(Twist.between), before, after, (around[1] - around[0]).tolist())
     placed = zip(times.tolist(), states.arc_m.tolist(), vehicle_to_y_up(states), twists, strict=True)
     return [VehiclePose(time, arc, to_stage @ matrix, twist) for time, arc, matrix, twist in placed]
 

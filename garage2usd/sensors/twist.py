@@ -27,6 +27,11 @@ class Twist:
     turn_rad_s: Floats
 
     @classmethod
+    def at_rest(cls) -> Self:
+        """Of what stands."""
+        return cls(np.zeros(3), np.zeros(3))
+
+    @classmethod
     def between(cls, before: Floats, after: Floats, seconds: float) -> Self:
         """From a pose to a later one, in the axes halfway; matrices to the world's axes, shape (4, 4).
 

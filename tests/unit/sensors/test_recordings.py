@@ -25,6 +25,7 @@ from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
 from garage2usd.sensors.columns import column_to_y_up
 from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.twist import Twist
 
 
 @pytest.fixture(scope="module")
@@ -189,7 +190,8 @@ def test_a_second_run_in_one_unfinished_folder_is_refused_until_the_first_has_en
 
 def test_cameras_move_as_the_vehicle_does_between_frames(built):
     stage = open_stage(built.stage)
-    rig = read_rig("avp_surround")
+    left = next(one for one in read_rig("avp_surround").model_dump(mode="json")["sensors"] if one["name"] == "left")
+    rig = rig_from_mapping({"name": "r", "sensors": [{**left, "effects": {"exposure_s": 0.01}}]})
     along = f":{next(stall.name for stall in built.garage.layout.stalls if stall.use.takes_cars)}"
     way = Way(stage, built.stage, along, 0.05, DriveConfig())
     twists = [pose.twist for pose in way.poses]
@@ -197,7 +199,7 @@ def test_cameras_move_as_the_vehicle_does_between_frames(built):
     assert np.abs(velocities[:, 0]).max() > 1.0
     # the rear axle of a car does not slip aside
     assert np.abs(velocities[:, 1]).max() < 0.01
-    views = [view for view in Scene(stage, read_labels(stage, built.stage), way, rig).views if view.camera == "left"]
+    views = Scene(stage, read_labels(stage, built.stage), way, rig).views
     compared = 0
     for before, here, after in zip(views, views[1:], views[2:], strict=False):
         seconds = after.facts["time_s"] - before.facts["time_s"]
@@ -211,6 +213,16 @@ def test_cameras_move_as_the_vehicle_does_between_frames(built):
         assert np.cross(here.twist.turn_rad_s, [0, -1, 0]) == pytest.approx(ahead, abs=0.05)
         compared += 1
     assert compared > 50
+
+
+def test_motion_is_found_for_pictures_that_show_it_alone(built, monkeypatch):
+    monkeypatch.setattr(Twist, "between", lambda *_: pytest.fail("no picture shows it"))
+    stage, rig = open_stage(built.stage), read_rig("avp_surround")
+    for along in ("Drive", f":{next(stall.name for stall in built.garage.layout.stalls if stall.use.takes_cars)}"):
+        way = Way(stage, built.stage, along, 1.0, DriveConfig())
+        views = Scene(stage, read_labels(stage, built.stage), way, rig).views
+        assert len(views) > 20
+        assert {view.twist for view in views} == {None}
 
 
 def test_a_camera_that_stands_sees_the_vehicle_move(built):
