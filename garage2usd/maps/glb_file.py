@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.json_text import short_json
 from garage2usd.maps.glb_materials import Materials
-from garage2usd.maps.glb_meshes import Primitive, places_of, primitive_of
+from garage2usd.maps.glb_meshes import Primitive, beside, places_of, primitive_of
 from garage2usd.maps.glb_textures import shortest
 from garage2usd.reading.meshes import Triangles
 from garage2usd.reading.objects import Matrix
@@ -74,38 +74,54 @@ class GlbFile:
         self._lights: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
         self._mesh_of: dict[Hashable, int] = {}
-        self._primitive_of: dict[tuple[Triangles, int], dict[str, Any]] = {}
+        self._primitive_of: dict[tuple[Triangles, Triangles | None, int], dict[str, Any]] = {}
 
     def add_mesh(self, pieces: Iterable[Piece], name: str) -> int:
         """Number of the mesh that consists of some pieces; a new one is called `name`."""
-        primitives = [self._primitive(*piece) for piece in pieces]
+        of_materials = [(self._material(piece), piece) for piece in pieces]
+        mates = {(material, not piece.is_faceted): piece for material, piece in of_materials}
+        primitives = [
+            self._primitive(piece, material, mates.get((material, piece.is_faceted)))
+            for material, piece in of_materials
+        ]
         key = tuple((own["material"], own["indices"], *own["attributes"].items()) for own in primitives)
         if key not in self._mesh_of:
             self._mesh_of[key] = len(self._meshes)
             self._meshes.append({"name": name, "primitives": primitives})
         return self._mesh_of[key]
 
-    def _primitive(self, triangles: Triangles, surface: SurfaceLook, is_faceted: bool) -> dict[str, Any]:  # noqa: FBT001 - of a piece
-        has_colours = triangles.colours is not None
-        material = self._materials.number(surface, double_sided=triangles.double_sided, has_colours=has_colours)
-        key = triangles, material
+    def _material(self, piece: Piece) -> int:
+        own = piece.triangles
+        return self._materials.number(piece.surface, double_sided=own.double_sided, has_colours=own.colours is not None)
+
+    def _primitive(self, piece: Piece, material: int, mate: Piece | None) -> dict[str, Any]:
+        """A primitive, which shares vertices with the `mate` of its material: a faceted one with a smooth one."""
+        key = piece.triangles, None if mate is None else mate.triangles, material
         if key not in self._primitive_of:
-            sets, normals = self._materials.sets_of(material), self._materials.normals_of(material)
-            own = primitive_of(triangles, sets=sets, normals_set=normals, is_faceted=is_faceted)
-            indices, attributes = self._numbers.indices(own.indices), self._attributes(own)
+            own, attributes = self._arrays(piece, material), {}
+            if mate is not None and piece.is_faceted:
+                own = beside(self._arrays(mate, material), own)
+            elif mate is not None:
+                attributes = self._primitive(mate, material, piece)["attributes"]
+            indices = self._numbers.indices(own.indices)
+            attributes = self._attributes(own, within=attributes)
             self._primitive_of[key] = {"attributes": attributes, "indices": indices, "material": material}
         return self._primitive_of[key]
 
-    def _attributes(self, own: Primitive) -> dict[str, int]:
-        arrays = {"NORMAL": own.normals, "TANGENT": own.tangents}
-        attributes = {"POSITION": self._numbers.vectors(own.positions, with_bounds=True)}
-        attributes |= {name: self._numbers.vectors(array) for name, array in arrays.items() if array is not None}
-        for number, coordinates in enumerate(own.coordinates):
-            is_within = bool((coordinates >= 0).all() and (coordinates <= 1).all())
-            numbered = self._numbers.shares if is_within else self._numbers.vectors
-            attributes[f"TEXCOORD_{number}"] = numbered(coordinates)
-        if own.colours is not None:
-            attributes["COLOR_0"] = self._numbers.vectors(own.colours)
+    def _arrays(self, piece: Piece, material: int) -> Primitive:
+        sets, normals = self._materials.sets_of(material), self._materials.normals_of(material)
+        return primitive_of(piece.triangles, sets=sets, normals_set=normals, is_faceted=piece.is_faceted)
+
+    def _attributes(self, own: Primitive, within: Mapping[str, int]) -> dict[str, int]:
+        """Numbers of its accessors; those that are `within` the beginnings of others by their names."""
+        attributes = {}
+        for name, array in own.named().items():
+            if name in within:
+                attributes[name] = self._numbers.beginning(within[name], array, with_bounds=name == "POSITION")
+            elif name.startswith("TEXCOORD") and bool((array >= 0).all() and (array <= 1).all()):
+                attributes[name] = self._numbers.shares(array)
+            else:
+                attributes[name] = self._numbers.vectors(array, with_bounds=name == "POSITION")
         return attributes
 
     def add_node(
@@ -197,6 +213,7 @@ class _Numbers:
 
     def __init__(self) -> None:
         self.accessors: list[dict[str, Any]] = []
+        self._beginnings: dict[tuple[int, int], int] = {}
         self._known: dict[tuple[bytes, int, str, bool], int] = {}
         self._parts: list[bytearray] = []
         self._headers: list[dict[str, int]] = []
@@ -213,6 +230,17 @@ class _Numbers:
         """Number of the accessor of texture coordinates from 0 to 1, one a vertex, in half the bytes of others."""
         header, data = {"target": _VERTICES, "byteStride": 4}, np.rint(values * _MOST).astype("<u2").tobytes()
         return self._accessor(data, _SHARE, len(values), "VEC2", header, None)
+
+    def beginning(self, number: int, values: NDArray[np.float32], *, with_bounds: bool = False) -> int:
+        """Number of the accessor of the first vectors of another one, which are `values`."""
+        whole = self.accessors[number]
+        if whole["count"] == len(values):
+            return number
+        key = number, len(values)
+        if key not in self._beginnings:
+            self._beginnings[key] = len(self.accessors)
+            self.accessors.append(whole | {"count": len(values)} | (_bounds(values) if with_bounds else {}))
+        return self._beginnings[key]
 
     def indices(self, triangles: NDArray[np.uint32]) -> int:
         """Number of the accessor of what `triangles` numbers, in as few bytes as are enough."""

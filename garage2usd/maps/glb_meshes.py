@@ -1,5 +1,6 @@
 """Triangles as primitives of glTF, and matrices as translation, turn and scale."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -13,6 +14,7 @@ from garage2usd.reading.objects import Matrix
 __all__ = [
     "Primitive",
     "are_rigid",
+    "beside",
     "by_facets",
     "joined",
     "moved_triangles",
@@ -27,7 +29,10 @@ Matrices = NDArray[np.float64]
 _SQUARE = 1e-6
 """By how much the cosine between two axes may differ from that of a right angle: single precision."""
 _SMALLEST = 1e-12
-_FACET_COS = 1 - 1e-6
+_FACET_RAD, _MOST_RAD = 1.4e-3, math.radians(10)
+"""By how much the normals of a faceted triangle may tilt from its own: all of them, and those of narrow ones."""
+_NARROW_M, _OFF_M = 0.03, 1e-3
+"""Narrow triangles are lower than this; their normals tell of a surface that is no more than so much off."""
 _WELDED = 0.95
 """Share of its vertices that a welded mesh has at most: with more it stays as it is, and number plates that differ by
 their coordinates alone share the rest."""
@@ -56,6 +61,13 @@ class Primitive(NamedTuple):
     coordinates: tuple[NDArray[np.float32], ...]
     indices: NDArray[np.uint32]
 
+    def named(self) -> dict[str, NDArray[np.float32]]:
+        """Its arrays by the names of attributes in glTF."""
+        arrays = {"POSITION": self.positions, "NORMAL": self.normals, "TANGENT": self.tangents}
+        arrays |= {f"TEXCOORD_{number}": array for number, array in enumerate(self.coordinates)}
+        arrays["COLOR_0"] = self.colours
+        return {name: array for name, array in arrays.items() if array is not None}
+
 
 def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | None, is_faceted: bool) -> Primitive:
     """Triangles as a primitive.
@@ -78,13 +90,48 @@ def primitive_of(mesh: Triangles, *, sets: Sequence[int], normals_set: int | Non
         return Primitive(mesh.positions_m, mesh.normals, tangents, mesh.colours, coordinates, mesh.indices)
     if not is_faceted:
         return Primitive(mesh.positions_m, mesh.normals, None, mesh.colours, coordinates, mesh.indices)
-    rows = np.hstack([mesh.positions_m, *coordinates, *(() if mesh.colours is None else (mesh.colours,))])
-    first, inverse = _distinct(rows)
-    if len(first) > _WELDED * len(rows):
-        return Primitive(mesh.positions_m, None, None, mesh.colours, coordinates, mesh.indices)
+    bare = Primitive(mesh.positions_m, None, None, mesh.colours, coordinates, mesh.indices)
+    first, inverse = _distinct(_rows(bare))
+    if len(first) > _WELDED * len(inverse):
+        return bare
     indices = inverse[mesh.indices].astype(np.uint32)
     colours = None if mesh.colours is None else mesh.colours[first]
     return Primitive(mesh.positions_m[first], None, None, colours, tuple(own[first] for own in coordinates), indices)
+
+
+def beside(smooth: Primitive, faceted: Primitive) -> Primitive:
+    """A faceted primitive whose vertices are those of a smooth one, and behind them those that it has alone.
+
+    Both have the same kinds of arrays but for the normals.
+    """
+    here, there = _rows(smooth), _rows(faceted)
+    first, inverse = _distinct(np.vstack([here, there]))
+    home = first[inverse[len(here) :]]
+    own, place = np.unique(home[home >= len(here)], return_inverse=True)
+    home[home >= len(here)] = len(here) + place
+    own -= len(here)
+    return Primitive(
+        np.vstack([smooth.positions, faceted.positions[own]]),
+        None,
+        None,
+        _stacked(smooth.colours, faceted.colours, own),
+        tuple(
+            np.vstack([front, back[own]]) for front, back in zip(smooth.coordinates, faceted.coordinates, strict=True)
+        ),
+        home[faceted.indices].astype(np.uint32),
+    )
+
+
+def _stacked(
+    front: NDArray[np.float32] | None, back: NDArray[np.float32] | None, chosen: NDArray[np.intp]
+) -> NDArray[np.float32] | None:
+    return None if front is None or back is None else np.vstack([front, back[chosen]])
+
+
+def _rows(primitive: Primitive) -> NDArray[np.float32]:
+    """What its vertices have apart from normals."""
+    colours = () if primitive.colours is None else (primitive.colours,)
+    return np.hstack([primitive.positions, *primitive.coordinates, *colours])
 
 
 def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -99,16 +146,25 @@ def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.i
 
 
 def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
-    """The triangles at which all normals are their own, which are faceted, and the others.
+    """Split off the triangles at which all normals are as good as their own: those are faceted.
 
     Yields
     ------
     tuple
         Whether they are faceted, and the triangles.
+
+    Notes
+    -----
+    Whether triangles as narrow as the edges of trim are smooth is not seen.
     """
     corners = mesh.positions_m.T.astype(np.float64)[:, mesh.indices]
-    areas = cross(corners[..., 1] - corners[..., 0], corners[..., 2] - corners[..., 0])
-    least = np.sqrt((areas**2).sum(axis=0)) * _FACET_COS
+    sides = corners - np.roll(corners, 1, axis=2)
+    areas = cross(sides[..., 1], -sides[..., 0])
+    doubled = np.sqrt((areas**2).sum(axis=0))
+    height = doubled / np.maximum(np.sqrt((sides**2).sum(axis=0)).max(axis=1), _SMALLEST)
+    narrow = np.clip(_OFF_M / np.maximum(height, _SMALLEST), _FACET_RAD, _MOST_RAD)
+    tilt = np.where(height < _NARROW_M, narrow, _FACET_RAD)
+    least = doubled * np.cos(tilt)
     are_faceted = np.ones(len(mesh.indices), dtype=bool)
     for normals in mesh.normals.T[:, mesh.indices.T].transpose(1, 0, 2):
         are_faceted &= (normals * areas).sum(axis=0) >= least

@@ -20,6 +20,8 @@ CORNERS = (-1, 1), (1, 1), (1, -1), (-1, -1)
 """Mouth left, mouth right, rear right, rear left; a driver who drives in looks to -Z at a yaw of 0."""
 WEIGHTS = np.array([1, 1, 1, 0.1, 0.1, 0.1])
 """A normal that is off by 0.01 is as bad as a place that is off by a millimetre."""
+NARROW_M, BAND_OFF_M, MOST_TILT_RAD = 0.0305, 1.05e-3, 0.18
+"""Height of a triangle, that by the tilt of its normals, and their tilt, below which they need not be kept."""
 
 
 ALIKE = {
@@ -245,28 +247,39 @@ def _triangles_of(prim):
     """Points of a mesh, and the corners of the triangles that its faces are fans of."""
     mesh = UsdGeom.Mesh(prim)
     counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
+    return np.array(mesh.GetPointsAttr().Get(), dtype=float), corners[_fans(counts)]
+
+
+def _fans(counts):
+    """Numbers of the corners of the triangles that faces are fans of; shape (triangles, 3)."""
     fans = counts - 2
     first = np.repeat(np.cumsum(counts) - counts, fans)
     following = np.arange(1, fans.sum() + 1) - np.repeat(np.cumsum(fans) - fans, fans)
-    triangles = corners[np.stack([first, first + following, first + following + 1], axis=1)]
-    return np.array(mesh.GetPointsAttr().Get(), dtype=float), triangles
+    return np.stack([first, first + following, first + following + 1], axis=1)
 
 
 def _smooth_corners(prim, matrix):
-    """World place and normal of the corners of faces whose normal is not the face's; shape (n, 6)."""
+    """World place and normal of the corners of triangles whose normals are not the triangle's; shape (n, 6).
+
+    Those of triangles so narrow that nobody sees whether they are smooth are left out.
+    """
     mesh = UsdGeom.Mesh(prim)
     primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
     if not primvar or primvar.GetInterpolation() != "faceVarying":
         return np.zeros((0, 6))
     normals = np.array(primvar.ComputeFlattened()) @ matrix[:3, :3]
     places = np.array(mesh.GetPointsAttr().Get(), dtype=float) @ matrix[:3, :3] + matrix[3, :3]
-    counts, corners = (np.array(a.Get()) for a in (mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
-    starts = np.cumsum(counts) - counts
-    own, following = places[corners], np.arange(1, len(corners) + 1)
-    following[starts + counts - 1] = starts  # of the last corner of each face
-    facing = np.repeat(np.add.reduceat(np.cross(own, own[following]), starts), counts, axis=0)
-    bent = (normals * facing).sum(axis=1) < 0.999 * np.linalg.norm(facing, axis=1)
-    return np.hstack([own, normals])[bent]
+    own = places[np.array(mesh.GetFaceVertexIndicesAttr().Get())]
+    fans = _fans(np.array(mesh.GetFaceVertexCountsAttr().Get()))
+    sides = own[fans] - own[np.roll(fans, 1, axis=1)]
+    facing = np.cross(sides[:, 1], -sides[:, 0])
+    area = np.linalg.norm(facing, axis=1)
+    cosine = (normals[fans] * facing[:, None]).sum(axis=2) / np.maximum(area, 1e-12)[:, None]
+    height = area / np.linalg.norm(sides, axis=2).max(axis=1)
+    tilt = np.arccos(np.clip(cosine, -1, 1)).max(axis=1)
+    narrow = (height < NARROW_M) & (tilt * height < BAND_OFF_M) & (tilt < MOST_TILT_RAD)
+    kept = (cosine < 0.999) & (area > 0)[:, None] & ~narrow[:, None]
+    return np.hstack([own[fans[kept]], normals[fans[kept]]])
 
 
 def _assert_sound_primitives(glb):
