@@ -2,6 +2,8 @@
 
 import io
 import json
+import math
+from collections import defaultdict
 
 import numpy as np
 import pytest
@@ -19,8 +21,9 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.errors import StageError
 from garage2usd.maps.glb import write_glb
-from garage2usd.maps.glb_meshes import are_rigid, rigid_inverses
+from garage2usd.maps.glb_meshes import are_rigid, by_facets, rigid_inverses
 from garage2usd.objects import PIECE_LABELS
+from garage2usd.reading.meshes import Triangles
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +49,44 @@ def test_it_is_the_stage_of_a_sample_and_as_large(sample, builds, tmp_path):
     built = builds(sample, "usdz")
     judge(write_glb, built, tmp_path)
     assert (tmp_path / "garage.glb").stat().st_size <= 1.05 * built.stage.stat().st_size
+
+
+def strip(width_m, tilt_deg):
+    """Two triangles whose normals tilt from their own, as `reading.meshes` gives them."""
+    tilt = math.radians(tilt_deg)
+    positions = np.array([(0, 0, 0), (1, 0, 0), (1, width_m, 0), (0, width_m, 0)], dtype=np.float32)
+    normals = np.tile(np.array([0, math.sin(tilt), math.cos(tilt)], dtype=np.float32), (4, 1))
+    indices = np.array([(0, 1, 2), (0, 2, 3)], dtype=np.uint32)
+    return Triangles(positions, normals, np.zeros((4, 0), np.float32), indices, np.zeros(2, np.int32), False, None)
+
+
+@pytest.mark.parametrize(
+    ("width_m", "tilt_deg", "is_faceted"),
+    [
+        (1.0, 0.0, True),
+        (1.0, 0.2, False),
+        (0.028, 1.9, True),
+        (0.028, 2.2, False),
+        (0.002, 9.0, True),
+        (0.002, 11, False),
+    ],
+)
+def test_narrow_triangles_are_smooth_where_that_is_more_than_a_millimetre(width_m, tilt_deg, is_faceted):
+    assert [found for found, _ in by_facets(strip(width_m, tilt_deg))] == [is_faceted]
+
+
+def test_faceted_and_smooth_triangles_of_a_material_share_their_places(made, tmp_path):
+    write_glb(Usd.Stage.Open(str(made.stage)), tmp_path / "garage.glb")
+    glb = Glb((tmp_path / "garage.glb").read_bytes())
+    places = {number: (own["bufferView"], own.get("byteOffset", 0)) for number, own in enumerate(glb.json["accessors"])}
+    shared = 0
+    for mesh in glb.json["meshes"]:
+        of_material = defaultdict(set)
+        for primitive in mesh["primitives"]:
+            of_material[primitive["material"]].add(places[primitive["attributes"]["POSITION"]])
+        shared += sum(len(mesh["primitives"]) > len(of_material) and len(own) == 1 for own in of_material.values())
+        assert all(len(own) == 1 for own in of_material.values())
+    assert shared > 20
 
 
 def test_its_bytes_are_always_the_same(made, tmp_path):
@@ -118,8 +159,11 @@ FAULTS = (
     Fault("texture upside down", "glb_meshes", "(1, -1) + (0, 1)", "(1, 1) + (0, 0)"),
     Fault("bump as dent", "glb_meshes", "np.where(side < 0, -1.0, 1.0)", "np.where(side < 0, 1.0, -1.0)"),
     Fault("inside out", "glb_meshes", "inverse[mesh.indices]", "inverse[mesh.indices[:, ::-1]]"),
-    Fault("all faceted", "glb_meshes", "_FACET_COS = 1 - 1e-6", "_FACET_COS = -2.0"),
-    Fault("all seen from both sides", "glb_file", "double_sided=triangles.double_sided", "double_sided=True"),
+    Fault("all faceted", "glb_meshes", "_FACET_RAD, _MOST_RAD = 1.4e-3,", "_FACET_RAD, _MOST_RAD = 3.0,"),
+    Fault("wide triangles faceted", "glb_meshes", "_NARROW_M, _OFF_M = 0.03, 1e-3", "_NARROW_M, _OFF_M = 0.5, 0.1"),
+    Fault("vertices of another triangle", "glb_meshes", "= len(here) + place", "= place"),
+    Fault("vertices in another order", "glb_meshes", "faceted.positions[own]", "faceted.positions[own[::-1]]"),
+    Fault("all seen from both sides", "glb_file", "double_sided=own.double_sided", "double_sided=True"),
     Fault(
         "an image for each texture",
         "glb_textures",
