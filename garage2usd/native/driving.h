@@ -17,6 +17,26 @@ typedef struct { double left, low, right, high; } Box;
 /* A turn about the vertical axis with its sine and cosine. */
 typedef struct { double yaw, sine, cosine; } Heading;
 
+/* The middle of a rear axle on the floor, and the heading. */
+typedef struct { double x, z, yaw; } Pose;
+
+/* A way of Reeds and Shepp: the steering of each piece (1 to the left, -1, 0) and its metres, negative in reverse. */
+enum { MOST_PIECES = 5, MOST_WORDS = 64 };
+typedef struct {
+    int64_t count;
+    int8_t steering[MOST_PIECES];
+    double length[MOST_PIECES];
+} Word;
+
+/* Squares of the floor from least x and z on, and how far each is from a goal: -1 where it is shut, INFINITY where no
+ * way leads; `reached` are all others. */
+typedef struct {
+    double *far;
+    int64_t side;
+    double left, low;
+    int64_t reached;
+} Guide;
+
 /* An axis, and how far a hull goes along it. */
 typedef struct {
     bool has_length;
@@ -52,6 +72,13 @@ Box box_around(const Hull *hull, double reach);
 FROM_PYTHON
 double bulge(double radius, double turn, const double *body);
 double clearance(Hull *hull, const Scene *scene, int64_t number, double enough);
+
+/* reeds_shepp.c */
+int64_t reeds_shepp(Pose from, Pose to, double radius, Word *words);
+
+/* guide.c */
+bool make_guide(Guide *guide, const Scene *scene, Pose start, const DoubleTable *goals, double reach, double margin);
+double guided_way(const Guide *guide, double x, double z);
 
 /* Whether a shape's box is out of another. */
 static inline bool is_beyond(const Scene *scene, int64_t number, const Box *box)

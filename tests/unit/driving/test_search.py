@@ -28,7 +28,7 @@ def task(*, shapes=NOTHING, goal=(0, -0.5, -5.5, 0.5, -4.5), max_nodes=10_000):
 
 def looked(asked):
     touched = np.zeros(len(asked.scene.shapes), np.int64)
-    found, steps = search(asked, touched)
+    found, steps, _ = search(asked, touched)
     return found, steps.tolist(), touched.tolist()
 
 
@@ -48,6 +48,6 @@ def test_too_few_places_are_another_answer_than_no_way():
 
 def test_places_for_which_there_is_no_memory_raise_an_error(monkeypatch):
     # Python has room for the steps, and C none for the places
-    monkeypatch.setattr(searching, "np", SimpleNamespace(empty=lambda _: np.zeros((1, 3))))
+    monkeypatch.setattr(searching, "np", SimpleNamespace(empty=lambda _: np.zeros((1, 3)), zeros=np.zeros, int64=np.int64))
     with pytest.raises(MemoryError, match="places of a search"):
         looked(task(max_nodes=1 << 45))
