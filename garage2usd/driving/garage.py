@@ -4,7 +4,7 @@ A garage is plain geometry here: stalls, lanes by direction, and obstacles.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property, lru_cache
@@ -16,12 +16,22 @@ from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.lane_poses import families, lane_poses
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import LanePose, Limits, find_way, least_clearance_m, touched_parked
+from garage2usd.driving.proof import (
+    LanePose,
+    Limits,
+    Outcome,
+    Search,
+    find_guided_way,
+    find_way_by_steps,
+    least_clearance_m,
+    touched_parked,
+)
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
 from garage2usd.progress import Progress, silent
 
-__all__ = ["DrivenGarage", "Nose", "StallProof", "middle_of", "prove_garage"]
+__all__ = ["DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
 
+Find = Callable[[DesignCar, Pose, Obstacles, Sequence[LanePose], Limits], Search]
 _SUSPECTS = 8
 _NEAR_EDGES, _DIGITS = 2, 4
 _FURTHER_OUT_M = (0.0, 0.1, 0.2, 0.3)
@@ -61,6 +71,8 @@ class StallProof:
         touched most often.
     is_single_cause
         Whether `touched` are such.
+    is_undecided
+        Whether a search ended at its bound where nothing was proven: there may be ways nevertheless.
     clearance_m
         What is left between the car and the first of those causes on ways that are clear of all else, negative where
         the car would go through it: a lower bound.
@@ -75,11 +87,19 @@ class StallProof:
     touched: tuple[str, ...] = ()
     is_single_cause: bool = False
     clearance_m: float | None = None
+    is_undecided: bool = False
 
     @property
     def is_proven(self) -> bool:
         """Whether there are both ways."""
         return self.way_in is not None and self.way_out is not None
+
+    @property
+    def outcome(self) -> Outcome:
+        """Whether the stall is reached; where not, whether it cannot be, at the search's resolution, or is undecided."""
+        if self.is_proven:
+            return Outcome.REACHED
+        return Outcome.UNDECIDED if self.is_undecided else Outcome.IMPOSSIBLE
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,8 +234,16 @@ class _Prover:
 
     def proof_of(self, stall: Stall, *, with_all_taken_only: bool) -> StallProof:
         """The ways of one stall, or what was touched."""
+        by_steps = self._proof_by(find_way_by_steps, stall, with_all_taken_only=with_all_taken_only)
+        if by_steps.is_proven or not self.limits.is_thorough:
+            return by_steps
+        guided = self._proof_by(find_guided_way, stall, with_all_taken_only=with_all_taken_only)
+        return guided if guided.is_proven else replace(by_steps, is_undecided=by_steps.is_undecided or guided.is_undecided)
+
+    def _proof_by(self, find: Find, stall: Stall, *, with_all_taken_only: bool) -> StallProof:
         full = self._seen_from(stall, self.full)
         touched: list[str] = []
+        is_undecided = False
         as_it_stands = self._seen_from(stall, self.as_it_stands)
         is_all = with_all_taken_only or len(as_it_stands.pieces) == len(full.pieces)
         for obstacles in (full,) if is_all else (full, as_it_stands):
@@ -223,11 +251,12 @@ class _Prover:
                 if backing and not self._has_backing(stall):
                     continue
                 for nose in Nose:
-                    way_in, way_out, in_the_way = self._ways(stall, nose, obstacles, self.limits, backing=backing)
-                    if way_in and way_out:
-                        return StallProof(stall.name, nose, way_in, way_out, obstacles is full, backing)
-                    touched += in_the_way
-        return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)))
+                    ways = self._ways(stall, nose, obstacles, self.limits, backing=backing, find=find)
+                    if ways.into and ways.out:
+                        return StallProof(stall.name, nose, ways.into, ways.out, obstacles is full, backing)
+                    touched += ways.touched
+                    is_undecided = is_undecided or ways.is_undecided
+        return StallProof(stall.name, touched=tuple(dict.fromkeys(touched)), is_undecided=is_undecided)
 
     def explained(self, stall: Stall, proof: StallProof) -> StallProof:
         """The failed proof of a stall with what alone is in the way, if there is such a thing."""
@@ -253,9 +282,9 @@ class _Prover:
         """The ways in and out where one thing is left out, looked for roughly; none if there are not both."""
         limits = replace(self.limits, is_thorough=False)
         for nose in Nose:
-            way_in, way_out, _ = self._ways(stall, nose, obstacles.without([name]), limits, backing=True)
-            if way_in and way_out:
-                return way_in, way_out
+            ways = self._ways(stall, nose, obstacles.without([name]), limits, backing=True, find=find_way_by_steps)
+            if ways.into and ways.out:
+                return ways.into, ways.out
         return ()
 
     def _parked(self, stall: Stall, nose: Nose, obstacles: Obstacles) -> Pose:
@@ -269,27 +298,39 @@ class _Prover:
         return next(clear, poses[0])
 
     def _ways(
-        self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool
-    ) -> tuple[Manoeuvre | None, Manoeuvre | None, Sequence[str]]:
-        """The way in, the way out, and what was touched where one is missing."""
+        self, stall: Stall, nose: Nose, obstacles: Obstacles, limits: Limits, *, backing: bool, find: Find
+    ) -> "_Ways":
+        """The way in and the way out; where one is missing, what was touched, and whether a search was undecided."""
         parked = self._parked(stall, nose, obstacles)
 
-        def way(poses: list[LanePose]) -> tuple[Manoeuvre | None, tuple[str, ...]]:
-            touched: list[str] = []
+        def way(poses: list[LanePose]) -> Search:
+            searches = []
             for family in families(poses):
-                found = find_way(self.car, parked, obstacles, family, limits)
-                if found.way is not None:
-                    return found.way, ()
-                touched += found.touched
-            return None, tuple(dict.fromkeys(touched))
+                searches.append(find(self.car, parked, obstacles, family, limits))
+                if searches[-1].way is not None:
+                    return searches[-1]
+            touched = dict.fromkeys(name for one in searches for name in one.touched)
+            return Search(None, tuple(touched), all(one.is_exhausted for one in searches))
 
         both, leave = self.poses_at(stall.access, to_leave=True, backing=backing)
         _, arrive = self.poses_at(stall.access, to_leave=False, backing=backing)
-        out, touched = way(both)
-        if out is not None:
-            return out.reversed(), out, ()
-        out, touched = way(leave) if len(leave) > len(both) else (None, touched)
-        if out is None:
-            return None, None, touched
-        into, touched = way(arrive) if len(arrive) > len(both) else (None, touched)
-        return into.reversed() if into else None, out, touched
+        out = way(both)
+        if out.way is not None:
+            return _Ways(out.way.reversed(), out.way)
+        further = way(leave) if len(leave) > len(both) else out
+        if further.way is None:
+            return _Ways(None, None, further.touched, not (out.is_exhausted and further.is_exhausted))
+        into = way(arrive) if len(arrive) > len(both) else Search(None, (), out.is_exhausted)
+        if into.way is not None:
+            return _Ways(into.way.reversed(), further.way)
+        return _Ways(None, further.way, into.touched, not into.is_exhausted)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ways:
+    """A way into a stall and out of it; where one is missing, what was touched, and whether a search was undecided."""
+
+    into: Manoeuvre | None
+    out: Manoeuvre | None
+    touched: tuple[str, ...] = ()
+    is_undecided: bool = False

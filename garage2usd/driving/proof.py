@@ -116,9 +116,9 @@ _PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 131_072))
 
 _GUIDED_PASSES = ((0.24, 120), (0.06, 240), (0.02, 480))
 """Length of a straight step in metres and headings in a full turn of guided searches: coarse first, then fine."""
-_PLACES_PER_M2, _FEWEST_PLACES, _MOST_PLACES = 250, 65_536, 1_000_000
+_PLACES_PER_M2, _FEWEST_PLACES, _MOST_PLACES = 125, 32_768, 1_000_000
 """How many places a guided search looks at: so many for each square metre within reach."""
-_MORE_PLACES = 32
+_MORE_PLACES = 64
 """How many times as many places there are with the next finer steps: too many, and no finer ones are tried."""
 _NOTHING = Found(0, np.empty((0, 3)), 0)
 

@@ -6,13 +6,13 @@ from functools import lru_cache
 from itertools import chain
 
 from garage2usd.driving.car import DesignCar
-from garage2usd.driving.garage import Nose, StallProof, prove_garage
+from garage2usd.driving.garage import Find, Nose, StallProof, prove_garage
 from garage2usd.driving.lane_poses import families
 from garage2usd.driving.lane_search import path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path
-from garage2usd.driving.proof import LanePose, Limits, find_way
+from garage2usd.driving.proof import LanePose, Limits, find_guided_way, find_way_by_steps
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap
 from garage2usd.driving.turns import Steering
@@ -126,9 +126,11 @@ class Router:
         standing = self._standing(proof.is_full).without(garage.unseen(stall))
         further = replace(self._limits, gear_changes=_MORE_CHANGES, reach_m=_FURTHER_M)
 
-        def ways(limits: Limits, lanes: Iterable[Sequence[LanePose]]) -> Iterator[Manoeuvre]:
+        def ways(
+            limits: Limits, lanes: Iterable[Sequence[LanePose]], find: Find = find_way_by_steps
+        ) -> Iterator[Manoeuvre]:
             for some in lanes:
-                way = find_way(self._car, parked, standing, some, limits).way
+                way = find(self._car, parked, standing, some, limits).way
                 if way is not None:
                     yield way.reversed() if is_back else way
 
@@ -136,6 +138,7 @@ class Router:
         rounds = (
             chain([proven], ways(self._limits, together)),
             chain(ways(self._limits, each), ways(further, together), ways(further, each)),
+            ways(further, together, find_guided_way),
         )
         # a coarse look at all ways of a round comes before a fine one at any
         for found in rounds:
