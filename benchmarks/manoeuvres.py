@@ -3,7 +3,6 @@
 ``python benchmarks/manoeuvres.py --parkbench FOLDER --dragon-lake FILE --tpcap FOLDER`` reads what is given; how to get
 the sets is told in docs/driving.md. Nothing of them is part of the repository.
 """
-# ruff: noqa: T201 - a script that prints a table
 
 import argparse
 import csv
@@ -23,7 +22,7 @@ from garage2usd.driving import DesignCar, LanePose, Limits, Manoeuvre, Obstacles
 
 _CHECKED_M = 0.05
 _WITHIN_M = 0.05
-_LINE_M = 0.005
+_LINE_M, _ROUNDING_M2 = 0.005, 1e-9
 
 
 @dataclass(frozen=True)
@@ -105,7 +104,7 @@ class _RingReader(pickle.Unpickler):
         if name == "LinearRing" and module.startswith("shapely"):
             return _Ring
         if name == "scalar" and module.startswith("numpy"):
-            from numpy._core.multiarray import scalar  # noqa: PLC0415, PLC2701
+            from numpy._core.multiarray import scalar  # noqa: PLC0415
 
             return scalar
         if (module, name) == ("numpy", "dtype"):
@@ -124,7 +123,7 @@ def dragon_lake(path: Path) -> Iterator[ParkingScene]:
             state = ring.state
             corners = shapely.get_coordinates(shapely.from_wkb(state) if isinstance(state, bytes) else state)
             shape = shapely.Polygon(corners * (1, -1)).convex_hull
-            shapes.append(shape if shape.area > 1e-9 else shape.buffer(_LINE_M))
+            shapes.append(shape if shape.area > _ROUNDING_M2 else shape.buffer(_LINE_M))
         first = start[0] if isinstance(start, list) else start
         yield ParkingScene(f"{number}", car, pose_of(first), pose_of(parked), tuple(shapes), 0.0)
 

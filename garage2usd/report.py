@@ -106,6 +106,7 @@ def make_report(
         lane_kinds=graph.kind_counts(),
         object_counts=layout.counts(),
         unreachable_stalls=tuple(sorted(layout.unreachable)),
+        undecided_stalls=tuple(sorted(layout.undecided)),
         stair_cores=tuple(
             StairCore(square=core.square, door_m=core.door_m, in_place_of=core.stalls) for core in layout.cores
         ),

@@ -1,6 +1,7 @@
 """The rule of driving: the design car gets into each stall and out of it without a touch."""
 
 from collections.abc import Iterator
+from weakref import WeakKeyDictionary
 
 from garage2usd.as_built.driven_ground import CAR_HEIGHT_M, driven_garage, rounded
 from garage2usd.as_built.garage import BuiltGarage
@@ -13,6 +14,9 @@ from garage2usd.profiles import Length, Profile
 __all__ = ["BOOK", "design_car"]
 
 BOOK = RuleBook()
+_Proofs = tuple[tuple[Stall, StallProof], ...]
+_PROVEN: WeakKeyDictionary[BuiltGarage, tuple[Profile, _Proofs]] = WeakKeyDictionary()
+"""What was proven last of each garage, as two rules speak of it."""
 _NAMED = 3
 _EXPLAINED = 10
 """For so many stalls without ways a single cause is looked for, which takes a second or two each."""
@@ -21,10 +25,37 @@ _EXPLAINED = 10
 @BOOK.rule("swept-path", asks="the design car drives into each stall and out again while all others are taken")
 def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     """Leaves out what other rules report: stalls that have an error, and the things that are at fault elsewhere."""
+    for at, proof in _proofs(garage, profile):
+        if not (proof.is_proven or proof.is_undecided):
+            required = None if proof.clearance_m is None else Limits().margin_m
+            yield Miss(proof.stall, rounded(at.centre), _message(proof), proof.clearance_m, required)
+
+
+@BOOK.rule(
+    "swept-path-undecided",
+    asks="the search for the ways of each stall ends with ways, or because there are none",
+    severity=Severity.WARNING,
+)
+def _undecided(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
+    for at, proof in _proofs(garage, profile):
+        if not proof.is_proven and proof.is_undecided:
+            yield Miss(proof.stall, rounded(at.centre), _message(proof))
+
+
+def _proofs(garage: BuiltGarage, profile: Profile) -> _Proofs:
+    """The proofs of the stalls that no other rule reports."""
+    of_profile, proofs = _PROVEN.get(garage, (None, ()))
+    if of_profile is not profile:
+        proofs = _proven(garage, profile)
+        _PROVEN[garage] = profile, proofs
+    return proofs
+
+
+def _proven(garage: BuiltGarage, profile: Profile) -> _Proofs:
     lanes = garage.lanes
     has_way = lanes.joined_portals("entrance") and lanes.joined_portals("exit")
     if not (has_way and garage.has_whole_graph and garage.things):
-        return
+        return ()
     faults = _reported(garage, profile)
     places = {fault.place for fault in faults}
     missed = {node for edge in lanes.edges if lanes.edge_name(edge) in places for node in (edge.start, edge.end)}
@@ -32,19 +63,8 @@ def _swept(garage: BuiltGarage, profile: Profile) -> Iterator[Miss]:
     things = {name for fault in faults for name in fault.things}
     driven = driven_garage(garage, height_m=height_m, left_out=things)
     asked = [at for at in driven.stalls if at.name not in places and at.access not in missed]
-    limits = Limits()
-    proofs = prove_garage(
-        driven,
-        asked,
-        car=design_car(profile),
-        limits=limits,
-        with_all_taken_only=True,
-        most_explained=_EXPLAINED,
-    )
-    for at, proof in zip(asked, proofs, strict=True):
-        if not proof.is_proven:
-            required = None if proof.clearance_m is None else limits.margin_m
-            yield Miss(proof.stall, rounded(at.centre), _message(proof), proof.clearance_m, required)
+    proofs = prove_garage(driven, asked, car=design_car(profile), with_all_taken_only=True, most_explained=_EXPLAINED)
+    return tuple(zip(asked, proofs, strict=True))
 
 
 def design_car(profile: Profile) -> DesignCar:
@@ -77,10 +97,12 @@ def _reported(garage: BuiltGarage, profile: Profile) -> list[Miss]:
 
 
 def _message(proof: StallProof) -> str:
-    if not proof.touched:
+    if not (proof.touched or proof.is_undecided):
         return "no lane beside the stall is driven to from an entrance and on to an exit without turning round"
-    named = ", ".join(proof.touched[:_NAMED])
+    named = ", ".join(proof.touched[:_NAMED]) or "nothing"
     how = "in the way" if proof.is_single_cause else "it touches"
+    if proof.is_undecided:
+        return f"the search for ways ended at its bound, while all other stalls are taken; {how}: {named}"
     return f"a car does not get into the stall and out again while all others are taken; {how}: {named}"
 
 

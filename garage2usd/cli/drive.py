@@ -246,4 +246,6 @@ def _describe(proofs: "Sequence[StallProof]") -> None:
     for proof in proofs:
         if not proof.is_proven:
             alone = "in the way" if proof.is_single_cause else "touched"
-            click.echo(f"{proof.stall}: no way; {alone}: {', '.join(proof.touched[:6]) or 'no lane to begin at'}")
+            outcome = "undecided, as the search ended at its bound" if proof.is_undecided else "no way"
+            nothing = "nothing" if proof.is_undecided else "no lane to begin at"
+            click.echo(f"{proof.stall}: {outcome}; {alone}: {', '.join(proof.touched[:6]) or nothing}")

@@ -14,8 +14,9 @@ from garage2usd.driving.layout_garage import (
 )
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move, Waypoint
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import LanePose, Limits, Search, find_way, least_clearance_m
+from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m
 from garage2usd.driving.road import DrivenRoad, Portal, RampFloor, heights_m
+from garage2usd.driving.way_search import find_way
 
 __all__ = [
     "DesignCar",
@@ -28,6 +29,7 @@ __all__ = [
     "Move",
     "Nose",
     "Obstacles",
+    "Outcome",
     "Portal",
     "Pose",
     "RampFloor",

@@ -2,6 +2,7 @@
 
 A garage is plain geometry here: stalls, lanes by direction, and obstacles.
 """
+# Over 300 lines: what is proven of a garage is declared beside what proves it.
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -16,16 +17,8 @@ from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.lane_poses import families, lane_poses
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.proof import (
-    LanePose,
-    Limits,
-    Outcome,
-    Search,
-    find_guided_way,
-    find_way_by_steps,
-    least_clearance_m,
-    touched_parked,
-)
+from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m, touched_parked
+from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
 from garage2usd.progress import Progress, silent
 
@@ -96,7 +89,7 @@ class StallProof:
 
     @property
     def outcome(self) -> Outcome:
-        """Whether the stall is reached; where not, whether it cannot be, at the search's resolution, or is undecided."""
+        """Reached, impossible at the search's resolution, or undecided: a search ended at its bound."""
         if self.is_proven:
             return Outcome.REACHED
         return Outcome.UNDECIDED if self.is_undecided else Outcome.IMPOSSIBLE
@@ -238,7 +231,9 @@ class _Prover:
         if by_steps.is_proven or not self.limits.is_thorough:
             return by_steps
         guided = self._proof_by(find_guided_way, stall, with_all_taken_only=with_all_taken_only)
-        return guided if guided.is_proven else replace(by_steps, is_undecided=by_steps.is_undecided or guided.is_undecided)
+        if guided.is_proven:
+            return guided
+        return replace(by_steps, is_undecided=by_steps.is_undecided or guided.is_undecided)
 
     def _proof_by(self, find: Find, stall: Stall, *, with_all_taken_only: bool) -> StallProof:
         full = self._seen_from(stall, self.full)
@@ -267,7 +262,7 @@ class _Prover:
             return proof
         cause = full.only(causes[0])
         clearance_m = min(least_clearance_m(self.car, way, cause) for way in without[causes[0]])
-        return StallProof(stall.name, touched=causes, is_single_cause=True, clearance_m=clearance_m)
+        return replace(proof, touched=causes, is_single_cause=True, clearance_m=clearance_m)
 
     def _has_backing(self, stall: Stall) -> bool:
         """Whether backing out of a dead end gives more lane poses near a stall."""

@@ -11,7 +11,7 @@ from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import DrivenGarage, StallProof, prove_garage
 from garage2usd.driving.manoeuvre import Manoeuvre
-from garage2usd.driving.proof import Limits
+from garage2usd.driving.proof import Limits, Outcome
 from garage2usd.layout import Layout, Placement, lay_out
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.grounds import Grounds
@@ -78,6 +78,7 @@ def without_unreachable(
         If none is left, or the configuration names a stall that is left out.
     """
     unreachable: set[str] = set()
+    undecided: set[str] = set()
     given, asked, config = layout, config, _with_cars_between_lines(config)
     layout = layout if config is asked else lay_out(layout.structure, graph, config)
     while True:
@@ -86,7 +87,10 @@ def without_unreachable(
         if not found and not unreachable:
             return given
         if not found:
-            return layout if config is asked else lay_out(layout.structure, graph, asked, unreachable=unreachable)
+            if config is not asked:
+                layout = lay_out(layout.structure, graph, asked, unreachable=unreachable)
+            return replace(layout, undecided=frozenset(undecided))
+        undecided.update(proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED)
         # a charger, an access aisle or a car that went elsewhere may stand in another's way
         unreachable |= found
         layout = lay_out(layout.structure, graph, config, unreachable=unreachable)

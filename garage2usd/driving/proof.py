@@ -1,35 +1,18 @@
-"""The proof that a car gets from a lane into a stall and out again without a touch, by ways that do it."""
+"""What is asked of a way between a stall and a lane and what was found, and how near a car comes to obstacles."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
 from garage2usd.driving.car import DesignCar, Point, Pose
-from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move
+from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
-from garage2usd.driving.search import HEADINGS, Found, Task, search
-from garage2usd.driving.sweep import Floats, bulge, least_clearance, touched_shapes
-from garage2usd.errors import ConfigError
-from garage2usd.native import Int64s
+from garage2usd.driving.sweep import bulge, least_clearance, touched_shapes
 
-__all__ = [
-    "LanePose",
-    "Limits",
-    "Outcome",
-    "Search",
-    "find_guided_way",
-    "find_way",
-    "find_way_by_steps",
-    "least_clearance_m",
-    "touched_parked",
-]
+__all__ = ["LanePose", "Limits", "Outcome", "Search", "least_clearance_m", "touched_parked"]
 
-_QUARTER = math.pi / 2
-_HEADING_ERROR = 1e-6
-_SAME = 1e-9
 _FINE_RAD = math.radians(1.0)
 _FINE_M = 0.5
 
@@ -110,183 +93,6 @@ class Search:
         return Outcome.IMPOSSIBLE if self.is_exhausted else Outcome.UNDECIDED
 
 
-_PASSES = ((0.36, 16_384), (0.24, 65_536), (0.12, 131_072))
-"""Length of a straight step in metres and most places looked at: coarse first, then fine."""
-
-
-_GUIDED_PASSES = ((0.24, 120), (0.06, 240), (0.02, 480))
-"""Length of a straight step in metres and headings in a full turn of guided searches: coarse first, then fine."""
-_PLACES_PER_M2, _FEWEST_PLACES, _MOST_PLACES = 125, 32_768, 1_000_000
-"""How many places a guided search looks at: so many for each square metre within reach."""
-_MORE_PLACES = 64
-"""How many times as many places there are with the next finer steps: too many, and no finer ones are tried."""
-_NOTHING = Found(0, np.empty((0, 3)), 0)
-
-
-def find_way(
-    car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits | None = None
-) -> Search:
-    """Find a way from a parked pose to any of some lane poses.
-
-    Parameters
-    ----------
-    car
-        The car.
-    parked
-        Where it stands.
-    obstacles
-        What it must not touch.
-    lanes
-        Where the way may end; directions differ by quarter turns.
-    limits
-        Margin, gear changes, reach and effort.
-
-    Returns
-    -------
-    Search
-        Driven backwards in time, `Manoeuvre.reversed`, the way leads in, from the lane in the same direction.
-
-    Raises
-    ------
-    ConfigError
-        If the lanes' directions differ by other than quarter turns.
-
-    Notes
-    -----
-    Steps come first, as they are fast where a lane is long. A lane shorter and narrower than a step is a place that
-    steps hardly meet: the guided search comes first there.
-    """
-    limits = limits or Limits()
-    is_place = all(max(lane.length_m, lane.width_m) < _PASSES[0][0] for lane in lanes)
-    if is_place and limits.is_thorough:
-        guided = find_guided_way(car, parked, obstacles, lanes, limits)
-        return guided if guided.way else _reached(find_way_by_steps(car, parked, obstacles, lanes, limits), guided)
-    by_steps = find_way_by_steps(car, parked, obstacles, lanes, limits)
-    if by_steps.way or not limits.is_thorough:
-        return by_steps
-    return _reached(find_guided_way(car, parked, obstacles, lanes, limits), by_steps)
-
-
-def _reached(later: Search, earlier: Search) -> Search:
-    """The later of two searches; where neither found a way, what both say."""
-    if later.way:
-        return later
-    return Search(None, earlier.touched or later.touched, earlier.is_exhausted and later.is_exhausted)
-
-
-def find_way_by_steps(
-    car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
-) -> Search:
-    """Find a way by steps alone, without a guide; otherwise like `find_way`."""
-    task = _task(car, parked, obstacles, lanes, limits)
-    if isinstance(task, Search):
-        return task
-    found = _NOTHING
-    for straight_m, effort in _PASSES if limits.is_thorough else _PASSES[:-1]:
-        task.touched[:] = 0
-        found = task.look(straight_m, effort)
-        headings = np.unique(task.goals[:, 0])
-        if found.outcome < 0 and len(headings) > 1:
-            # a lane that is out of reach may draw the search away from another one: each direction for itself
-            each = []
-            for heading in headings:
-                each.append(task.look(straight_m, effort, only=heading))
-                if each[-1].outcome > 0:
-                    break
-            found = max(each, key=lambda one: (one.outcome > 0, -one.outcome))
-        if found.outcome > 0:
-            break
-    return task.search_of(found)
-
-
-def find_guided_way(
-    car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
-) -> Search:
-    """Find a way by words of Reeds and Shepp and with a guide round what stands; otherwise like `find_way`."""
-    task = _task(car, parked, obstacles, lanes, limits)
-    if isinstance(task, Search):
-        return task
-    places = round(_PLACES_PER_M2 * (2 * limits.reach_m) ** 2)
-    effort = min(max(places, _FEWEST_PLACES), _MOST_PLACES)
-    found = _NOTHING
-    for straight_m, headings in _GUIDED_PASSES:
-        task.touched[:] = 0
-        found = task.look(straight_m, effort, guided_by=headings)
-        if found.outcome != 0 or found.places > effort / _MORE_PLACES:
-            break
-    return task.search_of(found)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _LocalTask:
-    """A search in the frame of the lanes, with the parked rear axle at its origin, and what is touched in it.
-
-    Attributes
-    ----------
-    goals
-        Number of the heading, of 120, and least and most x and z; shape (lanes, 5).
-    near, local
-        What stands within reach, in the garage's frame and in that of the search.
-    """
-
-    car: DesignCar
-    parked: Pose
-    limits: Limits
-    start: Floats
-    goals: Floats
-    near: Obstacles
-    local: Obstacles
-    touched: Int64s
-
-    def look(
-        self, straight_m: float, effort: int, *, only: float | None = None, guided_by: int | None = None
-    ) -> Found:
-        """Search for any of the goals, or those of one heading; guided, with so many headings."""
-        goals = self.goals if only is None else self.goals[self.goals[:, 0] == only]
-        headings = guided_by or HEADINGS
-        task = Task(
-            self.local.met_by(self.car),
-            self.start,
-            goals * (headings / HEADINGS, 1, 1, 1, 1) if guided_by else goals,
-            radius=self.car.rear_axle_radius_m,
-            margin=self.limits.margin_m,
-            reach=self.limits.reach_m,
-            straight_m=straight_m,
-            max_changes=self.limits.gear_changes,
-            max_nodes=effort,
-            headings=headings,
-            is_guided=guided_by is not None,
-        )
-        return search(task, self.touched)
-
-    def search_of(self, found: Found) -> Search:
-        """What a search found, with the clearance of the way."""
-        if found.outcome <= 0:
-            order = np.argsort(-self.touched, kind="stable")
-            touched = self.local.named(order[self.touched[order] > 0])
-            return Search(None, touched, is_exhausted=found.outcome == 0)
-        way = Manoeuvre(self.parked, _moves(found.steps, self.car.rear_axle_radius_m), 0.0)
-        return Search(replace(way, clearance_m=least_clearance_m(self.car, way, self.near)))
-
-
-def _task(
-    car: DesignCar, parked: Pose, obstacles: Obstacles, lanes: Sequence[LanePose], limits: Limits
-) -> _LocalTask | Search:
-    """What is to be searched; what was found already where there is no lane or the car touches where it stands."""
-    if not lanes:
-        return Search(None, (), is_exhausted=True)
-    frame = lanes[0].yaw_rad
-    goals = np.array([_goal(car, parked, lane, frame) for lane in lanes])
-    start = np.array([0.0, 0.0, math.remainder(parked.yaw_rad - frame, math.tau)])
-    reach = limits.reach_m + car.length_m
-    near = obstacles.near((parked.x_m, parked.z_m), math.sqrt(2) * reach)
-    local = near.seen_from(parked.x_m, parked.z_m, frame).near((0.0, 0.0), reach)
-    standing = local.named(touched_shapes(local.met_by(car), start, limits.margin_m))
-    if standing:
-        return Search(None, standing, is_exhausted=True)
-    return _LocalTask(car, parked, limits, start, goals, near, local, np.zeros(len(local.pieces), np.int64))
-
-
 def touched_parked(car: DesignCar, parked: Pose, obstacles: Obstacles, margin_m: float) -> tuple[str, ...]:
     """Names of what comes nearer than a margin to a car where it is parked."""
     near = obstacles.near((parked.x_m, parked.z_m), car.length_m + margin_m)
@@ -306,34 +112,3 @@ def least_clearance_m(car: DesignCar, way: Manoeuvre, obstacles: Obstacles, *, m
     turns = np.array([each.length_m * bend for each, bend in zip(way.moves, bends, strict=True)]) / np.bincount(move)
     lies_off = [bulge(1 / bend if bend else 0.0, turn, scene.body) for bend, turn in zip(bends, turns, strict=True)]
     return least_clearance(scene, poses, np.array(lies_off)[move], most_m)
-
-
-def _goal(car: DesignCar, parked: Pose, lane: LanePose, frame: float) -> tuple[float, float, float, float, float]:
-    """Heading number, and least and most x and z of the rear axle's middle, in the frame of the search."""
-    turned = lane.yaw_rad - frame
-    quarters = round(turned / _QUARTER)
-    if abs(turned - quarters * _QUARTER) > _HEADING_ERROR:
-        raise ConfigError("lanes", turned, "directions that differ by quarter turns")
-    axle = car.centred(lane.middle_m, lane.yaw_rad)
-    x, z = axle.x_m - parked.x_m, axle.z_m - parked.z_m
-    cos, sin = math.cos(frame), math.sin(frame)
-    x, z = x * cos - z * sin, x * sin + z * cos
-    half_x, half_z = lane.width_m / 2, lane.length_m / 2
-    if quarters % 2:
-        half_x, half_z = half_z, half_x
-    heading = (quarters * HEADINGS // 4) % HEADINGS
-    return heading, x - half_x - _SAME, z - half_z - _SAME, x + half_x + _SAME, z + half_z + _SAME
-
-
-def _moves(steps: Floats, radius_m: float) -> tuple[Move, ...]:
-    """Steps as moves: equal ones in a row are one."""
-    moves: list[Move] = []
-    previous = None
-    for gear, steering, length in steps.tolist():
-        if (gear, steering) == previous:
-            last = moves[-1]
-            moves[-1] = Move(last.gear, last.curvature_per_m, last.length_m + length)
-        else:
-            moves.append(Move(Gear.FORWARD if gear > 0 else Gear.REVERSE, steering / radius_m, length))
-        previous = (gear, steering)
-    return tuple(moves)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from garage2usd.config import GarageConfig
 from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
+from garage2usd.driving.proof import Outcome
 from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, Stall
 from garage2usd.layout.garage_stalls import clear_aisle_m
@@ -45,15 +46,21 @@ def refuse_undrivable(
         return
     found = [stall for stall in tight if stall.name in without]
     narrowest_m = min(clear_aisle_m(stall, graph) for stall in found)
-    named = ", ".join(stall.name for stall in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
+    named = _named([stall.name for stall in found])
+    undecided = [proof.stall for proof in proofs if proof.outcome is Outcome.UNDECIDED]
+    open_ = f" (undecided, as the search ended at its bound: {_named(undecided)})" if undecided else ""
     field, value = _setting(config, found[0])
     raise ConfigError(
         field,
         value,
         f"aisles and stalls that the design car of 4.8 x 1.8 m gets into: it gets into {len(tried) - len(found)} of "
-        f"{len(tried)} that were tried, not into {named}; their aisles are {narrowest_m:.2f} m clear, 5.5 m are enough "
-        f"for stalls of 2.4 m; plan.unreachable_stalls = 'mark', 'drop' or 'keep' builds it nevertheless",
+        f"{len(tried)} that were tried, not into {named}{open_}; their aisles are {narrowest_m:.2f} m clear, 5.5 m are "
+        f"enough for stalls of 2.4 m; plan.unreachable_stalls = 'mark', 'drop' or 'keep' builds it nevertheless",
     )
+
+
+def _named(stalls: Sequence[str]) -> str:
+    return ", ".join(stalls[:_NAMED]) + (", ..." if len(stalls) > _NAMED else "")
 
 
 def _setting(config: GarageConfig, stall: Stall) -> tuple[str, object]:

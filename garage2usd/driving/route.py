@@ -12,10 +12,11 @@ from garage2usd.driving.lane_search import path_from_entrance, path_to_exit
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.path import Path
-from garage2usd.driving.proof import LanePose, Limits, find_guided_way, find_way_by_steps
+from garage2usd.driving.proof import LanePose, Limits
 from garage2usd.driving.road import DrivenRoad, Portal
 from garage2usd.driving.roadmap import GRAINS, Grain, Roadmap
 from garage2usd.driving.turns import Steering
+from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import LaneKind, Stall
 
 __all__ = ["Route", "Router"]

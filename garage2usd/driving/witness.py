@@ -10,7 +10,7 @@ from typing import Any
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import StallProof
 from garage2usd.driving.manoeuvre import Manoeuvre
-from garage2usd.driving.proof import Limits
+from garage2usd.driving.proof import Limits, Outcome
 from garage2usd.version import VERSION
 
 __all__ = ["write_witness"]
@@ -29,7 +29,7 @@ def write_witness(
     ``moves`` are gear, curvature (1/m, positive to the driver's left) and length (m) in order from ``start``; they are
     the way itself. ``poses`` sample it at most 0.25 m apart: way driven (m), x, z (m), yaw (right-handed about +Y,
     0 looks to -Z), gear (1 or -1) and curvature. All are of the middle of the rear axle. Stalls without ways say what
-    was touched.
+    was touched, and those for which the search ended at its bound are ``undecided``.
     """
     car = car or DesignCar()
     document = {
@@ -48,6 +48,7 @@ def _stall(proof: StallProof) -> dict[str, Any]:
         "nose": proof.nose and proof.nose.value,
         "clear_with_all_stalls_taken": proof.is_full,
         "backs_out_of_dead_end": proof.backs_out,
+        **({"undecided": True} if proof.outcome is Outcome.UNDECIDED else {}),
         "touched": proof.touched,
         "touched_alone_in_the_way": proof.is_single_cause,
         "in": proof.way_in and _way(proof.way_in),

@@ -98,6 +98,8 @@ class Layout:
         How it looks, with what its seed draws of it.
     unreachable
         Names of the stalls that are marked or left out.
+    undecided
+        Those of them for which the search for ways ended at its bound.
     reaching
         Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
     misparked
@@ -122,6 +124,7 @@ class Layout:
     misparked: frozenset[str] = frozenset()
     held_back: frozenset[str] = frozenset()
     blocked: Mapping[str, str] = field(default_factory=dict)
+    undecided: frozenset[str] = frozenset()
 
     def counts(self) -> dict[str, int]:
         """Number of objects of each kind."""

@@ -173,10 +173,11 @@ def _names(stall: Stall) -> list[str]:
 
 def _lack(proof: StallProof) -> str:
     """What a stall must be to be driven to, with what is in the way of this one."""
-    if proof.touched:
-        named = ", ".join(proof.touched[:_NAMED])
+    if proof.touched or proof.is_undecided:
+        named = ", ".join(proof.touched[:_NAMED]) or "nothing"
         how = "in the way" if proof.is_single_cause else "touched"
-        return f"a stall that the design car gets into and out of; {how}: {named}"
+        undecided = "; undecided, as the search ended at its bound" if proof.is_undecided else ""
+        return f"a stall that the design car gets into and out of{undecided}; {how}: {named}"
     if proof.nose is None:
         return "a stall beside a lane that is driven to from an entrance and on to an exit without turning round"
     ways = [name for name, way in (("from the entrance", proof.way_in), ("to the exit", proof.way_out)) if way is None]

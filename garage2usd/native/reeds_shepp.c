@@ -7,6 +7,7 @@
 
 #define TAU 6.283185307179586
 #define QUARTER (TAU / 4)
+/* What is shorter is no piece, so that words meet whose first or last letter is missing. */
 #define LEAST 1e-9
 
 /* Where a word leads, seen from its start. */
@@ -56,14 +57,14 @@ static void add_with_straight(Words *found, Aim to)
     static const int8_t same[3] = {1, 0, 1}, other[3] = {1, 0, -1};
     Polar one = polar(to.x - to.sine, to.y - 1 + to.cosine);
     double last = within_half(to.phi - one.angle);
-    if (one.angle >= 0 && last >= 0)
+    if (one.angle >= -LEAST && last >= -LEAST)
         add(found, 3, same, (double[]){one.angle, one.length, last});
     Polar two = polar(to.x + to.sine, to.y - 1 - to.cosine);
     if (two.length >= 2) {
         double straight = sqrt(two.length * two.length - 4);
         double first = within_half(two.angle + atan2(2, straight));
         last = within_half(first - to.phi);
-        if (first >= 0 && last >= 0)
+        if (first >= -LEAST && last >= -LEAST)
             add(found, 3, other, (double[]){first, straight, last});
     }
 }
@@ -77,7 +78,7 @@ static void add_three_arcs(Words *found, Aim to)
         return;
     double middle = -2 * asin(at.length / 4);
     double first = within_half(at.angle + middle / 2 + TAU / 2);
-    if (first >= 0)
+    if (first >= -LEAST)
         add(found, 3, letters, (double[]){first, middle, within_half(to.phi - first + middle)});
 }
 
@@ -101,14 +102,14 @@ static void add_four_arcs(Words *found, Aim to)
     if (rho <= 1) {
         double u = acos(rho);
         outer_arcs(u, -u, xi, eta, to.phi, &first, &last);
-        if (first >= 0 && last <= 0)
+        if (first >= -LEAST && last <= LEAST)
             add(found, 4, letters, (double[]){first, u, -u, last});
     }
     rho = (20 - square) / 16;
     if (rho >= 0 && rho <= 1) {
         double u = -acos(rho);
         outer_arcs(u, u, xi, eta, to.phi, &first, &last);
-        if (first >= 0 && last >= 0)
+        if (first >= -LEAST && last >= -LEAST)
             add(found, 4, letters, (double[]){first, u, u, last});
     }
 }
@@ -122,14 +123,14 @@ static void add_quarter(Words *found, Aim to)
         double straight = sqrt(one.length * one.length - 4);
         double first = within_half(one.angle + atan2(straight, -2));
         double last = within_half(to.phi - QUARTER - first);
-        if (first >= 0 && straight >= 2 && last <= 0)
+        if (first >= -LEAST && straight >= 2 - LEAST && last <= LEAST)
             add(found, 4, same, (double[]){first, -QUARTER, 2 - straight, last});
     }
     double xi = to.x + to.sine, eta = to.y - 1 - to.cosine;
     Polar two = polar(-eta, xi);
     if (two.length >= 2) {
         double last = within_half(two.angle + QUARTER - to.phi);
-        if (two.angle >= 0 && last <= 0)
+        if (two.angle >= -LEAST && last <= LEAST)
             add(found, 4, other, (double[]){two.angle, -QUARTER, 2 - two.length, last});
     }
 }
@@ -143,11 +144,11 @@ static void add_two_quarters(Words *found, Aim to)
     if (square < 4)
         return;
     double straight = 4 - sqrt(square - 4);
-    if (straight > 0)
+    if (straight > LEAST)
         return;
     double first = within_half(atan2((4 - straight) * xi - 2 * eta, -2 * xi + (straight - 4) * eta));
     double last = within_half(first - to.phi);
-    if (first >= 0 && last >= 0)
+    if (first >= -LEAST && last >= -LEAST)
         add(found, 5, letters, (double[]){first, -QUARTER, straight, -QUARTER, last});
 }
 

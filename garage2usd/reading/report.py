@@ -146,6 +146,7 @@ class Report(Record):
     lane_kinds: dict[str, int] | None = None
     object_counts: dict[str, int] | None = None
     unreachable_stalls: tuple[str, ...] = ()
+    undecided_stalls: tuple[str, ...] = ()
     stair_cores: tuple[StairCore, ...] = ()
     fire_compartments: tuple[FireCompartment, ...] = ()
     stalls: tuple[Annotated[ReportedStall | Any, Field(union_mode="left_to_right")], ...] | None = None

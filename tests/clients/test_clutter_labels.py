@@ -7,14 +7,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from garage2usd.checks.plan_reader import plan_subject
+from garage2usd.checks.stage_reader import subject_of_stage
 from PIL import Image
 from support.label_tables import labelled_objects
 from support.unity import layer, reader
 
 import garage2usd
 from garage2usd.checks import check
-from garage2usd.checks.plan_reader import plan_subject
-from garage2usd.checks.stage_reader import subject_of_stage
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import OpenCarSpec
 from garage2usd.progress import silent

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.driving.search import Task, search
+from garage2usd.driving.search import Task, reeds_shepp_words, search
 from garage2usd.driving.sweep import Scene
 from garage2usd.native import using
 from garage2usd.planning import find_optimum, plan_lanes
@@ -39,7 +39,10 @@ def plan_and_drive():
     wall = np.array([[(-2, -8), (2, -8), (2, -7), (-2, -7)]], float)
     scene = Scene(wall, np.concatenate([wall.min(axis=1), wall.max(axis=1)], axis=1), np.array([3.7, 1.0, 0.9]))
     goal = np.array([[0, -0.5, -11.5, 0.5, -10.5]])
-    search(Task(scene, np.zeros(3), goal, 4.5, 0.05, 12.0, 0.36, 2, 3000), np.zeros(1, np.int64))
+    task = Task(scene, np.zeros(3), goal, 4.5, 0.05, 12.0, 0.36, 2, 3000)
+    for is_guided in (False, True):
+        search(task._replace(is_guided=is_guided), np.zeros(1, np.int64))
+    reeds_shepp_words(np.zeros(3), np.array([3.0, -8.0, 1.0]), 4.5)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
+from garage2usd.driving import way_search
 from garage2usd.errors import StageError
 from garage2usd.profiles import load_profile
 
@@ -72,6 +73,16 @@ def test_a_stall_that_no_car_gets_into_is_named_with_what_is_in_the_way(stage):
     # half the car and half the box
     assert found[0].required == 0.05
     assert -1.3 < found[0].measured < -0.9
+
+
+def test_stalls_whose_search_ended_at_its_bound_are_undecided_and_no_errors(stage, monkeypatch):
+    monkeypatch.setattr(way_search, "_PASSES", ((0.36, 20), (0.24, 20)))
+    monkeypatch.setattr(way_search, "_MOST_PLACES", 20)
+    found = check(garage_of_stage(stage, source=""), PROFILE)
+    assert {f.rule for f in found} - FOUND_IN_GOOD_ONE == {"swept-path-undecided"}
+    undecided = [f for f in found if f.rule == "swept-path-undecided"]
+    assert {f.severity for f in undecided} == {"warning"}
+    assert all(f.message.startswith("the search for ways ended at its bound") for f in undecided)
 
 
 @pytest.mark.parametrize("clear", [0.03, 2.1])

@@ -19,6 +19,7 @@ BROKEN_ELSEWHERE = {
     "plan-refused",
     "hydrant-spacing",
     "stretch-length",
+    "swept-path-undecided",
 }
 
 

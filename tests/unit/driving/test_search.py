@@ -48,6 +48,8 @@ def test_too_few_places_are_another_answer_than_no_way():
 
 def test_places_for_which_there_is_no_memory_raise_an_error(monkeypatch):
     # Python has room for the steps, and C none for the places
-    monkeypatch.setattr(searching, "np", SimpleNamespace(empty=lambda _: np.zeros((1, 3)), zeros=np.zeros, int64=np.int64))
+    monkeypatch.setattr(
+        searching, "np", SimpleNamespace(empty=lambda _: np.zeros((1, 3)), zeros=np.zeros, int64=np.int64)
+    )
     with pytest.raises(MemoryError, match="places of a search"):
         looked(task(max_nodes=1 << 45))
