@@ -19,5 +19,8 @@ lint:
 	@./environment.sh test
 	@.venv/bin/ruff check --quiet .
 	@.venv/bin/ruff format --quiet --check .
+	@.venv/bin/ruff check --quiet --preview --select PLW1514 garage2usd
 	@.venv/bin/mypy
+	@.venv/bin/mypy --platform win32 --cache-dir .mypy_cache/win32
+	@.venv/bin/mypy --platform darwin --cache-dir .mypy_cache/darwin
 	@.venv/bin/lint-imports

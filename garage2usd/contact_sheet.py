@@ -13,12 +13,13 @@ from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
 from garage2usd.config.stage import AssetPlace
 from garage2usd.errors import ConfigError, GenerationError
+from garage2usd.extras import require
 from garage2usd.output import check_file, publish_at, staging_folder, unfinished_folder
 from garage2usd.pipeline import Garage, generate, stage_metadata
 from garage2usd.planning import Plan
 from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.render import Device, Picture, render_stage
-from garage2usd.render.blender_process import check_blender
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.stage import arrangement_of, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 from garage2usd.version import VERSION
@@ -110,7 +111,7 @@ def draw_contact_sheet(
     rows = -(-len(garages) // max(columns, 1))
     if not garages or max(_sheet_size(columns, rows, size_px)) > _MOST_PX:
         raise ConfigError("contact-sheet", f"{len(garages)} garages", f"some, on at most {_MOST_PX} pixels a side")
-    check_blender()
+    require("render", modules_of(find_blender()), without=WITHOUT_MODULE)
     check_file(output)
     with unfinished_folder(output, _key(garages, size_px, samples, device)) as work:
         cells: list[Path] = []

@@ -6,13 +6,16 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 
 from garage2usd.errors import MissingExtraError
+from garage2usd.system import HAS_EMBREE
 
-__all__ = ["BLENDER", "RAYS", "of_extra", "require"]
+__all__ = ["BLENDER", "PICTURES", "RAYS", "is_there", "of_extra", "require"]
 
 BLENDER = ("bpy", "OpenEXR")
 """What draws pictures and reads them."""
-RAYS = ("embreex", "trimesh")
-"""What casts rays; without embreex trimesh casts them itself, a thousand times as slowly."""
+PICTURES = ("OpenEXR",)
+"""What reads pictures that an installed Blender draws."""
+RAYS = ("embreex", "trimesh") if HAS_EMBREE else ("trimesh",)
+"""What casts rays; where there is no embreex, `garage2usd.sensors.ray_caster` does, many times as slowly."""
 
 _BROUGHT = {
     "bpy": ("blender", "Blender's Python module"),
@@ -49,9 +52,14 @@ def require(purpose: str, modules: Iterable[str], *, without: str = "") -> None:
     MissingExtraError
         If one is not there; names all that are missing, and their extras.
     """
-    missing = [module for module in modules if find_spec(module) is None]
+    missing = [module for module in modules if not is_there(module)]
     if missing:
         raise _missing(purpose, missing, without)
+
+
+def is_there(module: str) -> bool:
+    """Whether a module of an extra is installed, without loading it."""
+    return find_spec(module) is not None
 
 
 @contextmanager

@@ -2,12 +2,10 @@
 
 # Over 300 lines: what is refused before the work, what is made elsewhere and what is moved hold only together.
 
-import errno
 import os
 import re
 import secrets
 import shutil
-import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
@@ -15,11 +13,7 @@ from pathlib import Path
 from typing import IO
 
 from garage2usd.errors import ConfigError, OutputError
-
-if sys.platform == "win32":
-    import msvcrt
-else:
-    import fcntl
+from garage2usd.system import KEEPS_OPEN_FILES, LONGEST_PATH, lock, name_fault, persistently
 
 __all__ = [
     "HIDDEN_PREFIX",
@@ -73,6 +67,8 @@ def check_name(path: Path, *, of_layer: bool = False) -> None:
     unspeakable = f"'@', '\\' and {_CONTROL}" if of_layer else _CONTROL
     if not can_say(path.name) or (of_layer and any(sign in path.name for sign in _UNSPEAKABLE_BY_USD)):
         raise ConfigError("output", str(path), f"a file name in UTF-8 without {unspeakable}")
+    if fault := name_fault(path.name):
+        raise ConfigError("output", str(path), fault)
 
 
 def check_file(path: Path, *, with_it: Iterable[Path] = ()) -> None:
@@ -91,6 +87,8 @@ def check_file(path: Path, *, with_it: Iterable[Path] = ()) -> None:
         raise ConfigError("output", str(path), "a file name that the system can have") from None
     if bytes_ > _LONGEST_NAME_BYTES:
         raise ConfigError("output", str(path), f"a file name of at most {_LONGEST_NAME_BYTES} bytes")
+    if LONGEST_PATH is not None and len(str(path.absolute())) > LONGEST_PATH:
+        raise ConfigError("output", str(path), f"a path of at most {LONGEST_PATH} characters from its drive on")
     check_writable(path.parent)
     for place in (path, *with_it):
         if place.is_dir():
@@ -177,16 +175,16 @@ def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
         If it cannot be made, or another run works in it.
     """
     place = folder.absolute().with_name(f"{folder.absolute().name}.unfinished")
-    note, lock = place / _KEY, place / _LOCK
+    note, locked = place / _KEY, place / _LOCK
     with writing(place):
         if place.exists() and (not note.exists() or note.read_text(encoding="utf-8") != key):
             allowed = f"another folder, or this one when {place} is removed, which holds what is left of other work"
             raise ConfigError("output", str(folder), allowed)
         place.mkdir(parents=True, exist_ok=True)
-        file = lock.open("a+b")
+        file = locked.open("a+b")
     is_left = True
     with file:
-        if not _takes(file, lock):
+        if not _takes(file, locked):
             raise OutputError(place, _AT_WORK)
         store(note, key.encode())
         try:
@@ -194,14 +192,14 @@ def unfinished_folder(folder: Path, key: str) -> Iterator[Path]:
                 yield place
             is_left = False
         except BaseException:
-            is_left = any(path.is_file() and path not in {note, lock} for path in place.rglob("*"))
+            is_left = any(path.is_file() and path not in {note, locked} for path in place.rglob("*"))
             raise
         finally:
             if not is_left:
                 _remove(place)
-    if sys.platform == "win32" and not is_left:  # which removes no file that is open
+    if KEEPS_OPEN_FILES and not is_left:
         with suppress(OSError):
-            lock.unlink()
+            locked.unlink()
             place.rmdir()
 
 
@@ -214,32 +212,25 @@ def only_run(folder: Path) -> Iterator[None]:
     OutputError
         If another one does, or the folder cannot be written.
     """
-    lock = folder / f"{HIDDEN_PREFIX}{_LOCK}"
+    locked = folder / f"{HIDDEN_PREFIX}{_LOCK}"
     with writing(folder):
-        file = lock.open("a+b")
+        file = locked.open("a+b")
     with file:
-        if not _takes(file, lock):
+        if not _takes(file, locked):
             raise OutputError(folder, _AT_WORK)
         try:
             yield
         finally:
             with suppress(OSError):
-                lock.unlink()
+                locked.unlink()
 
 
 def _takes(file: IO[bytes], path: Path) -> bool:
-    """Lock a file that was opened at a path, until it is closed; whether nobody else has, and it still stands there.
-
-    Where a file system has no locks, nobody has.
-    """
+    """Lock a file that was opened at a path, until it is closed; whether nobody else has, and it still stands there."""
     try:
-        if sys.platform == "win32":
-            file.seek(0)
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        return error.errno not in {errno.EACCES, errno.EAGAIN, errno.EDEADLK}
+        lock(file)
+    except BlockingIOError:
+        return False
     # the other run may have ended, and removed the folder, after the file was opened
     return path.exists() and os.path.samestat(path.stat(), os.fstat(file.fileno()))
 
@@ -343,11 +334,11 @@ def _make_folder(folder: Path) -> list[Path]:
 def _replace(copy: Path, place: Path) -> None:
     if copy.is_dir() and place.exists():
         old = place.with_name(f"{HIDDEN_PREFIX}{os.getpid()}-old-{place.name}")
-        place.rename(old)
-        copy.rename(place)
+        persistently(lambda: place.rename(old))
+        persistently(lambda: copy.rename(place))
         _remove(old)
     else:
-        copy.replace(place)
+        persistently(lambda: copy.replace(place))
 
 
 def _remove(path: Path) -> None:

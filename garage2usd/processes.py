@@ -1,25 +1,18 @@
-"""The process itself: its cores, its collector, and copies of it that do parts of its work at the same time."""
+"""The process itself: its collector, and copies of it that do parts of its work at the same time."""
 
 import gc
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from multiprocessing import get_context
-from pathlib import Path
 from typing import TypeVar, cast
 
-__all__ = ["cores", "each_in_a_copy", "without_collector"]
+from garage2usd.system import can_be_copied
+
+__all__ = ["each_in_a_copy", "without_collector"]
 
 _Outcome = TypeVar("_Outcome")
-_THREADS = Path("/proc/self/task")
-"""A folder for each thread of this process, where the system is Linux."""
-
-
-def cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager
@@ -58,10 +51,10 @@ def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Ite
     -----
     A copy has only the thread that made it. So where this process has several, as libraries start them, where it cannot
     be copied, or where there is one worker or one task, they are done here in turn. So is what is left when a copy
-    crashes, by which this process ends as it would without copies.
+    crashes, by which this process ends as it would without copies. Only Linux tells how many threads there are.
     """
     workers, done = min(workers, len(tasks)), 0
-    if workers > 1 and _is_alone():
+    if workers > 1 and can_be_copied():
         with (
             suppress(BrokenProcessPool),
             ProcessPoolExecutor(workers, get_context("fork"), initializer=_hold, initargs=(tasks,)) as pool,
@@ -70,11 +63,6 @@ def each_in_a_copy(tasks: Sequence[Callable[[], _Outcome]], workers: int) -> Ite
                 done += 1
                 yield outcome
     yield from (task() for task in tasks[done:])
-
-
-def _is_alone() -> bool:
-    """Whether this process has one thread, so that it can be copied."""
-    return hasattr(os, "fork") and _THREADS.is_dir() and len(list(_THREADS.iterdir())) == 1
 
 
 _held: Sequence[Callable[[], object]] = ()

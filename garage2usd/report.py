@@ -47,7 +47,7 @@ _YAW_DECIMALS = 6
 
 def write_report(path: Path, report: Report) -> None:
     """Write a report as JSON."""
-    path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8")
+    path.write_text(json_text(report.model_dump(mode="json")), encoding="utf-8", newline="\n")
 
 
 def make_report(

@@ -9,6 +9,7 @@ from garage2usd.checks import aisle, clearance, feasibility, stall
 from garage2usd.checks.finding import Severity
 from garage2usd.checks.rule import Miss, RuleBook
 from garage2usd.driving import DesignCar, Limits, StallProof, prove_garage
+from garage2usd.garage import Stall
 from garage2usd.profiles import Length, Profile
 
 __all__ = ["BOOK", "design_car"]

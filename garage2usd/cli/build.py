@@ -98,7 +98,7 @@ def build(
         )
         if exports:
             from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
-            from garage2usd.processes import cores  # noqa: PLC0415
+            from garage2usd.system import cores  # noqa: PLC0415
 
             exports = export(
                 made.stage, exports, settings=settings.maps, progress=progress, workers=cores(), notice=notices.append

@@ -68,7 +68,7 @@ def export(
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
-    from garage2usd.processes import cores  # noqa: PLC0415
+    from garage2usd.system import cores  # noqa: PLC0415
 
     settings = load_config(config).maps if config else None
     asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}

@@ -86,7 +86,7 @@ def plan(
         for file, output in places.items():
             with drafting(output):
                 if output.suffix.lower() == ".svg":
-                    file.write_text(to_svg(drawing), encoding="utf-8")
+                    file.write_text(to_svg(drawing), encoding="utf-8", newline="\n")
                 else:
                     write_png(to_image(drawing), file)
         publish_at(places)

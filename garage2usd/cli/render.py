@@ -71,6 +71,12 @@ def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list
     help="What draws the colour: auto takes a GPU where Blender finds one.",
 )
 @click.option(
+    "--blender",
+    metavar="PROGRAM",
+    type=click.Path(path_type=Path),
+    help="An installed Blender 5.0 or later that draws.  [default: the Python module bpy, else one that is found]",
+)
+@click.option(
     "--only",
     "pictures",
     type=Several("KIND,...", _PICTURES),
@@ -141,6 +147,7 @@ def render(
     samples: int,
     seed: int,
     device: str,
+    blender: Path | None,
     pictures: tuple[str, ...] | None,
     slots: tuple[str, ...] | None,
     rig: str | None,
@@ -155,8 +162,8 @@ def render(
 ) -> None:
     """Draw what the cameras of the stage PATH see: colour, depth, normals, instances and classes.
 
-    Needs the extra `blender`, which is for Python 3.11. frames.json in the folder says where each camera
-    stood and what can be seen.
+    Needs the extra `blender`, and for Pythons other than 3.11 a Blender that is installed. frames.json in the folder
+    says where each camera stood and what can be seen.
 
     With --rig it is what the sensors of a car see on its way, or one on a column; needs the extra `sensors` too,
     and no Blender for LiDARs alone, as with --points and without --only. The car itself is left out, and so is
@@ -189,8 +196,8 @@ def render(
         has_pictures = points is None or any(each is not None for each in (pictures, slots, above))
         asked = kinds if has_pictures else []
         formats, too, places = points or _POINTS, also or (), every_m or 1.0
-        scaled, drawn_on = scale or 1.0, Device(device)
-        _record(stage, rig, along, places, scaled, samples, seed, drawn_on, asked, told, above, formats, too, output)
+        scaled, on = scale or 1.0, Device(device)
+        _record(stage, rig, along, places, scaled, samples, seed, on, blender, asked, told, above, formats, too, output)
         return
     with_rig: dict[str, object] = {"along": along, "every-m": every_m, "scale": scale, "points": points, "also": also}
     _refuse({**with_rig, "birds-eye": birds_eye, "without-cars": without_cars}, "only with --rig")
@@ -208,6 +215,7 @@ def render(
             slots=told,
             pictures=kinds,
             device=Device(device),
+            blender=blender,
             progress=progress,
             announce=progress.announce,
         )
@@ -232,6 +240,7 @@ def _record(
     samples: int,
     seed: int,
     device: "Device",
+    blender: Path | None,
     pictures: "list[Picture]",
     slots: "list[SlotFormat] | None",
     birds_eye: "BirdsEye | None",
@@ -253,6 +262,7 @@ def _record(
             samples=samples,
             seed=seed,
             device=device,
+            blender=blender,
             pictures=pictures,
             slots=slots,
             birds_eye=birds_eye,

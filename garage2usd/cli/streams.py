@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TextIO
 
 from garage2usd.errors import OutputError
+from garage2usd.system import is_console
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
@@ -33,6 +34,9 @@ def open_streams() -> None:
 
 
 def _opened(stream: TextIO, *, is_needed: bool) -> TextIO:
+    if is_console(stream.fileno()) and isinstance(stream, io.TextIOWrapper):
+        stream.reconfigure(errors="backslashreplace")
+        return stream
     file = _File(stream.fileno(), is_needed=is_needed)
     is_unbuffered = isinstance(stream.buffer, io.RawIOBase)
     return io.TextIOWrapper(

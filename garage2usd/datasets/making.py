@@ -159,7 +159,7 @@ def _plans(recipe: Recipe, folder: Path, pool: "Workers", progress: Progress) ->
         if [drawn.number for drawn in plans] == list(range(recipe.count)):
             return plans
     draw = PlanDraw(recipe, _journalled(journal))
-    with writing(file), journal.open("a", encoding="utf-8") as lines:
+    with writing(file), journal.open("a", encoding="utf-8", newline="\n") as lines:
         while asked := draw.asked():
             left = len(asked)
             progress("plans", recipe.count - left, recipe.count)

@@ -137,7 +137,7 @@ def main(folder: Path) -> None:
     made = make_reference(garages)
     with staging_folder(folder / REFERENCE_FILE.name) as staging:
         file = staging / REFERENCE_FILE.name
-        file.write_text(json_text(made.model_dump(mode="json")), encoding="utf-8")
+        file.write_text(json_text(made.model_dump(mode="json")), encoding="utf-8", newline="\n")
         (place,) = publish([file], folder)
     click.echo(f"\n{len(made.garages)} garages with {made.stalls} stalls in {place}")
 

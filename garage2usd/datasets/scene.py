@@ -137,7 +137,7 @@ def _difficulty(garage: Garage, proofs: Sequence[StallProof], path: Path) -> dic
     """What the manifest says of the difficulty of a garage, whose stalls have theirs in a file."""
     stalls = stall_difficulties(garage, proofs=proofs)
     table = [{"score": stall.score, "level": stall.level, **asdict(stall.features)} for stall in stalls]
-    path.write_text(json_text({"stalls": table}), encoding="utf-8")
+    path.write_text(json_text({"stalls": table}), encoding="utf-8", newline="\n")
     found = garage_difficulty(stalls)
     return {
         "difficulty": str(found.level or ""),

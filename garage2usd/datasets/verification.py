@@ -21,6 +21,7 @@ from garage2usd.errors import ConfigError, Garage2UsdError
 from garage2usd.output import staging_folder
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.symmetry import plan_digest
+from garage2usd.system import link_folder
 
 __all__ = ["Fault", "verify_dataset"]
 
@@ -166,7 +167,7 @@ def _faults_of_shard(folder: Path, recipe: Recipe, task: _Task) -> Iterator[Faul
     expected = {f"{row.key}{file.suffix}": file.sha256 for row in task.rows for file in row.files}
     with staging_folder(folder) as staging:
         if (folder / ASSET_FOLDER).is_dir():
-            (staging / ASSET_FOLDER).symlink_to(folder / ASSET_FOLDER, target_is_directory=True)
+            link_folder(staging / ASSET_FOLDER, folder / ASSET_FOLDER)
         unpacked = staging / SHARD_FOLDER / task.shard
         unpacked.mkdir(parents=True)
         held = set()

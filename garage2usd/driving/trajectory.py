@@ -80,4 +80,4 @@ def write_trajectory_csv(path: Path, trajectory: Trajectory) -> None:
 def write_trajectory_json(path: Path, trajectory: Trajectory, car: DesignCar, facts: Mapping[str, object]) -> None:
     """Write the columns with the car and what else is to be said of the drive."""
     document = {"version": VERSION, **facts, "car": asdict(car), "columns": trajectory.columns()}
-    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")

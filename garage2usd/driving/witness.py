@@ -38,7 +38,7 @@ def write_witness(
         "limits": asdict(limits or Limits()),
         "stalls": [_stall(proof) for proof in proofs],
     }
-    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")
 
 
 def _stall(proof: StallProof) -> dict[str, Any]:

@@ -220,6 +220,7 @@ def _write(path: Path, cells: NDArray[np.uint8], raster: _Raster, mode: str) -> 
         f"origin: [{x}, {y}, 0.0]\nnegate: 0\n"
         f"occupied_thresh: {_OCCUPIED_THRESHOLD}\nfree_thresh: {_FREE_THRESHOLD}\n",
         encoding="utf-8",
+        newline="\n",
     )
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from garage2usd.native.digest import digest_of
+from garage2usd.system import LIBRARY_SUFFIX
 
 __all__ = [
     "LIBRARY",
@@ -48,7 +49,7 @@ T = TypeVar("T")
 Words = tuple[str, list[int | float]]
 """The layout of some fields as the module `struct` writes it, and their numbers."""
 
-LIBRARY = Path(__file__).with_name("loops.so")
+LIBRARY = Path(__file__).with_name(f"loops{LIBRARY_SUFFIX}")
 """The library that `hatch_build.py` makes of the C files."""
 _CALLED = ContextVar("called", default=LIBRARY)
 

@@ -10,7 +10,13 @@
 #endif
 
 /* A function that garage2usd.native finds by its name; all others stay within the library. */
+#if defined(_WIN32)
+#define FROM_PYTHON __declspec(dllexport)
+#elif defined(__APPLE__)
+#define FROM_PYTHON __attribute__((visibility("default")))
+#else
 #define FROM_PYTHON __attribute__((visibility("protected")))
+#endif
 
 #define ROW_OF(type) struct { type *at; int64_t count; }
 #define TABLE_OF(type) struct { type *at; int64_t rows, columns; }

@@ -3,7 +3,7 @@
 import io
 import math
 from collections.abc import Iterable
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -260,14 +260,14 @@ def _of_pillow(data: bytes) -> _Pixels:
 
 
 def _of_openexr(data: bytes) -> _Pixels:
-    from tempfile import NamedTemporaryFile  # noqa: PLC0415 - of a format that few stages have
+    from tempfile import TemporaryDirectory  # noqa: PLC0415 - of a format that few stages have
 
     import OpenEXR  # noqa: PLC0415 - of an extra
 
-    with NamedTemporaryFile(suffix=".exr") as file:  # it reads files alone
-        file.write(data)
-        file.flush()
-        with OpenEXR.File(file.name, separate_channels=True) as picture:
+    with TemporaryDirectory() as folder:  # it reads files alone, and on Windows none that is open
+        file = Path(folder, "picture.exr")
+        file.write_bytes(data)
+        with OpenEXR.File(str(file), separate_channels=True) as picture:
             planes = {name: np.array(channel.pixels, dtype=np.float32) for name, channel in picture.channels().items()}
     red = planes.get("R", next(iter(planes.values())))
     colours = [red, planes.get("G", red), planes.get("B", red)]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from garage2usd.config.maps import DriveConfig
 from garage2usd.errors import ConfigError
-from garage2usd.extras import BLENDER, RAYS, require
+from garage2usd.extras import RAYS, require
 from garage2usd.output import check_file, check_writable, publish, unfinished_folder
 from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
@@ -17,6 +17,7 @@ from garage2usd.recordings.scene import EGO_FOLDER, POINTS_FOLDER, Scene
 from garage2usd.recordings.sequences import Sequence, check_sequences, write_sequence
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture, SlotFormat
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.devices import CPU, Device, find_device
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import with_needed, write_mask
@@ -75,6 +76,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
     sequences: Collection[Sequence] = (),
     settings: DriveConfig | None = None,
     device: Device = Device.AUTO,
+    blender: str | Path | None = None,
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Recorded:
@@ -98,7 +100,7 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         Between two places on the way.
     scale
         Of the sides of the pictures.
-    samples, seed, pictures, slots, device, announce
+    samples, seed, pictures, slots, device, blender, announce
         As `garage2usd.render.render_stage` has them; the seed is that of LiDARs' noise too. Without pictures the
         cameras of a rig that has LiDARs are left out.
     birds_eye
@@ -134,12 +136,12 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
         raise ConfigError("every_m", every_m, f"{_LEAST_STEP_M} m or more")
     asked = frozenset(sequences)
     kinds, formats = check_recording(
-        chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked
+        chosen, pictures=pictures, slots=slots, birds_eye=birds_eye, points=points, sequences=asked, blender=blender
     )
     _check_along(chosen, along, birds_eye)
     check_writable(folder)
     check_file(folder / "frames.json")
-    drawn_on = find_device(device, has_rays=True) if chosen.cameras else CPU
+    drawn_on = find_device(device, has_rays=True, blender=find_blender(blender)) if chosen.cameras else CPU
     opened = open_stage(path)
     progress("drive", 0, 1)
     way = Way(opened, path, along, every_m, settings or DriveConfig())
@@ -200,6 +202,7 @@ def check_recording(
     birds_eye: BirdsEye | None,
     points: Collection[CloudFormat],
     sequences: Collection[Sequence],
+    blender: str | Path | None = None,
 ) -> tuple[tuple[Picture, ...], tuple[CloudFormat, ...]]:
     """Find out before the work whether a rig can record what is asked for, which are arguments of `record`.
 
@@ -227,8 +230,9 @@ def check_recording(
         has_around_view = any(isinstance(camera, AroundViewCamera) for camera in rig.cameras)
         check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)
     check_sequences(sequences, rig, kinds, formats)
-    without = "not for LiDARs alone: --points without --only" if rig.lidars else ""
-    require(f"the rig {rig.name}", _modules_for(rig, sequences, birds_eye), without=without)
+    without = WITHOUT_MODULE + (", and none for LiDARs alone: --points without --only" if rig.lidars else "")
+    draws = modules_of(find_blender(blender)) if rig.cameras else ()
+    require(f"the rig {rig.name}", [*draws, *_modules_for(rig, sequences, birds_eye)], without=without)
     return kinds, formats
 
 
@@ -251,13 +255,11 @@ def _check_along(rig: Rig, along: str | None, birds_eye: BirdsEye | None) -> Non
 
 
 def _modules_for(rig: Rig, sequences: Collection[Sequence], birds_eye: BirdsEye | None) -> Iterator[str]:
-    """What a rig needs of extras.
+    """What a rig needs of extras beside Blender.
 
     Rays also find the own car in pictures, the boxes that sequences tell, and whether a car finds room under something.
     """
     is_on_car = any(camera.mount == "vehicle" for camera in rig.cameras)
-    if rig.cameras:
-        yield from BLENDER
     if rig.lidars or sequences or is_on_car or birds_eye is not None:
         yield from RAYS
     if Sequence.ROS2 in sequences:

@@ -8,13 +8,14 @@ import numpy as np
 from pxr import Usd, UsdGeom
 
 from garage2usd.errors import ConfigError
+from garage2usd.extras import require
 from garage2usd.output import check_file, check_writable, publish, staging_folder
 from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.values import metres_per_unit
 from garage2usd.render.birds_eye_views import OVERHEAD
-from garage2usd.render.blender_process import check_blender
+from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.render.cameras import View, find_views
 from garage2usd.render.devices import Device, find_device
 from garage2usd.render.drawing import Drawing
@@ -68,6 +69,7 @@ def render_stage(
     pictures: Collection[Picture] = tuple(Picture),
     slots: Collection[SlotFormat] | None = None,
     device: Device = Device.AUTO,
+    blender: str | Path | None = None,
     progress: Progress = silent,
     announce: Announce = unheard,
 ) -> Rendering:
@@ -98,6 +100,9 @@ def render_stage(
     device
         What draws the colour. Pictures of a GPU are not those of the processor byte by byte; all else always comes from
         the processor.
+    blender
+        An installed Blender that draws, of version 5.0 or later; None for the Python module `bpy` or, without it, a
+        Blender on the path or where the system usually has it. Pictures differ from version to version.
     progress
         Called with the number of samples that are done.
     announce
@@ -109,7 +114,7 @@ def render_stage(
         If a camera, a place, a frame or a size cannot be used, a format of slots cannot be told from what is drawn, or
         there is no such device.
     MissingExtraError
-        If Blender is not installed.
+        If no Blender is there, or what reads its pictures is not installed.
     OutputError
         If the files cannot be written. They appear whole or not at all.
     RenderError
@@ -123,7 +128,8 @@ def render_stage(
     kinds = tuple(kind for kind in Picture if kind in pictures)
     if not kinds:
         raise ConfigError("pictures", list(pictures), f"at least one of {', '.join(Picture)}")
-    check_blender()
+    drawn_by = find_blender(blender)
+    require("render", modules_of(drawn_by), without=WITHOUT_MODULE)
     check_writable(folder)
     check_file(folder / "frames.json")
     opened = open_stage(path)
@@ -133,7 +139,7 @@ def render_stage(
     if slots is not None:
         check_slots(slots, kinds, has_ground_view=any(isinstance(view.lens, Orthographic) for view in views))
         read_slots(opened)  # raises here, and not when all is drawn, where there are none
-    drawn_on = find_device(device, has_rays=False)
+    drawn_on = find_device(device, has_rays=False, blender=drawn_by)
     with staging_folder(folder) as staging:
         finished = staging / "finished"
         drawn = with_needed(kinds, NEEDED if slots is not None else ())

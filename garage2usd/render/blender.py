@@ -1,9 +1,11 @@
 """Run as a program of its own: draw the frames of a job with Blender's Cycles.
 
 Usage: python -P blender.py JOB.json
+       blender --background --factory-startup --python blender.py -- JOB.json
 
 Blender's Python module brings a USD library of its own, which must not meet usd-core in one process, so nothing of
-garage2usd is imported. Each line on the file descriptor that the job names is a number of samples done.
+garage2usd is imported; an installed Blender runs this file too. Each line of the file that the job names as its report
+is a number of samples done.
 """
 # Over 300 lines: a program of its own, which finds no module beside it.
 
@@ -11,7 +13,6 @@ import ctypes
 import importlib
 import json
 import math
-import os
 import re
 import signal
 import sys
@@ -41,8 +42,8 @@ def main() -> None:
     """Draw the job that the command line names."""
     if sys.platform == "linux":  # whoever waits for the pictures may be killed
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    job = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    report = _Reporter(job["report_fd"])
+    job = json.loads(Path(sys.argv[-1]).read_text(encoding="utf-8"))
+    report = _Reporter(Path(job["report"]))
     to_blender = Matrix(job["to_blender"])
     scene, drawn = _build(job, to_blender)
     moving = [(each.item, each.item.matrix_world.copy()) for each in drawn if each.number in job["moving"]]
@@ -98,8 +99,8 @@ class _Drawn(NamedTuple):
 class _Reporter:
     """Tells how many samples are done."""
 
-    def __init__(self, descriptor: int) -> None:
-        self._file = os.fdopen(descriptor, "w", buffering=1)
+    def __init__(self, path: Path) -> None:
+        self._file = path.open("w", encoding="ascii", newline="\n", buffering=1)
         self._done = 0
         self._most = 0
         bpy.app.handlers.render_stats.append(self._on_statistics)

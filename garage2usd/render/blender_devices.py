@@ -1,4 +1,4 @@
-"""Run as a program of its own: print the devices on which Blender's Cycles can draw, as JSON on the last line.
+"""Run as a program of its own: print the devices on which Blender's Cycles can draw, as JSON on a line.
 
 Usage: python -P blender_devices.py
 

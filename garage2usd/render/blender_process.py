@@ -1,39 +1,135 @@
-"""Blender in a process of its own."""
+"""Blender in a process of its own: the Python module or an installed program."""
 
+import functools
 import json
 import os
-import selectors
+import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from io import RawIOBase
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from garage2usd.errors import RenderError
-from garage2usd.extras import BLENDER, require
+from garage2usd.errors import ConfigError, RenderError
+from garage2usd.extras import BLENDER, PICTURES, is_there
+from garage2usd.system import blender_places, temporary_in
 
-__all__ = ["check_blender", "run_blender"]
+__all__ = ["BLENDER_MODULE", "WITHOUT_MODULE", "Blender", "find_blender", "modules_of", "run_blender"]
 
 _SCRIPT = Path(__file__).with_name("blender.py")
 _PATIENCE_S = 5.0
+_ANSWER_S = 120.0
+"""How long an installed program may take to say its version: it is a gigabyte, and read for the first time."""
 _TOLD_LINES = 3
 _HEARTBEAT_S = 1.0
-_READ_BYTES = 65536
+_LOOK_S = 0.05
+_OLDEST = (5, 0)
+_OLDEST_WORDS = ".".join(map(str, _OLDEST))
+WITHOUT_MODULE = f"or a Blender {_OLDEST_WORDS} or later that is installed: --blender names its program"
+"""What does instead of the Python module."""
+_REPORT = "report.txt"
+_VERSION = re.compile(r"^Blender (\d+)\.(\d+)", re.MULTILINE)
 
 
-def check_blender() -> None:
-    """Find out whether Blender's Python module is there.
+@dataclass(frozen=True)
+class Blender:
+    """A Blender that runs scripts.
+
+    Attributes
+    ----------
+    program
+        The installed program; None for the Python module `bpy`.
+    """
+
+    program: Path | None = None
+
+    def command(self, script: Path, *arguments: str) -> list[str]:
+        """Give the command line that runs a script, whose last arguments are these."""
+        if self.program is None:
+            # no file beside the script may take the place of a module
+            return [sys.executable, "-P", str(script), *arguments]
+        quiet = ("--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "1")
+        return [str(self.program), *quiet, "--python", str(script), "--", *arguments]
+
+
+BLENDER_MODULE = Blender()
+"""The Python module."""
+
+
+def find_blender(asked: str | Path | None = None) -> Blender:
+    """Find the Blender that draws: the one asked for, else the module `bpy`, else an installed program.
+
+    Parameters
+    ----------
+    asked
+        A program, or the folder or application that it is in. If None, the program is looked for on the path and where
+        the system usually has it, of version 5.0 or later.
 
     Raises
     ------
-    MissingExtraError
-        If not, or if what reads its pictures is not.
+    ConfigError
+        If what is asked for is no Blender of version 5.0 or later.
+
+    Notes
+    -----
+    Where there is none it is the module all the same; `modules_of` says what is missing then.
     """
-    require("render", BLENDER)
+    if asked is not None:
+        program = _program_in(Path(asked))
+        if fault := _fault(program):
+            raise ConfigError("blender", str(asked), f"the program of Blender {_OLDEST_WORDS} or later; {fault}")
+        return Blender(program)
+    if not is_there("bpy"):
+        on_path = shutil.which("blender")
+        for program in [*([Path(on_path)] if on_path else []), *blender_places(os.environ)]:
+            if not _fault(program):
+                return Blender(program)
+    return BLENDER_MODULE
 
 
-def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None]) -> None:
+def modules_of(blender: Blender) -> tuple[str, ...]:
+    """Name the modules of extras that pictures of a Blender need."""
+    return BLENDER if blender.program is None else PICTURES
+
+
+def _program_in(path: Path) -> Path:
+    """The program of a path that names it, its folder or its application."""
+    inner = (path / "blender", path / "blender.exe", path / "Contents" / "MacOS" / "Blender")
+    return next((place for place in inner if place.is_file()), path).absolute()
+
+
+@functools.cache
+def _fault(program: Path) -> str | None:
+    """Say why a file is not a Blender that draws; None if it is one."""
+    if not program.is_file():
+        return "there is no such file"
+    try:
+        told = subprocess.run(  # noqa: S603 - what the user names
+            [str(program), "--background", "--version"],
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            stdin=subprocess.DEVNULL,
+            timeout=_ANSWER_S,
+            check=False,
+        )
+    except OSError as error:
+        return f"it does not start ({error.strerror})"
+    except subprocess.TimeoutExpired:
+        return f"it does not say its version within {_ANSWER_S:.0f} s"
+    version = _VERSION.search(told.stdout)
+    if version is None:
+        return "it does not say that it is Blender"
+    found = int(version[1]), int(version[2])
+    return None if found >= _OLDEST else f"this is {found[0]}.{found[1]}"
+
+
+def run_blender(
+    job: Mapping[str, Any], folder: Path, done: Callable[[int], None], blender: Blender = BLENDER_MODULE
+) -> None:
     """Draw the pictures of a job (see ``blender.py``).
 
     Parameters
@@ -45,31 +141,28 @@ def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None
     done
         Called with the number of samples that are done: 0 when the scene is read, and at least once a second from then
         on.
+    blender
+        What draws.
 
     Raises
     ------
     RenderError
         If Blender fails. However this function ends, Blender has ended before.
     """
-    reader, writer = os.pipe()
-    path, log = folder / "job.json", folder / "blender.log"
-    path.write_text(json.dumps({**job, "report_fd": writer}), encoding="utf-8")
-    with os.fdopen(reader, "rb", buffering=0) as reports, log.open("wb") as output:
+    path, log, report = folder / "job.json", folder / "blender.log", folder / _REPORT
+    path.write_text(json.dumps({**job, "report": str(report)}), encoding="utf-8", newline="\n")
+    report.write_bytes(b"")
+    with log.open("wb") as output:
+        process = subprocess.Popen(  # noqa: S603 - our own script
+            blender.command(_SCRIPT, str(path)),
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            cwd=folder,
+            env={**os.environ, **temporary_in(folder)},
+        )
         try:
-            # no file beside the script may take the place of a module
-            process = subprocess.Popen(  # noqa: S603 - our own script
-                [sys.executable, "-P", str(_SCRIPT), str(path)],
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                pass_fds=[writer],
-                cwd=folder,
-                env={**os.environ, "TMPDIR": str(folder)},
-            )
-        finally:
-            os.close(writer)
-        try:
-            for samples in _numbers(reports):
+            for samples in _numbers(report, lambda: _ends_within(process, _LOOK_S)):
                 done(samples)
             code = process.wait()
         finally:
@@ -79,22 +172,32 @@ def run_blender(job: Mapping[str, Any], folder: Path, done: Callable[[int], None
         raise RenderError(code, " | ".join(said[-_TOLD_LINES:]))
 
 
-def _numbers(reports: RawIOBase) -> Iterator[int]:
-    """The numbers that are written line by line, and the last one again as long as nothing is written."""
-    text, last = b"", None
-    with selectors.DefaultSelector() as ready:
-        ready.register(reports, selectors.EVENT_READ)
-        while True:
-            if ready.select(_HEARTBEAT_S):
-                found = reports.read(_READ_BYTES)
-                if not found:
-                    return
-                *lines, text = (text + found).split(b"\n")
-                for line in lines:
-                    last = int(line)
-                    yield last
-            elif last is not None:
+def _numbers(report: Path, has_ended: Callable[[], bool]) -> Iterator[int]:
+    """Yield the numbers that are written to a file line by line, and the last one again while none is written.
+
+    A file serves on every system: Windows waits for no pipe, and hands none of a number on to a child.
+    """
+    text, last, silent_s = b"", None, 0.0
+    with report.open("rb") as reports:
+        is_over = False
+        while not is_over:
+            is_over = has_ended()
+            *lines, text = (text + reports.read()).split(b"\n")
+            for line in lines:
+                last, silent_s = int(line), 0.0
                 yield last
+            silent_s += _LOOK_S
+            if silent_s >= _HEARTBEAT_S and last is not None and not is_over:
+                silent_s = 0.0
+                yield last
+
+
+def _ends_within(process: "subprocess.Popen[bytes]", seconds: float) -> bool:
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        return False
+    return True
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:

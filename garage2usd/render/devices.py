@@ -2,12 +2,12 @@
 
 import json
 import subprocess
-import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
 from garage2usd.errors import ConfigError, RenderError
+from garage2usd.render.blender_process import BLENDER_MODULE, Blender
 
 __all__ = ["CPU", "ComputeDevice", "Device", "find_device"]
 
@@ -37,10 +37,13 @@ class ComputeDevice:
         As Cycles has it: ``CPU``, ``OPTIX``, ``CUDA``, ``HIP``, ``METAL`` or ``ONEAPI``.
     name
         Its name, and those of others of its kind, which draw as well.
+    blender
+        The Blender that draws on it.
     """
 
     kind: str
     name: str
+    blender: Blender = BLENDER_MODULE
 
     @property
     def words(self) -> str:
@@ -52,7 +55,7 @@ CPU = ComputeDevice(_CPU, "")
 """The processor, which is there without asking."""
 
 
-def find_device(asked: Device, *, has_rays: bool) -> ComputeDevice:
+def find_device(asked: Device, *, has_rays: bool, blender: Blender = BLENDER_MODULE) -> ComputeDevice:
     """The device to draw colour on.
 
     Parameters
@@ -61,6 +64,8 @@ def find_device(asked: Device, *, has_rays: bool) -> ComputeDevice:
         What is asked for.
     has_rays
         Whether a lens is a shader, as those of rigs are.
+    blender
+        The Blender that draws.
 
     Raises
     ------
@@ -69,12 +74,14 @@ def find_device(asked: Device, *, has_rays: bool) -> ComputeDevice:
     RenderError
         If Blender does not say what there is.
     """
+    processor = replace(CPU, blender=blender)
     if asked is Device.CPU:
-        return CPU
-    found = _devices()
+        return processor
+    found = _devices(blender)
     usable = {kind: names for kind, names in found.items() if kind == _TRACES_SHADERS or not has_rays}
     gpu = next(
-        (ComputeDevice(kind, ", ".join(names)) for kind, names in usable.items() if names and kind != _CPU), None
+        (ComputeDevice(kind, ", ".join(names), blender) for kind, names in usable.items() if names and kind != _CPU),
+        None,
     )
     if gpu is not None:
         return gpu
@@ -82,16 +89,17 @@ def find_device(asked: Device, *, has_rays: bool) -> ComputeDevice:
         names = ", ".join(f"{name} ({kind})" for kind, each in found.items() for name in each) or "nothing"
         what = f"a GPU with {_TRACES_SHADERS}, which lenses of rigs need" if has_rays else "a GPU"
         raise ConfigError("device", str(asked), f"auto or cpu where Cycles does not find {what}; it finds {names}")
-    return CPU
+    return processor
 
 
-def _devices() -> dict[str, list[str]]:
+def _devices(blender: Blender = BLENDER_MODULE) -> dict[str, list[str]]:
     """Names of the devices of each kind that Cycles knows."""
     try:
         asked = subprocess.run(  # noqa: S603 - our own script
-            [sys.executable, "-P", str(_SCRIPT)],
+            blender.command(_SCRIPT),
             capture_output=True,
             text=True,
+            encoding="utf-8",
             errors="replace",
             timeout=_PATIENCE_S,
             check=False,
@@ -99,7 +107,9 @@ def _devices() -> dict[str, list[str]]:
     except subprocess.TimeoutExpired:
         raise RenderError(1, "Cycles does not say which devices there are") from None
     lines = [line for line in asked.stdout.splitlines() if line.strip()]
-    if asked.returncode != 0 or not lines:
+    # an installed program says goodbye after it
+    told = [line for line in lines if line.startswith("{")]
+    if asked.returncode != 0 or not told:
         raise RenderError(asked.returncode, " | ".join([*lines, *asked.stderr.splitlines()][-3:]))
-    devices: dict[str, list[str]] = json.loads(lines[-1])
+    devices: dict[str, list[str]] = json.loads(told[-1])
     return devices

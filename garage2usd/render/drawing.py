@@ -146,7 +146,7 @@ class Drawing:
                 tempo.take(samples)
                 progress("render", total - left + samples, total)
 
-            run_blender(self._job(scene, [jobs[number] for number in order], work), work, done)
+            run_blender(self._job(scene, [jobs[number] for number in order], work), work, done, self.device.blender)
             waiting.take()
         for view in self.views:
             self._develop_kept(view)
@@ -177,7 +177,7 @@ class Drawing:
                     write_picture(kind, part, surfaces, self.labels)
         seen = [asdict(each) for each in visible_instances(surfaces.instance)]
         with _whole(self._seen_path(view)) as part:
-            part.write_text(json.dumps(seen), encoding="utf-8")
+            part.write_text(json.dumps(seen), encoding="utf-8", newline="\n")
         self._develop_kept(view)
 
     def _develop_kept(self, view: View) -> None:
@@ -209,7 +209,7 @@ class Drawing:
             raise TypeError(view.name)
         taken = develop(light, view.sensor_lens(), view.effects, camera=view.camera, frame=view.name, seed=self.seed)
         with _whole(self.finished / _EFFECTS / f"{view.name}.json") as part:
-            part.write_text(json.dumps(taken.facts), encoding="utf-8")
+            part.write_text(json.dumps(taken.facts), encoding="utf-8", newline="\n")
         with _whole(self._path(view, Picture.COLOUR)) as part:
             write_pixels(taken.pixels, part)
 

@@ -82,7 +82,7 @@ def write_frames(
             for view, visible, hidden in entries
         ],
     }
-    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8", newline="\n")
     return path
 
 

@@ -156,10 +156,10 @@ class SlotLabels:
         for view in self.views:
             if isinstance(view.lens, Orthographic | AroundView):
                 text = json.dumps(dmpr_ps(records[view.name], slots))
-                (folder / f"{view.name}.json").write_text(text + "\n", encoding="utf-8")
+                (folder / f"{view.name}.json").write_text(text + "\n", encoding="utf-8", newline="\n")
         return folder
 
     def _write(self, name: str, document: Mapping[str, object]) -> Path:
         path = self.finished / name
-        path.write_text(json_text(document), encoding="utf-8")
+        path.write_text(json_text(document), encoding="utf-8", newline="\n")
         return path

@@ -20,10 +20,12 @@ def write_calibration(camera: Camera, folder: Path) -> Path:
     lens = camera.lens
     if isinstance(lens, WoodScape):
         path = folder / f"{camera.name}.json"
-        path.write_text(json.dumps(woodscape_calibration(camera, lens), indent=4) + "\n", encoding="utf-8")
+        path.write_text(
+            json.dumps(woodscape_calibration(camera, lens), indent=4) + "\n", encoding="utf-8", newline="\n"
+        )
     else:
         path = folder / f"{camera.name}.yaml"
-        path.write_text(camera_info(camera.name, lens), encoding="utf-8")
+        path.write_text(camera_info(camera.name, lens), encoding="utf-8", newline="\n")
     return path
 
 

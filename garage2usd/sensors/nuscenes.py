@@ -92,7 +92,7 @@ def write_nuscenes(
         if name == "lidarseg" and not records:
             continue  # nuscenes-devkit would look for their folder
         text = json.dumps(records, indent=0)
-        (table_folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+        (table_folder / f"{name}.json").write_text(text + "\n", encoding="utf-8", newline="\n")
     return (*(path for path in sorted(folder.iterdir()) if path != table_folder), table_folder)
 
 

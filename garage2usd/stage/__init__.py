@@ -92,7 +92,7 @@ def arrangement_of(layout: Layout, config: StageConfig) -> Arrangement:
 def write_labels(layout: Layout, path: Path, *, arrangement: Arrangement) -> None:
     """Write the table of all labelled objects of the stage as JSON (see `garage2usd.reading.label_table`)."""
     table = label_table(layout, arrangement.paths()).model_dump()
-    path.write_text(json_text(table), encoding="utf-8")
+    path.write_text(json_text(table), encoding="utf-8", newline="\n")
 
 
 def write_stage(
@@ -231,7 +231,7 @@ def _textures(textures: Iterable[NamedFile]) -> dict[str, bytes]:
 def _remove_indents(layer_path: Path) -> None:
     """Remove the blanks that begin the lines of a text layer; of its strings no line begins with one."""
     text = layer_path.read_text(encoding="utf-8")
-    layer_path.write_text(re.sub(r"^ +", "", text, flags=re.MULTILINE), encoding="utf-8")
+    layer_path.write_text(re.sub(r"^ +", "", text, flags=re.MULTILINE), encoding="utf-8", newline="\n")
 
 
 def _write(contents: Mapping[str, bytes], folder: Path) -> None:

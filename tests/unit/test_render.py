@@ -2,7 +2,6 @@
 
 import importlib.util
 import json
-import os
 import shutil
 import sys
 
@@ -238,20 +237,20 @@ BOTH = {"CPU": ["Xeon"], "OPTIX": ["RTX"], "CUDA": ["RTX"]}
     ],
 )
 def test_a_gpu_draws_where_there_is_one_that_can(monkeypatch, there, asked, has_rays, kind):
-    monkeypatch.setattr(devices, "_devices", lambda: there)
+    monkeypatch.setattr(devices, "_devices", lambda _blender: there)
     assert find_device(asked, has_rays=has_rays).kind == kind
 
 
 def test_a_gpu_that_is_not_there_is_refused_with_what_is(build, tmp_path, monkeypatch):
     monkeypatch.setattr(extras, "find_spec", lambda _name: True)
-    monkeypatch.setattr(devices, "_devices", lambda: NO_GPU)
+    monkeypatch.setattr(devices, "_devices", lambda _blender: NO_GPU)
     result = run(build.stage, "-o", tmp_path / "out", "--device", "gpu")
     assert result.exit_code == 1
     (line,) = result.output.strip().splitlines()
     assert (
         line == "Error: device: got 'gpu'; allowed: auto or cpu where Cycles does not find a GPU; it finds Xeon (CPU)"
     )
-    monkeypatch.setattr(devices, "_devices", lambda: CUDA)
+    monkeypatch.setattr(devices, "_devices", lambda _blender: CUDA)
     with pytest.raises(ConfigError, match=r"a GPU with OPTIX, .*; it finds Xeon \(CPU\), H100 \(CUDA\), H100 #2"):
         find_device(Device.GPU, has_rays=True)
     assert list(tmp_path.iterdir()) == []
@@ -290,17 +289,19 @@ def test_what_is_drawn_is_said_before_and_how_long_a_picture_takes_when_one_is(b
     assert jobs[0]["device"] == "OPTIX"
 
 
-def test_a_process_that_says_nothing_is_heard_of_every_second(monkeypatch):
-    monkeypatch.setattr(blender_process, "_HEARTBEAT_S", 0.01)
-    reader, writer = os.pipe()
-    with os.fdopen(reader, "rb", buffering=0) as reports:
-        numbers = blender_process._numbers(reports)
-        os.write(writer, b"0\n1")
-        assert [next(numbers) for _ in range(3)] == [0, 0, 0]
-        os.write(writer, b"2\n20\n")
-        assert [next(numbers) for _ in range(4)] == [12, 20, 20, 20]
-        os.close(writer)
-        assert list(numbers) == []
+def test_a_process_that_says_nothing_is_heard_of_every_second(tmp_path, monkeypatch):
+    monkeypatch.setattr(blender_process, "_HEARTBEAT_S", blender_process._LOOK_S)
+    report, ends = tmp_path / "report.txt", []
+    report.write_bytes(b"0\n1")
+    numbers = blender_process._numbers(report, lambda: bool(ends))
+    assert [next(numbers) for _ in range(3)] == [0, 0, 0]
+    with report.open("ab") as file:
+        file.write(b"2\n20\n")
+    assert [next(numbers) for _ in range(4)] == [12, 20, 20, 20]
+    with report.open("ab") as file:
+        file.write(b"24\n")
+    ends.append(True)  # what was written before the end is heard
+    assert list(numbers) == [24]
 
 
 def change_object(table, **values):

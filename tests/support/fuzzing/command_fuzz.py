@@ -179,7 +179,7 @@ def _load_commands() -> None:
 
     viewer.ViewerServer.show = show_and_end
     drawing.run_blender = run_blender
-    garage2usd.render.check_blender = lambda *_arguments: None
+    garage2usd.render.require = lambda *_arguments, **_named: None
 
 
 def fuzz(count: int, seed: int, folder: Path, *, first: int = 0, say: bool = False) -> Fuzz:
