@@ -1,6 +1,6 @@
 # Two commands for a fresh Debian or Ubuntu with Python 3.11 to 3.14: `make demo` and `make test`. While one works, `make check`
 # runs what a change can affect, `make check BASE=commit` what differs from a commit.
-.PHONY: demo test check lint
+.PHONY: demo test check lint wheels
 
 demo:
 	@./environment.sh demo
@@ -14,6 +14,12 @@ test: lint
 
 check: lint
 	@PYTHONPATH=tests .venv/bin/python -m support.affected_tests $(if $(BASE),--base $(BASE))
+
+# the wheels of all systems and the source distribution into dist/, checked; `release/release.sh` does it on a clean clone
+wheels:
+	@[ -x build/release/bin/python ] || python3 -m venv build/release
+	@build/release/bin/python -m pip install --quiet --disable-pip-version-check --requirement release/requirements.txt
+	@build/release/bin/python release/wheels.py dist
 
 lint:
 	@./environment.sh test

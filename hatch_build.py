@@ -83,15 +83,15 @@ def compile_loops(
     """
     unfinished = library.with_name(f"{library.name}.{os.getpid()}")
     files = sorted(source.glob("*.c"))
-    is_of_windows = library.suffix == ".dll"
     command = [
         *_compiler(target),
         *_LANGUAGE,
         *_ARITHMETIC,
         *_UNCHECKED,
         *_LIBRARY,
-        # no symbols for debuggers, which are many times the code, and no library of imports beside it
-        *(("-s",) if is_of_windows else ("-fPIC",)),
+        *(() if library.suffix == ".dll" else ("-fPIC",)),
+        # without symbols for debuggers, which are many times the code
+        *(("-s",) if target is not None and target.suffix != ".dylib" else ()),
         *flags,
         f'-DSOURCES_DIGEST="{_digest_of(source)}"',
         "-o",
