@@ -16,7 +16,7 @@ import sys
 import tempfile
 import tomllib
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
@@ -30,8 +30,11 @@ from macholib.SymbolTable import SymbolTable
 REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = "garage2usd"
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
-EXTRAS = ("dataset", "gymnasium", "maps", "sensors")
+EXTRAS = ("dataset", "gymnasium", "sensors")
 """Those whose packages every system has; Blender's module is for one Python."""
+_SCENARIOS = "maps"
+_WITHOUT_SCENARIOS = {"linux-aarch64", "3.14"}
+"""Systems and Pythons for which a package of OpenSCENARIO's has no wheel, so that a compiler makes it."""
 _MACHINES = {
     "linux-x86_64": "EM_X86_64",
     "linux-aarch64": "EM_AARCH64",
@@ -57,6 +60,7 @@ _UV_PLATFORMS = {
     "macos-arm64": "aarch64-apple-darwin",
     "windows-x86_64": "x86_64-pc-windows-msvc",
 }
+_MACOS = "14.0"
 _DOWNLOADED = "3.12"
 _ALSO = {
     "linux-x86_64": ("manylinux_2_28_x86_64", "manylinux2014_x86_64"),
@@ -169,29 +173,38 @@ def _of_library(name: str, data: bytes, suffix: str) -> Iterator[str]:
     yield from library.faults
 
 
-def _of_dependencies(name: str, python: str) -> list[str]:
-    """Resolve all dependencies for a system and a Python from wheels alone."""
+def _of_dependencies(name: str, python: str) -> Iterator[str]:
+    """Yield what has no wheels for a system and a Python, of all dependencies and of their own."""
+    packages, said = _resolved(name, python, EXTRAS)
+    if said:
+        yield f"{name}, Python {python}: {said}"
+    _, said = _resolved(name, python, [_SCENARIOS])
+    is_known = name in _WITHOUT_SCENARIOS or python in _WITHOUT_SCENARIOS
+    if bool(said) != is_known:
+        yield f"{name}, Python {python}: OpenSCENARIO's packages have {said or 'wheels now, so tell users'}"
+    print(f"{name}, Python {python}: {packages} packages, {'no ' if said else ''}wheels for OpenSCENARIO")
+
+
+def _resolved(name: str, python: str, extras: Sequence[str]) -> tuple[int, str]:
+    """Resolve extras for a system and a Python from wheels alone: how many packages, and what stands against it."""
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needed = project["dependencies"] + [line for extra in extras for line in project["optional-dependencies"][extra]]
     with tempfile.TemporaryDirectory() as folder:
         asked = Path(folder, "asked.in")
-        project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-        extras = project["optional-dependencies"]
-        needed = [*project["dependencies"], *(line for extra in EXTRAS for line in extras[extra])]
-        asked.write_text("\n".join(needed) + "\n", encoding="utf-8")
+        asked.write_text("\n".join(needed) + "\n", encoding="utf-8", newline="\n")
         run = subprocess.run(
             [
                 *(sys.executable, "-m", "uv", "pip", "compile", "--quiet", "--no-header", "--no-annotate"),
                 *("--only-binary", ":all:", "--python-platform", _UV_PLATFORMS[name], "--python-version", python),
                 str(asked),
             ],
+            env={**os.environ, "MACOSX_DEPLOYMENT_TARGET": _MACOS},
             capture_output=True,
             text=True,
             encoding="utf-8",
             check=False,
         )
-    if run.returncode != 0:
-        return [f"{name}, Python {python}: {' '.join(run.stderr.split())}"]
-    print(f"{name}, Python {python}: {len(run.stdout.splitlines())} packages resolve from wheels")
-    return []
+    return len(run.stdout.splitlines()), " ".join(run.stderr.split()) if run.returncode else ""
 
 
 def _of_download(folder: Path, name: str, target: Target) -> list[str]:

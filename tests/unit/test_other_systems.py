@@ -1,0 +1,165 @@
+"""Commands as on Windows and macOS: the real ones, less what these systems lack (`support.another_system`)."""
+
+import ast
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from support.sample_files import REPOSITORY
+
+from garage2usd.errors import ConfigError
+from garage2usd.output import check_file, check_name
+
+PACKAGE = REPOSITORY / "garage2usd"
+OTHERS = ("win32", "darwin")
+PLAN = ".....\nE===X\n.....\n"
+RECIPE = 'name = "two"\ncount = 2\n[garage.site]\nwidth_cells = 5\nheight_cells = 5\n[make]\nexports = ["xodr"]\n'
+
+
+@pytest.fixture(params=OTHERS)
+def system(request):
+    return request.param
+
+
+def run_as_on(system, folder, *arguments):
+    """Run a command of garage2usd as on another system, None for this one."""
+    modules = os.pathsep.join([str(REPOSITORY / "tests" / "support" / "another_system"), str(REPOSITORY)])
+    environment = {**os.environ, "PYTHONPATH": modules}
+    if system is not None:
+        environment["AS_ON"] = system
+    command = [sys.executable, "-m", "garage2usd", *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+
+
+def evaluate_as_on(system, folder, code):
+    environment = {**os.environ, "AS_ON": system, "TMPDIR": str(folder)}
+    environment["PYTHONPATH"] = os.pathsep.join(
+        [str(REPOSITORY / "tests" / "support" / "another_system"), str(REPOSITORY)]
+    )
+    code = f"__name__ = 'garage2usd_of_tests'\n{code}"
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture
+def site(tmp_path):
+    (tmp_path / "plan.txt").write_text(PLAN)
+    (tmp_path / "small.toml").write_text('[site]\nstructure_file = "plan.txt"\n')
+    (tmp_path / "two.toml").write_text(RECIPE)
+    return tmp_path
+
+
+def test_commands_run_and_make_the_same_garage(system, site):
+    made = run_as_on(None, site, "build", "small.toml", "-o", "here/garage.usdz")
+    assert made.returncode == 0, made.stderr
+    for command in (
+        ["build", "small.toml", "-o", "there/garage.usdz"],
+        ["build", "small.toml", "-o", "there/garage.usdz"],  # in place of the first
+        ["check", "there/garage.usdz"],
+        ["drive", "there/garage.usdz", "-o", "drive.json"],
+        ["export", "there/garage.usdz", "-o", "there.glb", "-o", "there.xodr"],
+        ["plan", "there/garage.usdz", "-o", "plan.png"],
+    ):
+        done = run_as_on(system, site, *command)
+        assert done.returncode == 0, (command, done.stdout, done.stderr)
+    for path in (site / "here").iterdir():
+        if path.name != "garage_report.json":  # which tells times
+            assert (site / "there" / path.name).read_bytes() == path.read_bytes(), path.name
+    assert not [path for path in site.rglob("*") if path.name.startswith(".")]
+
+
+def test_a_data_set_is_made_and_verified(system, site):
+    done = run_as_on(system, site, "dataset", "two.toml", "-o", "two", "--workers", "1")
+    assert done.returncode == 0, done.stderr
+    verified = run_as_on(system, site, "dataset", "--verify", "two", "--workers", "1")
+    assert verified.returncode == 0, (verified.stdout, verified.stderr)
+
+
+@pytest.mark.parametrize("code", [
+    "import resource", "import fcntl", "import os; os.fork", "import os; os.sched_getaffinity",
+    "import signal; signal.SIGBUS", "import signal; signal.SIGKILL", "import os; os.symlink('a', 'b')",
+    "from subprocess import Popen; Popen(['true'], pass_fds=[1])",
+    "import os; file = open('a', 'w'); os.unlink('a')", "import os; open('b', 'w').close(); os.rename('b', 'b')",
+])  # fmt: skip
+def test_what_windows_lacks_is_not_there(code, tmp_path):
+    assert evaluate_as_on("win32", tmp_path, code).returncode != 0
+
+
+def test_a_stage_that_another_program_holds_open_is_tried_again(tmp_path):
+    code = """
+import threading, time
+from pathlib import Path
+from garage2usd.output import publish_at
+Path("new").write_text("new")
+Path("old").write_text("old")
+{hold}
+publish_at({{Path("new"): Path("old")}})
+"""
+    held = "file = open('old'); threading.Timer({}, file.close).start()"
+    closed = evaluate_as_on("win32", tmp_path, code.format(hold=held.format(0.4)))
+    assert closed.returncode == 0, closed.stderr
+    assert (tmp_path / "old").read_text() == "new"
+    kept = evaluate_as_on("win32", tmp_path, code.format(hold=held.format(60) + "; import atexit, os"))
+    assert "close the program that has it open" in kept.stderr
+    assert (tmp_path / "old").read_text() == "old"
+    assert {path.name for path in tmp_path.iterdir()} == {"new", "old"}
+
+
+@pytest.mark.parametrize(
+    "name", ["con.usdz", "NUL", "com1.usda", "a:b.usdz", 'a"b.usdz', "a?.usdz", "garage.usdz.", "garage "]
+)
+def test_names_that_windows_refuses_are_refused_there_alone(name, tmp_path, monkeypatch):
+    check_name(tmp_path / name)
+    monkeypatch.setattr("garage2usd.system.sys.platform", "win32")
+    with pytest.raises(ConfigError, match="a file name that Windows takes"):
+        check_name(tmp_path / name)
+    check_name(tmp_path / "console.usdz")
+
+
+def test_long_paths_are_refused_where_there_is_a_limit(tmp_path, monkeypatch):
+    place = tmp_path / ("a" * 200) / "garage.usdz"
+    check_file(place)
+    monkeypatch.setattr("garage2usd.output.LONGEST_PATH", 200)
+    with pytest.raises(ConfigError, match="a path of at most 200 characters"):
+        check_file(place)
+
+
+def text_writers(tree):
+    """Calls that write text: `write_text`, and `open` with a mode of text that writes."""
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call):
+            name = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", None)
+            modes = [word.value for word in [*call.args, *(each.value for each in call.keywords if each.arg == "mode")]
+                     if isinstance(word, ast.Constant) and isinstance(word.value, str)]  # fmt: skip
+            writes = any(set(mode) <= set("rwaxt+") and set(mode) & set("wax+") for mode in modes)
+            is_of_tar = isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", None) == "tarfile"
+            if name == "write_text" or (name in {"open", "fdopen"} and writes and not is_of_tar):
+                yield call
+
+
+def test_files_of_text_have_one_kind_of_newline_and_an_encoding():
+    found = 0
+    for path in PACKAGE.rglob("*.py"):
+        if "web" in path.relative_to(PACKAGE).parts:
+            continue
+        for call in text_writers(ast.parse(path.read_text(encoding="utf-8"))):
+            found += 1
+            named = {each.arg for each in call.keywords}
+            if (
+                not {"newline", "encoding"} <= named and path.name != "streams.py"
+            ):  # where the system's newline is right
+                pytest.fail(f"{path.relative_to(REPOSITORY)}:{call.lineno} writes text without newline and encoding")
+    assert found > 15
+
+
+def test_systems_are_told_apart_in_one_module():
+    allowed = {"system.py", "blender.py"}  # which runs in Blender, and finds no module beside it
+    asked = re.compile(
+        r"\bsys\.platform\b|\bos\.name\b|^\s*(import|from) (resource|fcntl|msvcrt|platform)\b", re.MULTILINE
+    )
+    for path in PACKAGE.rglob("*.py"):
+        found = asked.search(path.read_text(encoding="utf-8"))
+        assert found is None or path.name in allowed, (path, found[0])
