@@ -28,6 +28,7 @@ from garage2usd.sensors.calibration import write_calibration
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.ego_mask import ego_mask
 from garage2usd.sensors.point_cloud_files import CloudFormat
+from garage2usd.sensors.ray_caster import SLOWLY
 from garage2usd.sensors.recording import Recording
 from garage2usd.sensors.rig import Rig, read_rig
 from garage2usd.sensors.slots import read_slots
@@ -173,6 +174,8 @@ def record(  # noqa: PLR0915 - the road of a recording, step by step
             if scene.birds_eye is not None:
                 made.append(scene.birds_eye.write_masks(finished, chosen.body))
         if sweeps is not None and formats:
+            if SLOWLY is not None:
+                announce(SLOWLY)
             announce(sweeps.described)
             about["sweeps"] = sweeps.write(finished, work, progress)
             made.append(finished / POINTS_FOLDER)

@@ -1,7 +1,5 @@
 """Which pixels of a camera on a car show that car itself, which recordings leave out."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +8,7 @@ from garage2usd.extras import RAYS, require
 from garage2usd.sensors.around_view import AroundView
 from garage2usd.sensors.camera import Camera
 from garage2usd.sensors.poses import CAR_FROM_VEHICLE
+from garage2usd.sensors.ray_caster import ray_caster
 from garage2usd.stage.driving_car import driven_asset
 
 __all__ = ["ego_mask", "ego_triangles_m"]
@@ -43,14 +42,12 @@ def ego_mask(camera: Camera, car: CarBody) -> NDArray[np.bool_]:
     if isinstance(lens, AroundView):
         return lens.over_car(lens.middles()).reshape(lens.size_px[::-1])
     require("the mask of a camera's own car", RAYS)
-    import trimesh  # noqa: PLC0415 - of an extra
-
     triangles = ego_triangles_m(car)
     numbers = np.arange(3 * len(triangles)).reshape(-1, 3)
-    mesh: Any = trimesh.Trimesh(triangles.reshape(-1, 3), numbers, process=False, validate=False)
+    caster = ray_caster(triangles.reshape(-1, 3), numbers)
     rays = lens.rays(lens.middles())
     seen = np.flatnonzero(np.isfinite(rays).all(axis=1))
     directions = rays[seen] @ place[:3, :3].T
     mask = np.zeros(len(rays), dtype=np.bool_)
-    mask[seen] = mesh.ray.intersects_any(np.broadcast_to(place[:3, 3], directions.shape), directions)
+    mask[seen] = caster.first(np.broadcast_to(place[:3, 3], directions.shape), directions) >= 0
     return mask.reshape(lens.size_px[::-1])

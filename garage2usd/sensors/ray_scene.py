@@ -21,9 +21,9 @@ from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.textures import Layout
 from garage2usd.reading.values import metres_per_unit
 from garage2usd.reading.walk import placed_objects
+from garage2usd.sensors.ray_caster import RayCaster, ray_caster
 
 with of_extra("LiDAR"):
-    import embreex as _embreex  # noqa: F401 - by which trimesh casts rays
     import trimesh
 
 __all__ = ["RayHits", "RayScene", "read_ray_scene"]
@@ -102,7 +102,8 @@ class RayScene:
 
         Notes
         -----
-        Embree finds the triangle in single precision; where the ray meets its plane is computed in double precision.
+        Embree finds the triangle in single precision, and what does without it in double precision
+        (`garage2usd.sensors.ray_caster`); where the ray meets its plane is computed in double precision.
         Where a texture says how opaque a surface is, rays go through what is less than half opaque.
         """
         directions = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
@@ -114,7 +115,7 @@ class RayScene:
         going, begins_m = np.arange(count), np.zeros(count)
         for _ in range(_MOST_SHEETS):
             begins = origins_m[going] + directions[going] * begins_m[going, None]
-            found = np.asarray(self._mesh.ray.intersects_first(begins, directions[going]), dtype=np.int64)
+            found = self._caster.first(begins, directions[going])
             going, found = going[found >= 0], found[found >= 0]
             range_m, cosine = self._meet(found, origins_m[going], directions[going])
             # single precision may find what lies a hair behind the origin
@@ -169,8 +170,8 @@ class RayScene:
         return through
 
     @cached_property
-    def _mesh(self) -> trimesh.Trimesh:
-        return trimesh.Trimesh(self.vertices_m, self.triangles, process=False, validate=False)
+    def _caster(self) -> RayCaster:
+        return ray_caster(self.vertices_m, self.triangles)
 
     @cached_property
     def _masks(self) -> dict[int, NDArray[np.float64]]:
