@@ -10,6 +10,8 @@ import pytest
 from pxr import Usd, UsdShade
 from support.sample_files import REPOSITORY
 
+import garage2usd
+
 VALIDATOR = (
     Path(os.environ.get("GARAGE2USD_SIMREADY", REPOSITORY / ".venv/simready/bin/python")).parent / "simready-validate"
 )
@@ -21,14 +23,34 @@ OF_EVERY_ASSET = {"NP.005", "RB.001", "SR.002", "SR.004", "UN.006"}
 OF_SOME_ASSETS = {"GSP.001", "NVM.002", "VM.MDL.003", "VM.PBR.001", "VM.TEX.003"}
 
 
+CLUTTER = ("people", "bicycles", "motorbikes", "trolleys", "prams", "bins", "boxes", "pallets", "bags", "open_boots")
+
+
 @pytest.fixture(scope="module")
-def assets(builds):
+def assets(builds, tmp_path_factory):
     """One asset of each kind of object, by the kind."""
     made = builds(REPOSITORY / "samples" / "paper_7x9.toml", "usdc", "instanced")
+    small = {"height_cells": 5, "width_cells": 5}
+    config = garage2usd.GarageConfig(
+        seed=4, site=small, clutter=dict.fromkeys(CLUTTER, 12.0), stage={"form": "instanced", "texture_quality": "low"}
+    )
+    crowded = garage2usd.build(config, tmp_path_factory.mktemp("crowded") / "garage.usdc")
     found = {}
-    for file in sorted(made.asset_folder.glob("*_*.usdc")):
-        found.setdefault(file.name.partition("_")[0], file)
-    assert len(found) > 20
+    for folder in (made.asset_folder, crowded.asset_folder):
+        for file in sorted(folder.glob("*_*.usdc")):
+            found.setdefault(file.name.partition("_")[0], file)
+    assert found.keys() >= {
+        "Person",
+        "Bicycle",
+        "Motorbike",
+        "Trolley",
+        "Pram",
+        "WasteBin",
+        "CardboardBox",
+        "Pallet",
+        "Bag",
+    }
+    assert len(found) > 30
     return found
 
 

@@ -3,7 +3,6 @@
 import string
 from dataclasses import replace
 
-from garage2usd.assets.car_boot import has_boot
 from garage2usd.assets.figures import POSES
 from garage2usd.config.look import ColumnSection, Dirt, Guard
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, VehicleClass
@@ -151,7 +150,11 @@ SPECS = {
     **{f"pallets_{count}": PalletSpec(count) for count in (1, 5)},
     "pallets_upright": PalletSpec(2, is_upright=True),
     **{f"car_{body.name}": CarSpec(body.name, PAINTS[0]) for body in CAR_BODIES},
-    **{f"open_{body.name}": OpenCarSpec(body.name, PAINTS[0]) for body in CAR_BODIES if has_boot(body)},
+    **{
+        f"open_{body}": OpenCarSpec(body, PAINTS[0])
+        for body in ("hatchback", "saloon", "suv", "fastback", "roadster", "off_roader", "estate")
+    },
+    "open_steered": OpenCarSpec("coupe", PAINTS[0], -20.0, is_dusty=True, is_lit=True),
     "open_plate": OpenPlateSpec("saloon", "K47 M92"),
     "steered_left": CarSpec("saloon", PAINTS[0], 20.0),
     "steered_right": CarSpec("full_size_pickup", PAINTS[0], -20.0),
