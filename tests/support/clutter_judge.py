@@ -72,7 +72,7 @@ def faults_of(garage):
     clutter = [place for place in layout.placements if place.spec.kind.group == "Clutter"]
     shapes = [shapely.union_all([shape for shape, _ in pieces(place)]).convex_hull for place in clutter]
     taken = [*objects(layout), *grounds(garage)]
-    grown = [shape.buffer(-TOUCH_M) for shape in shapes]
+    grown = np.array([shape.buffer(-TOUCH_M) for shape in shapes], dtype=object)
     found = [
         (clutter[one].kind, clutter[one].name, taken[other][1])
         for one, other in shapely.STRtree([shape for shape, _, _ in taken]).query(grown, predicate="intersects").T
@@ -233,7 +233,7 @@ def main():
         for seed, count, found, faults in pool.map(judged, range(asked.first, asked.first + asked.seeds)):
             stalls, bad = stalls + count, bad + bool(faults)
             if seed % 20 == 0:
-                print(f"{seed} ...", flush=True)
+                print(f"{seed}: {stalls} stalls and {kinds.total()} objects so far", flush=True)
             kinds += found
             for kind, name, what in faults:
                 print(f"{seed}: {name} ({kind}) meets {what}", flush=True)
