@@ -22,8 +22,11 @@ from support.unity import layer, reader
 from support.viewer_page import viewed
 
 import garage2usd
+from garage2usd.checks import check_file, read_subject
+from garage2usd.checks.driven_ground import driven_garage
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
+from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec
 from garage2usd.recordings import CloudFormat, Sequence, record
@@ -82,6 +85,18 @@ def own(tmp_path_factory):
         path: CLASS_OF[car.spec.model.path.rpartition("/")[2]] for path, car in cars.items()
     }
     return SimpleNamespace(built=built, cars=cars, entries=entries, folder=folder)
+
+
+def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
+    subject, _ = read_subject(own.built.stage)
+    assert subject.cars.keys() == own.cars.keys()
+    assert all(home is not None for _, home in subject.cars.values())
+    assert len(parked_cars(subject)) == len(own.cars)
+    taken = {stall.name for stall in driven_garage(subject).stalls if stall.absent is None}
+    assert {car.stall for car in own.cars.values()} <= taken
+    findings, _ = check_file(own.built.stage)
+    amiss = {"stall-blocked", "car-outside-stall", "lane-blocked"}
+    assert not [finding for finding in findings if finding.rule in amiss]
 
 
 @needs_blender

@@ -15,7 +15,7 @@ from support.sample_files import REPOSITORY
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.vehicles import PAINTS
 from garage2usd.layout import lay_out
-from garage2usd.objects import CLASSES_VERSION, PIECE_LABELS, TilePart
+from garage2usd.objects import CAR_LABELS, CLASSES_VERSION, PIECE_LABELS, TilePart
 from garage2usd.pipeline import build
 from garage2usd.reading.labels import CITYSCAPES
 from garage2usd.stage import cameras
@@ -204,7 +204,7 @@ def test_the_label_table_agrees_with_the_stage(stage, made):
     assert [entry["id"] for entry in objects] == list(range(1, len(objects) + 1))
     table, count = json.loads(made.labels.read_text()), len(made.garage.layout.placements)
     names = {entry["name"] for entry in table["classes"]}
-    assert names == {*OBJECT_LABELS.values(), *PIECE_LABELS} == set(CITYSCAPES)
+    assert names == {*OBJECT_LABELS.values(), *CAR_LABELS, *PIECE_LABELS} == set(CITYSCAPES)
     assert table["classes_version"] == CLASSES_VERSION
     objects, pieces = objects[:count], objects[count:]
     assert_pieces_agree(stage, pieces, {entry["path"] for entry in objects})
