@@ -63,8 +63,8 @@ def optimisers() -> str:
             "Means over the sites of plans with all optimisers, and of plans with one left out; its gain in stalls, or "
             "in floor for a stall where R and C are chosen; its share of the seconds of CPU. Without learning, local "
             "search starts from shortest paths between the portals; without local search, the best plan learnt is "
-            f"taken. An optimiser pays if it gains {WORTH_PERCENT} % or takes at most {TIME_PERCENT:.0f} % of the time. "
-            "Beside the gain: on how many sites there is one, and on how many a loss."
+            f"taken. An optimiser pays that gains {WORTH_PERCENT} % or takes at most {TIME_PERCENT:.0f} % of the time. "
+            "Beside the gain: the numbers of sites with a gain and with a loss."
         ),
         "",
         (

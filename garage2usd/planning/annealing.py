@@ -23,23 +23,22 @@ __all__ = [
 ]
 
 _MOVED = 400
-"""Room for the squares of one move; what needs more is not a move."""
+"""Most squares of one move."""
 
 
 class Workspace(NamedTuple):
-    """Room to polish plans.
+    """Workspace of hill climbing and annealing.
 
     Attributes
     ----------
     cells
-        int8, as in `Board.cells`: the best lanes met.
+        int8, as in `Board.cells`: the best lanes so far.
     kept_mm
-        int64, as in `Sizes.kept_mm`: the sides of the best plan met.
+        int64, as in `Sizes.kept_mm`: the sides of the best plan so far.
     order
         int64: the free squares, in the order of a pass over them.
     known, hops
-        int64, shape (3,), and int32, by square: what `Board.tally` and `Board.hops` have of the lanes that the next
-        flip changes.
+        int64, shape (3,), and int32, by square: `Board.tally` and `Board.hops` before the next flip.
     """
 
     cells: Int8s
@@ -50,7 +49,7 @@ class Workspace(NamedTuple):
 
 
 def new_workspace(ground: Ground, sizes: Sizes) -> Workspace:
-    """Room for the plans of a ground."""
+    """Allocate the workspace of a ground."""
     return Workspace(
         ground.cells.copy(),
         sizes.kept_mm.copy(),
@@ -72,19 +71,19 @@ def improve(
     hottest: float,
     coldest: float,
 ) -> float:
-    """Improve the feasible lanes in `board.cells`; leaves the best met there and returns its value.
+    """Improve the feasible lanes in `board.cells` by flips, each judged by the whole plan; the value of the best.
 
-    First every line along which no car drives gets the side that pays best.
+    The best lanes are left in `board.cells`. First every line without traffic takes the side that pays best.
 
     Parameters
     ----------
     ground, board, sizes, room, random
-        The site, its lanes, the sides of its squares, room for plans, and the state of the random numbers.
+        The site, its lanes, the sides of its squares, the workspace, and the state of the random numbers.
     passes
-        Of hill climbing, by flips of one square or of two side by side; it ends where none improves.
+        Passes of hill climbing, by flips of one square or of two side by side; it ends at a local optimum.
     flips
-        Of annealing, which follows. Lines along which no car drives take other sides now and then, where sides are
-        chosen. Plans that break fewer rules of circulation are better than others, whatever their value.
+        Flips of simulated annealing, which follows. Where sides are chosen, some moves give a line without traffic
+        another side. Plans with fewer faults are better, whatever their value.
     hottest, coldest
         Temperature of annealing at first and at last, in stalls.
     """
@@ -102,32 +101,32 @@ def anneal_flips(
     coldest: float,
     refresh: int,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells`; leaves the best measured there and returns its value.
+    """Anneal the feasible lanes in `board.cells` by flips, each judged by the squares around it; the value of the best.
 
-    `best_cells` is room for as many.
+    The best lanes are left in `board.cells`; `best_cells` is workspace of the same shape.
 
     Notes
     -----
-    N_S and U_S change exactly; T_S is followed by the distances as of the last measurement, one every `refresh`
-    flips, by which alone the best is chosen. A flip that may part the lanes is measured whole, as long as such
-    measurements take no more than a share of the time.
+    N_S and U_S are exact; T_S is estimated by the distances of the last measurement. The whole plan is measured every
+    `refresh` flips, and the best plan is chosen among those measurements. A flip that may split the lanes is measured
+    whole, within a share of the time.
     """
     raise NotImplementedError
 
 
 class TrialMove(NamedTuple):
-    """Labels of the lanes on a board, and room to judge moves.
+    """Labels of the lanes on a board, and a trial move that is judged before it is made.
 
     Attributes
     ----------
     label
         int8, by square: 0 no lane, 1 a lane that cars drive on through, d + 1 a lane d squares deep in a dead end.
     stamp
-        int64, shape (3, padded): marks of squares met, of blocks met, and of searches.
+        int64, shape (3, padded): marks of visited squares, of visited blocks, and of searches.
     marks
-        int64, shape (3,): the marks last used.
+        int64, shape (3,): the last marks in use.
     moved, around, queue
-        int64: squares of a move, squares that it may touch, room for searches.
+        int64: squares of the move, squares around it, queue of searches.
     faulty
         int64: the squares around which rules were broken at the last measurement.
     fresh, old
@@ -169,7 +168,7 @@ class TrialMove(NamedTuple):
 
 
 def new_trial_move(ground: Ground) -> TrialMove:
-    """Room for labels on a ground."""
+    """Allocate the labels of a ground."""
     size = len(ground.cells)
     return TrialMove(
         np.zeros(size, np.int8),
@@ -204,29 +203,29 @@ def anneal_labels(
     prices: tuple[float, float, float, float],
     refresh: int,
 ) -> float:
-    """Anneal the feasible lanes in `board.cells` under the rules; leaves the best that keeps them, returns its value.
+    """Anneal the feasible lanes in `board.cells` under the rules by labelled moves; leaves the best, returns its value.
 
     Parameters
     ----------
     ground, board, move, sizes, room
-        The site, its lanes, room for labels, the sides of the squares, and room for the best plan room.
+        The site, its lanes, their labels, the sides of the squares, and the workspace.
     random
         State of the random numbers.
     trials
-        Moves to try, and some more where rules are broken still.
+        Moves to try, and some more where rules are still broken.
     heats
         Temperature at first and at last, in stalls.
     prices
-        What a fault costs at first and at last, and a square that a stretch is too long, in stalls.
+        Prices of a fault at first and at last, then of a square of excess stretch, in stalls.
     refresh
         Trials between two measurements of the whole.
 
     Notes
     -----
-    Each lane is labelled as driven through or as so many squares deep in a dead end; where every lane has what its
-    label asks for around it, pruning ends within the rounds of R1. So R1 and R3 are judged around a move, R4 along
-    the stretches that it touches. A move that seems worth it by what is around it is measured whole before it is made,
-    as it may lead cars another way far around: stalls, T_S and floor are exact.
+    Each lane is labelled as driven through or by its depth in a dead end. Where the neighbours of every lane agree with
+    its label, pruning ends within the rounds of R1 (a proof labelling scheme, Korman, Kutten and Peleg 2005). So R1
+    and R3 are judged around a move, R4 along the stretches that it touches. A promising move is measured whole before
+    it is made, as it may redirect traffic far away: stalls, T_S and floor are exact.
     """
     return _anneal_labels(
         ground, board, move, sizes, room, random, trials, np.array(heats, np.float64), np.array(prices, np.float64),

@@ -1,4 +1,4 @@
-"""The archive: the best distinct plans met, each with the way that led to it. In C, `archive.c`."""
+"""Archive of the best distinct plans, each with its episode. In C, `archive.c`."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ __all__ = ["Archive", "new_archive", "next_random", "ranked_lanes"]
 
 
 class Archive(NamedTuple):
-    """Entries in no order; `in_use[0]` of them are in use.
+    """Archived plans in no order; the first `in_use[0]` entries are in use.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Archive(NamedTuple):
 
 
 def new_archive(size: int, *, padded: int, steps: int) -> Archive:
-    """An empty archive of plans on a padded matrix with so many squares, for ways of at most so many steps."""
+    """Allocate an archive of plans on a padded matrix, for tapes of at most so many steps."""
     return Archive(
         np.full(size, -np.inf),
         np.zeros(size, np.uint64),
@@ -53,7 +53,7 @@ def new_archive(size: int, *, padded: int, steps: int) -> Archive:
 
 
 def ranked_lanes(archive: Archive, ground: Ground) -> tuple[tuple[float, Lanes], ...]:
-    """(value, lanes) of all entries, best first."""
+    """List (value, lanes) of all entries, best first."""
     order = np.argsort(-archive.values[: archive.in_use[0]], kind="stable")
     return tuple((float(archive.values[entry]), archive.lanes[entry, ground.squares]) for entry in order)
 

@@ -63,7 +63,7 @@ class Board(NamedTuple):
 
 
 def new_board(ground: Ground) -> Board:
-    """Room for a board; `clear` it before use."""
+    """Allocate a board; `clear` it before use."""
     size = len(ground.cells)
     return Board(
         ground.cells.copy(),
@@ -78,15 +78,15 @@ def new_board(ground: Ground) -> Board:
 
 @in_c
 def value_now(ground: Ground, board: Board) -> float:
-    """Score y' of the board as its tally has it, whether or not all portals are touched."""
+    """Score y' by the tally of the board, whether or not all portals are touched."""
     raise NotImplementedError
 
 
 @in_c
 def measure(ground: Ground, board: Board, enough: float) -> float:
-    """Score y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
+    """Measure y' less the cost of faults of the lanes in `board.cells`, NO_VALUE if infeasible; sets hops and tally.
 
-    A score below `enough` is returned as it is, without a look at the faults.
+    A score below `enough` is returned without the cost of faults.
 
     Feasible: every portal touches a lane and the lanes form one network that does not pass through portals.
     """
@@ -94,20 +94,20 @@ def measure(ground: Ground, board: Board, enough: float) -> float:
 
 
 def faults_of(ground: Ground, board: Board, lanes: Lanes) -> int:
-    """How often lanes break the rules of circulation."""
+    """Count the faults of lanes against the rules of circulation."""
     put_lanes(ground, board, lanes)
     measure(ground, board, -np.inf)
     return int(board.tally[FAULTS])
 
 
 def lanes_on(ground: Ground, board: Board) -> Lanes:
-    """The lanes on the board."""
+    """Read the lanes off the board."""
     lanes: Lanes = board.cells[ground.squares] == Cell.LANE
     return lanes
 
 
 def put_lanes(ground: Ground, board: Board, lanes: Lanes) -> None:
-    """Have these lanes on the board and no others; keeps no tally."""
+    """Replace the lanes on the board; the tally is not updated."""
     board.cells[:] = ground.cells
     board.cells[ground.squares[lanes]] = Cell.LANE
 
@@ -115,12 +115,13 @@ def put_lanes(ground: Ground, board: Board, lanes: Lanes) -> None:
 def connect(ground: Ground, board: Board) -> bool:
     """Connect all lanes and portals by shortest paths over free squares; False if there are none.
 
-    Starts at the first portal; lanes that no way reaches are taken off.
+    The network grows from the first portal by the shortest path to the nearest piece (Takahashi and Matsuyama 1980).
+    Unreachable lanes are removed.
     """
     return _connect_lanes(ground, board)
 
 
 @in_c
 def _connect_lanes(ground: Ground, board: Board) -> bool:
-    """`connect`, whose own name is one of the C library."""
+    """`connect`, a name that the C library has taken."""
     raise NotImplementedError

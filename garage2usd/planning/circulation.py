@@ -45,16 +45,16 @@ _STRETCH_SQUARES = 12
 
 
 class CirculationRules(NamedTuple):
-    """What is asked of the circulation, and what each fault costs beside the score.
+    """Rules of circulation, and the cost of each fault beside the score.
 
     Attributes
     ----------
     is_asked
-        Whether anything is.
+        Whether there are any rules.
     dead_end_squares
         R1: rounds of pruning within which every dead end is gone.
     asks_loop
-        R2: whether there is to be a loop.
+        R2: whether a loop is required.
     stretch_squares
         R4: the longest stretch without a junction; 0 where any is allowed.
     deep_cost
@@ -90,7 +90,7 @@ _NOTHING = CirculationRules(
 
 
 def rules_of(plan: PlanConfig, *, squares: int) -> CirculationRules:
-    """The rules that the settings ask for on a site of so many free squares.
+    """Derive the rules from the settings for a site with a number of free squares.
 
     Notes
     -----
@@ -122,12 +122,12 @@ STRETCH = 4
 
 
 class Survey(NamedTuple):
-    """Figures of the lanes of a site.
+    """Faults and loops of the lanes of a site.
 
     Attributes
     ----------
     deep
-        Lanes that pruning takes off after the allowed rounds (R1).
+        Lanes that pruning removes after the allowed rounds (R1).
     loops
         Independent circuits of lanes that form one piece, ``E - V + 1``, less the blocks (R2).
     blocks
@@ -150,7 +150,7 @@ def survey(
     dead_end_squares: int,
     stretch_squares: int,
 ) -> Survey:
-    """Count where lanes break the rules of circulation.
+    """Count the faults of lanes against the rules of circulation.
 
     Parameters
     ----------
@@ -170,8 +170,8 @@ def survey(
 
     Notes
     -----
-    A round of pruning takes off all lanes with at most one neighbour, portals being neighbours that stay (k-core
-    decomposition, Seidman 1983, for k = 2 with the portals held). Without stretches, those lanes keep the state 2.
+    A round of pruning removes the lanes with at most one neighbour; portals are never removed (k-core decomposition,
+    Seidman 1983, for k = 2). Without stretches, those lanes keep the state 2.
     """
     queue, found = np.empty(len(cells), np.int64), np.zeros(4, np.int64)
     _survey(squares, len(squares), stride, cells, state, queue, dead_end_squares, stretch_squares, found)
@@ -196,7 +196,7 @@ def _survey(
 
 @dataclass(frozen=True, eq=False)
 class Circulation:
-    """How traffic circulates on a structure's lanes.
+    """Circulation on the lanes of a structure, in squares.
 
     Attributes
     ----------
@@ -228,12 +228,12 @@ class Circulation:
         return int(self.stretches.max(initial=0))
 
     def deeper_than(self, squares: int) -> Mask:
-        """Lanes that pruning takes off after so many rounds; bool, shape (rows, cols)."""
+        """Lanes that pruning removes after a number of rounds; bool, shape (rows, cols)."""
         deep: Mask = self.rounds > squares
         return deep
 
     def faults(self, rules: CirculationRules) -> dict[str, str]:
-        """The rules that are not kept, of ``R1`` to ``R4``, each with where and by how much; empty without rules."""
+        """List the broken rules of ``R1`` to ``R4``, each with place and amount; empty without rules."""
         if not rules.is_asked:
             return {}
         found = {}
@@ -267,8 +267,8 @@ def circulation(structure: Structure) -> Circulation:
 
     Notes
     -----
-    R1: lanes with at most one neighbour are pruned in rounds, portals being neighbours that stay, so that branched
-    trees are found as well as straight dead ends; the rounds that it takes are the depth of the dead ends. R2:
+    R1: each round of pruning removes the lanes with at most one neighbour; portals are never removed. Branched trees
+    are found as well as straight dead ends, and the number of rounds is their depth. R2:
     ``E - V + k`` for V lanes in k pieces with E pairs of neighbours, less the blocks. R3: blocks of two by two lanes.
     R4: lanes that stay with two neighbours form stretches; a dead end beside one makes no junction, as no car drives
     on through it.
@@ -310,7 +310,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredCirculation:
-    """How traffic circulates on a structure's lanes, in squares and in metres.
+    """Circulation on the lanes of a structure, in squares and in metres.
 
     Attributes
     ----------
@@ -360,7 +360,7 @@ def neither_share(structure: Structure, bay: BayConfig) -> float:
 
 
 def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
-    """A tree of pruned lanes at a time."""
+    """Yield each tree of pruned lanes."""
     rounds = np.pad(found.rounds, 1)
     drivable = bordered(structure.cells >= Cell.LANE)
     root_of: dict[Square, Square] = {}
@@ -382,7 +382,7 @@ def _dead_ends(structure: Structure, found: Circulation) -> Iterator[Run]:
 def _onward(
     structure: Structure, rounds: NDArray[np.int32], drivable: NDArray[np.bool_], square: Square
 ) -> tuple[Square | None, int]:
-    """The pruned lane that a pruned lane hangs on, None where it hangs on one that stays, and its length that way."""
+    """Find the pruned lane that a pruned lane hangs on, None at the root of a tree, and its length that way."""
     row, col = square
     sides = int(structure.row_depths_mm[row]), int(structure.column_widths_mm[col])
     for dr, dc in NEIGHBOUR_STEPS:
@@ -397,7 +397,7 @@ def _onward(
 
 
 def _stretches(structure: Structure, found: Circulation) -> Iterator[Run]:
-    """A piece of lanes with two neighbours that stay at a time."""
+    """Yield each piece of lanes with two neighbours that stay."""
     stays = np.pad((structure.cells >= Cell.LANE) & (found.rounds == 0), 1)
     up, down, left, right = stays[:-2, 1:-1], stays[2:, 1:-1], stays[1:-1, :-2], stays[1:-1, 2:]
     along_mm = (

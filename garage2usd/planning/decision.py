@@ -1,9 +1,10 @@
 """The decision process of the paper: a car that colours squares as lanes, as plain functions over immutable values.
 
 A car drives over a site from an entrance, one square at a time, and every free square that it enters becomes a lane.
-`observe`, `actions`, `transition`, `reward` and `terminal` are the verbs of a functional environment; `learn` in
-`garage2usd.planning.sarsa` runs the same process compiled, and the tests hold it to these functions, with which it
-shares no code. Equations are counted in the order in which the paper prints them, because its labels repeat.
+`observe`, `actions`, `transition`, `reward` and `terminal` are the verbs of a functional environment.
+`garage2usd.planning.reference_sarsa` learns in it in plain Python. `learn` in `garage2usd.planning.sarsa` is the same
+process compiled; it shares no code with these functions, and the tests compare it with the reference. Equations are
+counted in the order in which the paper prints them, because its labels repeat.
 """
 # Over 300 lines: the whole decision process is told in one place, equation by equation.
 
@@ -61,7 +62,7 @@ class Ending(Enum):
 
 
 class Observation(NamedTuple):
-    """What the agent sees of a state: equation 18, ``S_t = (D, M, A_{t-1})``.
+    """Observation of a state: equation 18, ``S_t = (D, M, A_{t-1})``.
 
     Attributes
     ----------
@@ -82,7 +83,7 @@ class Observation(NamedTuple):
 
 @dataclass(frozen=True)
 class DecisionProcess:
-    """What stays the same during an episode.
+    """Constants of an episode.
 
     Attributes
     ----------
@@ -100,7 +101,7 @@ class DecisionProcess:
 
     @cached_property
     def cells(self) -> dict[Square, Cell]:
-        """What each square of the site holds before the first action."""
+        """Kind of each square of the site before the first action."""
         return {
             (row, col): Cell.FREE if cell == Cell.LANE else Cell(cell)
             for row, line in enumerate(self.site.cells.tolist())
@@ -109,7 +110,7 @@ class DecisionProcess:
 
     @cached_property
     def capacity(self) -> CapacityTable:
-        """What each square of the site would hold."""
+        """Stalls of each square by the lanes beside it."""
         return capacity_table(self.site, self.bay)
 
     @property
@@ -157,7 +158,7 @@ def initial(start: Square) -> State:
 
 
 def observe(process: DecisionProcess, state: State) -> Observation:
-    """What the agent sees.
+    """Observe a state.
 
     Notes
     -----
@@ -177,7 +178,7 @@ def observe(process: DecisionProcess, state: State) -> Observation:
 
 
 def actions(process: DecisionProcess, state: State) -> tuple[Action, ...]:
-    """Actions that the agent may choose; empty where it is walled in.
+    """List the actions that the agent may choose; empty where it is walled in.
 
     Notes
     -----
@@ -242,25 +243,25 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
 
 
 def terminal(process: DecisionProcess, state: State) -> bool:
-    """Whether the episode is over: t = T of equation 15; also where the agent has no action left.
+    """Test whether the episode is over: t = T of equation 15, or no action is left.
 
-    Besides, whoever runs the process cuts episodes off after `DecisionProcess.horizon` actions.
+    Runners also cut episodes off after `DecisionProcess.horizon` actions.
     """
     return state.ending is not None or not actions(process, state)
 
 
 def structure_of(process: DecisionProcess, state: State) -> Structure:
-    """The site with the lanes that are coloured in a state: the array that the process generates."""
+    """Build the structure of a state: the site with its coloured lanes."""
     return process.site.with_cells(_coloured(process, state))
 
 
 def stalls(process: DecisionProcess, state: State) -> int:
-    """N_S of the lanes that are coloured in a state."""
+    """Count N_S of the lanes that are coloured in a state."""
     return int(served_capacity(_coloured(process, state), process.capacity).sum())
 
 
 def _coloured(process: DecisionProcess, state: State) -> CellArray:
-    """The matrix S of a state."""
+    """Matrix S of a state."""
     cells = process.site.cells.copy()
     cells[cells == Cell.LANE] = Cell.FREE
     for square in state.lanes:
@@ -292,7 +293,7 @@ def _loop_reward(parameters: SarsaParameters, state: State, following: State) ->
 
 
 def _lanes_beside_new(state: State, following: State) -> int:
-    """How many lanes the new lane touches; 0 if the move coloured none."""
+    """Count the lanes beside the new lane; 0 if the move coloured none."""
     if following.lanes == state.lanes:
         return 0
     return sum(_ahead(following.square, move) in state.lanes for move in _MOVES)

@@ -101,7 +101,7 @@ def dimension(structure: Structure, *, bay: BayConfig, rows: bool = True, column
 
 
 def dimensioned(structure: Structure, bay: BayConfig) -> Structure:
-    """The same S with R and C chosen where the settings say so, each where none is given."""
+    """Choose R and C where the settings give none; S stays."""
     rows, columns = bay.chosen_sides
     return dimension(structure, bay=bay, rows=rows, columns=columns) if rows or columns else structure
 
@@ -118,9 +118,9 @@ def free_sides_mm(bay: BayConfig) -> list[int]:
 
 
 class _Sized:
-    """Squares with their sizes, of which floor and stalls are counted line by line.
+    """Squares with their sides; floor and stalls are counted line by line.
 
-    In plain numbers, as lines are so short that calls of NumPy would cost more than what they do.
+    Plain numbers: on such short lines calls of NumPy cost more than their work.
     """
 
     def __init__(
@@ -159,11 +159,11 @@ class _Sized:
         return True
 
     def _floor_mm(self, axis: int, line: int) -> int:
-        """How long the floor on a line is."""
+        """Length of the floor on a line."""
         return sum(compress(self._sides_mm[1 - axis], self._inside[axis][line]))
 
     def _stalls_on(self, axis: int, line: int, side_mm: int) -> int:
-        """Stalls on a line, if that had another side."""
+        """Count the stalls on a line for another side."""
         held, across = self._held[axis][side_mm], self._sides_mm[1 - axis]
         return sum([held[side][service] for side, service in zip(across, self._service[axis][line], strict=True)])
 
@@ -174,14 +174,14 @@ def _ratio_m2(area_mm2: int, stalls: int) -> float:
 
 
 def _service(cells: CellArray) -> NDArray[np.intp]:
-    """How lanes serve each square, as a number: edges open along Z times three and edges open along X; 0 for none."""
+    """Number the service of each square by lanes: edges open along Z times three plus edges open along X."""
     lane, free = bordered(cells == Cell.LANE).astype(np.intp), cells == Cell.FREE
     return np.where(free, 3 * (lane[:-2, 1:-1] + lane[2:, 1:-1]) + lane[1:-1, :-2] + lane[1:-1, 2:], 0)
 
 
 @lru_cache(maxsize=64)
 def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> tuple[dict[int, dict[int, list[int]]], ...]:
-    """Stalls that a square holds, for both axes: by its side along the axis, the one across, and how it is served."""
+    """Tabulate the stalls of a square for both axes: by its side along the axis, the one across, and its service."""
     count, sides = len(sizes_mm), np.array(sizes_mm, dtype=np.int64)
     table = capacity_table(Structure(np.zeros((count, count), dtype=np.int8), sides, sides), bay)
     none = np.zeros_like(table.along_x)
@@ -196,7 +196,7 @@ def _stalls_held(sizes_mm: tuple[int, ...], bay: BayConfig) -> tuple[dict[int, d
 
 
 def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
-    """Which rows and which columns have a vehicle door across their end."""
+    """Mark the rows and the columns with a vehicle door across their end."""
     rows, columns = (np.zeros(count, dtype=np.bool_) for count in cells.shape)
     for (row, col), edge in door_edges(cells).items():
         if edge in {Edge.UP, Edge.DOWN}:
@@ -207,7 +207,7 @@ def _crossed_by_doors(cells: CellArray) -> tuple[Mask, Mask]:
 
 
 def _driven(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
-    """On which lanes and portals cars drive along X, and on which along Z; a portal counts beside its lane."""
+    """Mark the lanes and portals on which cars drive along X, and along Z; a portal counts beside its lane."""
     lane, drivable = bordered(cells == Cell.LANE), bordered(cells >= Cell.LANE)
     here, here_lane = drivable[1:-1, 1:-1], lane[1:-1, 1:-1]
 
@@ -221,16 +221,16 @@ def _driven(cells: NDArray[np.int8]) -> tuple[Mask, Mask]:
 
 
 class Sizes(NamedTuple):
-    """The sides of the lines of squares; axis 0 has rows with their depths C, axis 1 columns with their widths R.
+    """Sides of the lines of squares; axis 0 has rows with their depths C, axis 1 columns with their widths R.
 
     Attributes
     ----------
     is_chosen
         bool, shape (2,): whether the sides along an axis are chosen with the plan, or given.
     free_mm
-        int64: what a line may be where no car drives along it.
+        int64: sides of a line without traffic along it.
     aisle_mm
-        What it is where one does.
+        Side of a line with traffic along it.
     sides_mm
         int64: all sides that a line may have, ascending.
     held
@@ -279,7 +279,7 @@ class Sizes(NamedTuple):
 
 
 def sizes_of(ground: Ground, bay: BayConfig) -> Sizes:
-    """The sides of a ground: chosen where the settings say so and give none, else as they are."""
+    """Set up the sides of a ground: chosen where the settings give none, else kept."""
     rows = len(ground.cells) // ground.stride
     sides = ground.sides_mm.reshape(rows, ground.stride, 2)
     lines = max(rows, ground.stride)

@@ -34,7 +34,7 @@ _LANE, _ALL_BITS, _LOOPED = 10, 60, 1 << 61
 
 
 class SquareTable(NamedTuple):
-    """What a square is and what it brings.
+    """Kind and value of each square, as the search reads them.
 
     Attributes
     ----------
@@ -64,19 +64,19 @@ class SquareTable(NamedTuple):
 
 
 def column_bits(cols: int, depth: int) -> int:
-    """Bits that a column of a frontier has; 0 if these are too few for its codes."""
+    """Bits of a column of a frontier; 0 if these are too few for its codes."""
     types = 1 if depth < 0 else 3 + 2 * depth
     bits = min(_ALL_BITS // max(cols, 1), 16)
     return bits if _LANE + types * ((cols + 1) // 2) <= 1 << bits else 0
 
 
 def choices_of(table: SquareTable) -> int:
-    """How many choices there are for a square: no lane, a lane of the core, a stub of each depth."""
+    """Number of choices for a square: no lane, a lane of the core, a stub of each depth."""
     return table.depth + 2 if table.depth >= 0 else 2
 
 
 def first_frontier(table: SquareTable) -> int:
-    """The frontier before the first square."""
+    """Return the frontier before the first square."""
     return 0 if table.asks_loop else _LOOPED
 
 
@@ -86,7 +86,7 @@ def new_room(table: SquareTable) -> Int64s:
 
 
 def are_complete(table: SquareTable, keys: Int64s) -> Bools:
-    """Which frontiers below the last square are those of feasible layouts."""
+    """Mark the frontiers below the last square that belong to feasible layouts."""
     complete = np.zeros(len(keys), np.bool_)
     _mark_complete(table, keys, len(keys), complete)
     return complete
@@ -98,7 +98,7 @@ def _mark_complete(table: SquareTable, keys: Int64s, count: int, complete: Bools
 
 
 def advance(table: SquareTable, index: int, keys: Int64s, values: Float64s) -> tuple[Int64s, Float64s]:
-    """All frontiers after a square, each with its best value so far; keys ascend."""
+    """Advance all frontiers by one square, each with its best value so far; keys ascend."""
     most = choices_of(table) * len(keys)
     next_keys, next_values = np.empty(most, np.int64), np.empty(most)
     count = _step_frontiers(table, index, keys, values, len(keys), new_room(table), next_keys, next_values)
@@ -141,7 +141,7 @@ def suffix_values(
     next_keys: Int64s,
     next_suffix: Float64s,
 ) -> Float64s:
-    """The most that square `index` and all after it add to each frontier before it."""
+    """Bound the value that square `index` and all after it add to each frontier before it."""
     suffix = np.empty(len(keys))
     _follow_frontiers(table, index, keys, len(keys), next_keys, next_suffix, len(next_keys), new_room(table), suffix)
     return suffix
@@ -163,7 +163,7 @@ def _follow_frontiers(
 
 
 class Enumeration(NamedTuple):
-    """An enumeration on its way, which `enumerate_layouts` carries on.
+    """State of an enumeration between calls of `enumerate_layouts`.
 
     Attributes
     ----------
@@ -200,7 +200,7 @@ class Enumeration(NamedTuple):
 
 
 def new_enumeration(table: SquareTable, ground: Ground, floor: float) -> Enumeration:
-    """An enumeration of the layouts that beat a value."""
+    """Begin an enumeration of the layouts above a value."""
     total, choices = len(table.kinds), choices_of(table)
     keys = np.zeros(total + 1, np.int64)
     keys[0] = first_frontier(table)
@@ -233,7 +233,7 @@ def enumerate_layouts(
     relaxed: Int64s,
     price: float,
 ) -> bool:
-    """Score the layouts whose relaxed value is above the best met so far; whether all of them are scored.
+    """Score the layouts whose relaxed value is above the best so far; True once all are scored.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The ground that lanes are planned on: a site as flat arrays for compiled loops."""
+"""Ground: a site as flat arrays for the compiled loops."""
 
 from typing import NamedTuple
 
@@ -46,7 +46,7 @@ class Ground(NamedTuple):
     dead_end_limit_mm
         Length up to which a dead-end aisle is free.
     rules
-        What is asked of circulation.
+        Rules of circulation.
     """
 
     stride: int
@@ -89,14 +89,14 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
 
 
 def lanes_of(structure: Structure, ground: Ground) -> Lanes:
-    """Which squares of the ground are lanes in a structure on the same site."""
+    """Read the lanes of a structure on the same site."""
     flat = np.pad(structure.cells, PADDING, constant_values=Cell.OBSTACLE).ravel()
     lanes: Lanes = flat[ground.squares] == Cell.LANE
     return lanes
 
 
 def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
-    """The structure matrix with lanes on some of the ground's squares; int8, shape (rows, cols)."""
+    """Build the structure matrix with lanes on some squares of the ground; int8, shape (rows, cols)."""
     padded = ground.cells.copy()
     padded[ground.squares[lanes]] = Cell.LANE
     return padded.reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING].copy()
@@ -108,7 +108,10 @@ def _padded_capacity(site: Structure, bay: BayConfig) -> Int32s:
 
 
 def capacity_by_edges(site: Structure, bay: BayConfig) -> Int32s:
-    """Stalls on each square, int32, shape (rows, cols, 16), by its edges open to lanes as in `Ground.capacity`."""
+    """Tabulate the stalls on each square by its edges open to lanes as in `Ground.capacity`.
+
+    int32, shape (rows, cols, 16).
+    """
     table = capacity_table(site, bay)
     layers = []
     for edges in range(16):

@@ -27,16 +27,16 @@ _TABLE_BITS = 14
 _AISLE_EPISODE_SQUARES = 5_000_000
 """Episodes times free squares over aisles: about a second."""
 _ELITE = 25
-"""How many of its best episodes one start over squares keeps to go on from: with 200 the agent alone came to 96.5 % of
+"""Archived episodes that one start over squares goes on from: with 200 the agent alone came to 96.5 % of
 the proven optima of ten held-out gates under the rules, with 50 to 97.8 %, with 25 to 98.5 %, in the same time, at
 alpha 0.5 and gamma 0.7; with 25, alpha 0.1 and gamma 0.9 it comes to 99.5 %."""
 _NURSERY_SIDE, _NURSERY_OBSTACLES, _NURSERY_EPISODES = 26, 6, 3000
-"""A small site on which episodes are cheap; what is learnt there holds anywhere, as states of aisles are local."""
+"""A small site for cheap episodes; its values hold on any site, as states of aisles are local."""
 
 
 @dataclass(frozen=True, eq=False)
 class Learnt:
-    """Layouts met while learning, each with its value, best first, and the course of learning.
+    """Result of learning: layouts with their values, best first, and the learning curve.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Learnt:
 
 
 def uses_aisles(ground: Ground, plan: PlanConfig) -> bool:
-    """Whether the agent decides over aisles on this site."""
+    """Test whether the agent decides over aisles on this site."""
     if plan.agent is Agent.AUTO:
         return plan.preset == "tuned" and len(ground.squares) > _AISLE_SQUARES
     return plan.agent is Agent.AISLES
@@ -146,7 +146,7 @@ def learn_aisles(
 
 
 def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint64]) -> tuple[NDArray[np.float64], int]:
-    """What is learnt over aisles on a small site like this one, and how many decisions it took."""
+    """Learn over aisles on a small site like this one; the values and the number of decisions."""
     nursery = _nursery(ground, np.random.Generator(np.random.PCG64(int(next_random(random)))))
     values, runs = aisles.new_values(), aisles.runs_of(nursery)
     archive = new_archive(1, padded=len(nursery.cells), steps=len(runs.first))
@@ -159,13 +159,13 @@ def _school(ground: Ground, parameters: SarsaParameters, random: NDArray[np.uint
 
 
 def _schedule(episodes: int, *, epsilon: tuple[float, float], alpha: tuple[float, float]) -> NDArray[np.float64]:
-    """Epsilon and alpha at first, each followed by its factor after an episode; what is 0 at first stays so."""
+    """Schedule of epsilon and alpha: each first value and its factor after an episode; 0 stays 0."""
     factors = [(last / first) ** (1 / episodes) if first > 0 else 1.0 for first, last in (epsilon, alpha)]
     return np.array([epsilon[0], factors[0], alpha[0], factors[1]])
 
 
 def _nursery(ground: Ground, rng: np.random.Generator) -> Ground:
-    """A small site with the usual bays of this one."""
+    """Make a small site with the usual bays of this one."""
     cells = np.zeros((_NURSERY_SIDE, _NURSERY_SIDE), dtype=np.int8)
     inner = rng.integers(3, _NURSERY_SIDE - 3, size=(_NURSERY_OBSTACLES, 2))
     cells[inner[:, 0], inner[:, 1]] = Cell.OBSTACLE

@@ -1,4 +1,4 @@
-"""Polish of the best plans that learning met: climbing and annealing, on equal squares or in metres."""
+"""Local search from the best plans of learning: hill climbing and simulated annealing, in squares or in metres."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ _FINALISTS, _MOSTLY_COMMON = 12, 0.9
 """Plans that are dimensioned to be compared in metres, which takes time; common share of lanes of plans too alike."""
 
 _FULL_EPISODES = 5000
-"""The default, and the paper's; with fewer episodes there is less polish in proportion."""
+"""The default, and the paper's; fewer episodes shorten local search in proportion."""
 
 _STALL_M2 = 25.0
 """About the floor that a stall takes in a good plan: the price of floor in metres."""
@@ -83,15 +83,15 @@ def local_search(
     bay: BayConfig,
     random: NDArray[np.uint64],
 ) -> list[Ranked]:
-    """The plans and what polish makes of the best of them.
+    """Improve the best plans; returns all plans, as they were and improved.
 
-    Those that break fewest rules come first, then those with the least floor for a stall where R and C are chosen,
-    else those of the highest value.
+    Plans with the fewest broken rules come first, then the least floor for a stall where R and C are chosen, else the
+    highest value.
     """
     sizes = sizes_of(ground, bay)
     is_sized = bool(sizes.is_chosen.any())
     if is_sized:
-        # polish writes what squares hold by their sides
+        # the capacity of squares changes with their sides
         ground = ground._replace(capacity=ground.capacity.copy())
         sizes.price[0] = ground.weights[0] / _STALL_M2
     search = LocalSearch(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
@@ -112,7 +112,7 @@ def local_search(
 
 @dataclass(frozen=True, eq=False)
 class LocalSearch:
-    """Ways to improve plans of one site.
+    """Optimisers of the plans of one site.
 
     Attributes
     ----------
@@ -130,21 +130,21 @@ class LocalSearch:
 
     @cached_property
     def squares(self) -> int:
-        """How many squares are free."""
+        """Number of free squares."""
         return len(self.ground.squares)
 
     @cached_property
     def room(self) -> Workspace:
-        """Room for plans."""
+        """Workspace of the loops in C."""
         return new_workspace(self.ground, self.sizes)
 
     @cached_property
     def is_sized(self) -> bool:
-        """Whether R or C is chosen with the plan."""
+        """True if R or C is chosen with the plan."""
         return bool(self.sizes.is_chosen.any())
 
     def valued(self, ranked: list[Ranked]) -> list[Ranked]:
-        """The same with their values in the sides that suit each; best first."""
+        """Value plans in the sides that suit each; best first."""
 
         def value(lanes: Lanes) -> float:
             put_lanes(self.ground, self.board, lanes)
@@ -153,13 +153,13 @@ class LocalSearch:
         return ranked_plans([(value(lanes), lanes) for _, lanes in ranked])
 
     def climbed(self, ranked: list[Ranked], count: int) -> list[Ranked]:
-        """The best climbed by flips, as many as are affordable, and all as they were; best first."""
+        """Climb from the best plans by flips, as many as are affordable; best first."""
         affordable = max(1, _CLIMB_SQUARES // (20 * self.squares**2))
         climbing = partial(self._improve, passes=_CLIMB_PASSES)
         return self._improved(ranked, ranked[: min(count, affordable)], climbing)
 
     def annealed(self, ranked: list[Ranked]) -> list[Ranked]:
-        """The best annealed, each flip judged by the whole plan, and all as they were; best first."""
+        """Anneal the best plans by flips, each judged by the whole plan; best first."""
         is_small = self.squares <= _SMALL_SQUARES
         small, middle = (_ANNEALED_SIZED, _ANNEALED_SIZED_MIDDLE) if self.is_sized else (_ANNEALED, _ANNEALED_MIDDLE)
         count, work, heats = small if is_small else middle
@@ -170,11 +170,11 @@ class LocalSearch:
         return self._improved(ranked, distinct_plans(ranked, count), annealing)
 
     def _improve(self, *, passes: int = 0, flips: int = 0, heats: tuple[float, float] = (1.0, 1.0)) -> float:
-        """Climb and anneal the lanes on the board; their value."""
+        """Climb and anneal from the lanes on the board; their value."""
         return improve(self.ground, self.board, self.sizes, self.room, self.random, passes, flips, *heats)
 
     def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
-        """The best annealed under the rules of circulation by labels, and all as they were; best first."""
+        """Anneal the best plans under the rules of circulation by labelled moves; best first."""
         move = new_trial_move(self.ground)
         trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
         if self.is_sized:  # each takes longer
@@ -195,7 +195,7 @@ class LocalSearch:
         return ranked
 
     def drifted(self, ranked: list[Ranked]) -> list[Ranked]:
-        """The best annealed with flips judged by what is around them, and all as they were; best first."""
+        """Anneal the best plans by flips, each judged by the squares around it; best first."""
         hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
         flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
         drifting = partial(
@@ -204,7 +204,7 @@ class LocalSearch:
         return self._improved(ranked, ranked[:_DRIFTED], drifting)
 
     def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: Callable[[], float]) -> list[Ranked]:
-        """What is made of some plans, and all plans as they were; best first."""
+        """Improve some plans, and keep all as they were; best first."""
         best = {lanes.tobytes(): (value, lanes) for value, lanes in ranked}
         for _, lanes in starts:
             put_lanes(self.ground, self.board, lanes)
@@ -215,7 +215,7 @@ class LocalSearch:
 
 
 def ranked_plans(plans: Iterable[Ranked]) -> list[Ranked]:
-    """Each once, best first; equal values by their lanes, so that no order of meeting matters."""
+    """Rank distinct plans, best first; ties by their lanes, so that the order of discovery does not matter."""
     return sorted(
         {lanes.tobytes(): (value, lanes) for value, lanes in plans}.values(),
         key=lambda entry: (-entry[0], entry[1].tobytes()),
@@ -223,12 +223,12 @@ def ranked_plans(plans: Iterable[Ranked]) -> list[Ranked]:
 
 
 def keeping_rules_first(ground: Ground, board: Board, ranked: list[Ranked]) -> list[Ranked]:
-    """The same, those that break the rules of circulation least often first."""
+    """Sort plans by their faults against the rules of circulation; the order within stays."""
     return sorted(ranked, key=lambda entry: faults_of(ground, board, entry[1])) if ground.rules.is_asked else ranked
 
 
 def least_floor_first(site: Structure, ground: Ground, ranked: list[Ranked], bay: BayConfig) -> list[Ranked]:
-    """The first few by the rules that they break and their floor for a stall, the rest as they are."""
+    """Sort the first few plans by broken rules, then by floor for a stall; the rest stay."""
 
     def key(entry: Ranked) -> tuple[int, float, bytes]:
         structure = dimensioned(site.with_cells(cells_of(ground, entry[1])), bay)
@@ -239,7 +239,7 @@ def least_floor_first(site: Structure, ground: Ground, ranked: list[Ranked], bay
 
 
 def distinct_plans(ranked: list[Ranked], count: int) -> list[Ranked]:
-    """The best few plans of which no two have most lanes in common; fewer where there are no more."""
+    """Pick the best few plans of which no two have most lanes in common."""
     chosen: list[Ranked] = []
     for entry in ranked:
         common = max((int((entry[1] & lanes).sum()) / max(1, int(lanes.sum())) for _, lanes in chosen), default=0.0)

@@ -1,4 +1,4 @@
-"""A plan: lanes on a site, with what is known of them."""
+"""Plans: lanes on a site with their score, archive and learning curve."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,14 +17,14 @@ __all__ = ["ArchivedPlan", "Plan", "given_plan"]
 
 @dataclass(frozen=True, eq=False)
 class ArchivedPlan:
-    """One of the best plans met.
+    """One of the best plans found.
 
     Attributes
     ----------
     structure, score
         The plan and its figures, on the squares' sides that it was learnt with.
     is_polished
-        Whether polish made it; else learning met it.
+        Whether local search found it, rather than learning.
     """
 
     structure: Structure
@@ -34,7 +34,7 @@ class ArchivedPlan:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A complete structure with what is known of it.
+    """A complete structure with its score and the record of its planning.
 
     Attributes
     ----------
@@ -43,16 +43,15 @@ class Plan:
     score
         Its figures.
     archive
-        The best distinct plans, best first; empty for a given structure.
+        Best distinct plans, best first; empty for a given structure.
     learning_curve
         float64, shape (episodes,): G, the sum of the rewards of each episode without R_T; read-only.
     learnt
-        The best plan that learning alone met; None for a given structure.
+        Best plan of learning alone; None for a given structure.
     steps
         Actions taken while learning.
     gave_way
-        The rules of circulation that the structure breaks though they are asked for, by name, each with where and by
-        how much.
+        Broken rules of circulation by name, each with place and amount.
     """
 
     structure: Structure
@@ -71,13 +70,13 @@ class Plan:
         object.__setattr__(self, "gave_way", MappingProxyType(dict(self.gave_way)))
 
     def __reduce__(self) -> tuple[object, ...]:
-        """What it is made of, as read-only mappings cannot be pickled and arrays forget that they are read-only."""
+        """Pickle the fields: read-only mappings cannot be pickled, and arrays forget that they are read-only."""
         fields = self.structure, self.score, self.archive, self.learning_curve, self.learnt, self.steps
         return type(self), (*fields, dict(self.gave_way))
 
 
 def given_plan(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = None) -> Plan:
-    """Take the lanes of a complete structure as they are; `plan` gives the weights of its score.
+    """Wrap a complete structure as a plan; `plan` gives the weights of its score.
 
     R and C are chosen for them where the settings say so and give none.
     """

@@ -1,4 +1,4 @@
-"""The planner: Sarsa on a site, then repair and polish of the best that it met."""
+"""The planner: Sarsa on a site, then local search from the best plans."""
 
 import numpy as np
 
@@ -44,12 +44,12 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     seed
         Seed of the step.
     progress
-        Told how many episodes are done.
+        Called with the number of finished episodes.
 
     Returns
     -------
     Plan
-        Always feasible: the lanes form one piece and touch every portal.
+        Feasible: the lanes form one piece and touch every portal.
 
     Raises
     ------
@@ -59,13 +59,13 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
     Notes
     -----
     ``q(S_t, A_t) += alpha (R_{t+1} + gamma q(S_{t+1}, A_{t+1}) - q(S_t, A_t))`` with an epsilon-greedy policy over up,
-    down, left, right, stay; on large sites over what becomes of a whole aisle. Deviation: the paper words epsilon
+    down, left, right, stay; on large sites over whole aisles. Deviation: the paper words epsilon
     opposite to its formula; the formula stands. Deviation: by default the agent has the preset ``tuned``: it sees less,
     cannot bump, goes on from what was good before and starts several times, as it finds better plans so; ``paper`` is
-    the paper's agent. Deviation: the best plans are polished after learning, unless ``climb`` is false. Deviation:
-    where no episode joined all portals, shortest paths between them are the lanes. Deviation: plans are asked to
-    circulate (``circulation``): what breaks a rule costs stalls when plans are compared, and one that keeps the rules
-    is taken before any that does not; the reported score has no such term. Deviation: where R and C are chosen, plans
+    the paper's agent. Deviation: local search polishes the best plans after learning, unless ``climb`` is false.
+    Deviation: where no episode joined all portals, shortest paths between them are the lanes. Deviation: plans keep
+    rules of circulation (``circulation``): broken rules cost stalls when plans are compared, and plans that keep the
+    rules come first; the reported score has no such term. Deviation: where R and C are chosen, plans
     are compared by the floor that a stall takes.
     """
     ground = ground_of(site, bay=bay, plan=plan)
@@ -101,7 +101,7 @@ def plan_lanes(site: Structure, *, plan: PlanConfig, bay: BayConfig, seed: int, 
 
 
 def _check_rules(structure: Structure, ground: Ground, plan: PlanConfig, *, seed: int) -> dict[str, str]:
-    """The rules of circulation that a plan breaks, with where; an error with ``strict``."""
+    """List the broken rules of circulation; raise with ``strict``."""
     gave_way = circulation(structure).faults(ground.rules)
     if gave_way and plan.strict:
         reason = f"no plan met keeps the rules of circulation: {'; '.join(gave_way.values())}"
@@ -116,7 +116,7 @@ def _archived(
 
 
 def _repaired(ground: Ground, board: Board, lanes: Lanes) -> list[Ranked]:
-    """Lanes connected with each other and the portals by shortest paths; empty if there are none."""
+    """Connect lanes and portals by shortest paths; empty if there are none."""
     put_lanes(ground, board, lanes)
     if not connect(ground, board):
         return []
@@ -125,7 +125,7 @@ def _repaired(ground: Ground, board: Board, lanes: Lanes) -> list[Ranked]:
 
 
 def _score(ground: Ground, board: Board, lanes: Lanes) -> Score:
-    """The compiled score of one layout; `evaluate` gives the same from the structure."""
+    """Score one layout by the compiled loops; `evaluate` gives the same from the structure."""
     put_lanes(ground, board, lanes)
     measure(ground, board, -np.inf)
     stalls, time, unused = board.tally[:3].tolist()
@@ -135,7 +135,7 @@ def _score(ground: Ground, board: Board, lanes: Lanes) -> Score:
 
 
 def _draw(ground: Ground, board: Board, ranked: list[Ranked], plan: PlanConfig, rng: np.random.Generator) -> int:
-    """Which plan of the archive is taken: the first, or any above the quality floor that keeps the rules as well."""
+    """Draw a plan of the archive: the first, or any above the quality floor with no more faults."""
     if plan.choice is Choice.BEST:
         return 0
     best = ranked[0][0]

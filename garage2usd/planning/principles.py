@@ -1,4 +1,4 @@
-"""The paper's four design principles, as figures of a plan."""
+"""Figures of a plan for the four design principles of the paper."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ __all__ = ["Principles", "principles"]
 
 @dataclass(frozen=True)
 class Principles:
-    """How far a plan follows the principles of parking lot design; shares are from 0 to 1.
+    """Figures of the four principles of parking lot design; shares are from 0 to 1.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ def principles(structure: Structure, *, bay: BayConfig) -> Principles:
 
 
 def _beside(mask: Mask) -> tuple[Mask, Mask, Mask, Mask]:
-    """Which squares have `mask` set above, below, to the left and to the right."""
+    """Shift a mask: squares with `mask` set above, below, to the left and to the right."""
     padded = bordered(mask)
     return padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
 

@@ -1,4 +1,7 @@
-"""Episodes of tabular Sarsa: an agent drives over the site and colours lanes. In C, `sarsa.c`."""
+"""Tabular Sarsa over squares: an agent drives over the site and colours lanes. In C, `sarsa.c`.
+
+`garage2usd.planning.reference_sarsa` is the same in plain Python.
+"""
 
 from typing import NamedTuple
 
@@ -18,7 +21,7 @@ ACTIONS = 5
 
 
 class Memory(NamedTuple):
-    """What Sarsa has learnt: a hash table from state to the values of the five actions.
+    """Hash table of Sarsa from states to the values of the five actions.
 
     Attributes
     ----------
@@ -42,7 +45,7 @@ class Memory(NamedTuple):
 
 
 def new_memory(parameters: SarsaParameters, *, bits: int) -> Memory:
-    """Nothing learnt yet."""
+    """Allocate an empty table."""
     return Memory(
         np.zeros(1 << bits, np.uint64),
         np.zeros((1 << bits, ACTIONS), np.float32),
@@ -53,14 +56,14 @@ def new_memory(parameters: SarsaParameters, *, bits: int) -> Memory:
 
 
 class Room(NamedTuple):
-    """Room for an episode.
+    """Workspace of an episode.
 
     Attributes
     ----------
     moves
         int64, shape (5,): the step of each action, from a square to the next.
     allowed
-        bool, shape (5,): which actions a mask leaves.
+        bool, shape (5,): actions that the mask allows.
     tape
         int8: the actions so far.
     laid
@@ -74,7 +77,7 @@ class Room(NamedTuple):
 
 
 def new_room(ground: Ground, archive: Archive) -> Room:
-    """Room for episodes on a ground, as long as an archive has room for."""
+    """Allocate the workspace of episodes as long as the tapes of an archive."""
     stride = ground.stride
     return Room(
         np.array([-stride, stride, -1, 1, 0]),
@@ -85,7 +88,7 @@ def new_room(ground: Ground, archive: Archive) -> Room:
 
 
 def grown(memory: Memory) -> Memory:
-    """The same in a table twice the size."""
+    """Copy a table into one of twice the size."""
     size = 2 * len(memory.keys)
     larger = memory._replace(keys=np.zeros(size, np.uint64), q=np.zeros((size, ACTIONS), memory.q.dtype))
     memory.used[0] = 0
@@ -95,7 +98,7 @@ def grown(memory: Memory) -> Memory:
 
 @in_c
 def _carry_over(memory: Memory, larger: Memory) -> None:
-    """Put all that a table holds into an empty one."""
+    """Copy all entries of a table into an empty one."""
     raise NotImplementedError
 
 

@@ -16,7 +16,7 @@ Square = tuple[int, int]
 
 @dataclass(frozen=True)
 class Score:
-    """The paper's figures of one structure.
+    """Figures of the paper for one structure.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Score:
     unused_squares: int
 
     def parking_time_s(self, *, square_side_m: float, speed_m_s: float) -> float:
-        """T_S in seconds for squares of one side and a steady speed."""
+        """Convert T_S to seconds for squares of one side and a steady speed."""
         return self.parking_time_squares * square_side_m / speed_m_s
 
 
@@ -77,7 +77,7 @@ def evaluate(structure: Structure, *, bay: BayConfig, plan: PlanConfig | None = 
 
 
 def is_feasible(structure: Structure) -> bool:
-    """Whether the lanes form one network that does not pass through portals, and every portal touches it."""
+    """Test whether the lanes form one network that does not pass through portals, and every portal touches it."""
     lanes = set(structure.where(Cell.LANE))
     portals = structure.where(Cell.ENTRANCE) + structure.where(Cell.EXIT)
     touched = all(any(lane in lanes for lane in _beside(portal)) for portal in portals)

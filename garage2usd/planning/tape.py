@@ -24,7 +24,7 @@ _STAY = ACTIONS[4]
 
 
 def tape_of(structure: Structure) -> str:
-    """The canonical tape of a structure's lanes.
+    """Write the canonical tape of the lanes of a structure.
 
     Returns
     -------
@@ -44,7 +44,7 @@ def tape_of(structure: Structure) -> str:
 
 
 def play(site: Structure, tape: str) -> Structure:
-    """The structure that a canonical tape makes on a site; the inverse of `tape_of`.
+    """Play a canonical tape on a site; the inverse of `tape_of`.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def play(site: Structure, tape: str) -> Structure:
 
 
 def rank_of(tape: str) -> int:
-    """The tape as a number: its letters are base-5 digits behind a leading 1, which keeps leading Us."""
+    """Rank of a tape: its letters are base-5 digits behind a leading 1, which keeps leading Us."""
     rank = 1
     for action in tape:
         rank = 5 * rank + ACTIONS.index(action)
@@ -83,7 +83,7 @@ def rank_of(tape: str) -> int:
 
 
 def tape_at(rank: int) -> str:
-    """The tape of a rank; the inverse of `rank_of`.
+    """Tape of a rank; the inverse of `rank_of`.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def tape_at(rank: int) -> str:
 
 
 def _walk(structure: Structure, padded: np.typing.NDArray[np.bool_]) -> Iterator[str]:
-    """Actions from the first entrance over all lanes that it reaches, depth first, then stay."""
+    """Walk depth first from the first entrance over all lanes, then stay."""
     unvisited = padded.copy()
     row, col = structure.where(Cell.ENTRANCE)[0]
     path: list[str] = []
