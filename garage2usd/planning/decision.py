@@ -6,7 +6,6 @@ A car drives over a site from an entrance, one square at a time, and every free 
 process compiled; it shares no code with these functions, and the tests compare it with the reference. Equations are
 counted in the order in which the paper prints them, because its labels repeat.
 """
-# Over 300 lines: the whole decision process is told in one place, equation by equation.
 
 from dataclasses import dataclass, replace
 from enum import Enum, IntEnum
@@ -233,13 +232,14 @@ def reward(process: DecisionProcess, state: State, action: Action, following: St
         return -parameters.failure_penalty
     if action is Action.STAY:
         return -2 * parameters.step_penalty
-    return (
-        -parameters.step_penalty
-        - _turning_penalty(parameters, state, action)
-        - _wheeling_penalty(parameters, state, following)
-        + _loop_reward(parameters, state, following)
-        + _more_stalls(process, state, following)
-    )
+    penalty = parameters.step_penalty + _turning_penalty(parameters, state, action)
+    if following.lanes == state.lanes:
+        return -penalty
+    # "at an improper position with a certain direction": beside lanes other than the one that it continues
+    beside = sum(_ahead(following.square, move) in state.lanes for move in _MOVES)
+    wheeling = parameters.wheeling_penalty * max(0, beside - 1)
+    loop = parameters.loop_reward if beside > 1 else 0.0
+    return -penalty - wheeling + loop + (stalls(process, following) - stalls(process, state))
 
 
 def terminal(process: DecisionProcess, state: State) -> bool:
@@ -269,11 +269,6 @@ def _coloured(process: DecisionProcess, state: State) -> CellArray:
     return cells
 
 
-def _more_stalls(process: DecisionProcess, state: State, following: State) -> int:
-    """N_S(S_{t+1}) - N_S(S_t), which only a new lane can change."""
-    return 0 if following.lanes == state.lanes else stalls(process, following) - stalls(process, state)
-
-
 def _turning_penalty(parameters: SarsaParameters, state: State, action: Action) -> float:
     """Turn-back penalty for "the opposite action from the last action", else interval penalty for an early turn."""
     if state.last_action is Action.STAY or action is state.last_action:
@@ -281,22 +276,6 @@ def _turning_penalty(parameters: SarsaParameters, state: State, action: Action) 
     if action is _OPPOSITE[state.last_action]:
         return parameters.turn_back_penalty
     return parameters.interval_penalty if state.run_squares < parameters.min_run_squares else 0.0
-
-
-def _wheeling_penalty(parameters: SarsaParameters, state: State, following: State) -> float:
-    """Wheeling penalty "at an improper position with a certain direction": beside lanes that are there already."""
-    return parameters.wheeling_penalty * max(0, _lanes_beside_new(state, following) - 1)
-
-
-def _loop_reward(parameters: SarsaParameters, state: State, following: State) -> float:
-    return parameters.loop_reward if _lanes_beside_new(state, following) > 1 else 0.0
-
-
-def _lanes_beside_new(state: State, following: State) -> int:
-    """Count the lanes beside the new lane; 0 if the move coloured none."""
-    if following.lanes == state.lanes:
-        return 0
-    return sum(_ahead(following.square, move) in state.lanes for move in _MOVES)
 
 
 def _distance(process: DecisionProcess, state: State, step: Square) -> int:

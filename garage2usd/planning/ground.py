@@ -70,13 +70,14 @@ def ground_of(site: Structure, *, bay: BayConfig, plan: PlanConfig) -> Ground:
     depths = np.broadcast_to(site.row_depths_mm[:, None], site.shape)
     widths = np.broadcast_to(site.column_widths_mm, site.shape)
     squares = np.flatnonzero(flat == Cell.FREE)
+    capacity = np.pad(capacity_by_edges(site, bay), [(PADDING, PADDING), (PADDING, PADDING), (0, 0)])
     # a turning stall lost, where rules leave no dead end that is so long
     keeps_turning_stalls = plan.dead_ends is DeadEnds.STANDARD and plan.circulation_mode is CirculationMode.ALLOW
     entrances, exits = np.flatnonzero(flat == Cell.ENTRANCE), np.flatnonzero(flat == Cell.EXIT)
     return Ground(
         stride=cells.shape[1],
         cells=flat,
-        capacity=_padded_capacity(site, bay),
+        capacity=capacity.reshape(-1, capacity.shape[-1]),
         sides_mm=np.stack([np.pad(side, PADDING).ravel() for side in (depths, widths)], axis=1).astype(np.int64),
         squares=squares,
         entrances=entrances,
@@ -100,11 +101,6 @@ def cells_of(ground: Ground, lanes: Lanes) -> CellArray:
     padded = ground.cells.copy()
     padded[ground.squares[lanes]] = Cell.LANE
     return padded.reshape(-1, ground.stride)[PADDING:-PADDING, PADDING:-PADDING].copy()
-
-
-def _padded_capacity(site: Structure, bay: BayConfig) -> Int32s:
-    held = np.pad(capacity_by_edges(site, bay), [(PADDING, PADDING), (PADDING, PADDING), (0, 0)])
-    return held.reshape(-1, held.shape[-1])
 
 
 def capacity_by_edges(site: Structure, bay: BayConfig) -> Int32s:

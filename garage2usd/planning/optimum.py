@@ -1,5 +1,4 @@
 """Bounds of the score: the proven optimum of a small site, and a bound by counting for any site."""
-# Over 300 lines: both bounds share the relaxed distances of a site.
 
 from collections import deque
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
 from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.planning.board import NO_VALUE, new_board
-from garage2usd.planning.circulation import CirculationRules, circulation
+from garage2usd.planning.circulation import circulation
 from garage2usd.planning.frontier import (
     FORBIDDEN,
     SquareTable,
@@ -139,17 +138,14 @@ def _table_of(ground: Ground, cols: int) -> SquareTable:
     bits = column_bits(cols, depth)
     if bits == 0:
         most = max(side for side in range(cols) if column_bits(side, depth) or side == 0)
-        raise _TooLargeError(f"a side of at most {most}{_under(rules)}")
+        under = f" with dead ends of up to {rules.dead_end_squares} squares" if rules.is_asked else ""
+        raise _TooLargeError(f"a side of at most {most}{under}")
     if rules.stretch_squares:
         raise ConfigError("plan.longest_stretch_cells", rules.stretch_squares, "0: the optimum knows R1 to R3 only")
     squares = _squares_of(ground)
     beside = (squares + step for step in (-ground.stride, ground.stride, -1, 1))
     portals = np.sum([ground.cells[others] >= Cell.ENTRANCE for others in beside], axis=0)
     return SquareTable(cols, bits, depth, ground.cells[squares], portals, np.zeros((len(squares), 16)), rules.asks_loop)
-
-
-def _under(rules: CirculationRules) -> str:
-    return f" with dead ends of up to {rules.dead_end_squares} squares" if rules.is_asked else ""
 
 
 @dataclass(frozen=True, eq=False)
