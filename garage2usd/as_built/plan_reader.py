@@ -12,7 +12,7 @@ from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
 from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.garage import Fault
-from garage2usd.layout import Layout, Stall, lay_out
+from garage2usd.layout import Layout, PlacedStall, lay_out
 from garage2usd.planning import dimensioned
 from garage2usd.profiles import Profile
 from garage2usd.reading.report import ReportedStall, report_of
@@ -171,7 +171,7 @@ def _name_in(entry: Any) -> str:  # noqa: ANN401
     return str(entry.get("name")) if isinstance(entry, dict) else repr(entry)[:80]
 
 
-def _is_told(stall: Stall, entry: ReportedStall) -> bool:
+def _is_told(stall: PlacedStall, entry: ReportedStall) -> bool:
     told = (*entry.centre_m, entry.width_m, entry.length_m)
     real = (*stall.centre_m, stall.width_m, stall.length_m)
     return entry.use == stall.use and all(abs(one - other) <= _MOVED_M for one, other in zip(told, real, strict=True))

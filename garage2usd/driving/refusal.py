@@ -7,7 +7,7 @@ from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.driving.proof import Outcome
 from garage2usd.errors import ConfigError
-from garage2usd.layout import Layout, Stall
+from garage2usd.layout import Layout, PlacedStall
 from garage2usd.layout.garage_stalls import clear_aisle_m
 from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneSquares
@@ -18,7 +18,12 @@ _MOST_TRIED, _NAMED = 24, 5
 
 
 def refuse_undrivable(
-    layout: Layout, graph: LaneSquares, config: GarageConfig, tight: Sequence[Stall], *, progress: Progress = silent
+    layout: Layout,
+    graph: LaneSquares,
+    config: GarageConfig,
+    tight: Sequence[PlacedStall],
+    *,
+    progress: Progress = silent,
 ) -> None:
     """Refuse a garage if a car does not get into one of the stalls in doubt, and out again.
 
@@ -63,7 +68,7 @@ def _named(stalls: Sequence[str]) -> str:
     return ", ".join(stalls[:_NAMED]) + (", ..." if len(stalls) > _NAMED else "")
 
 
-def _setting(config: GarageConfig, stall: Stall) -> tuple[str, object]:
+def _setting(config: GarageConfig, stall: PlacedStall) -> tuple[str, object]:
     """The setting that made the aisle of a stall, and its value."""
     bay = config.bay
     key = "row_depths_m" if stall.edge.name in {"UP", "DOWN"} else "column_widths_m"

@@ -38,7 +38,7 @@ from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.own_cars import with_own_cars
 from garage2usd.layout.parked_cars import park_cars
 from garage2usd.layout.parking import stall_panels, stalls_of, wheel_stops, with_turning_stalls
-from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse
 from garage2usd.layout.puddles import puddles
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.signs import country_of, with_signs_of
@@ -62,8 +62,8 @@ __all__ = [
     "Layout",
     "LightLevels",
     "ObjectTable",
+    "PlacedStall",
     "Placement",
-    "Stall",
     "StallTable",
     "StallUse",
     "lay_out",
@@ -334,7 +334,7 @@ def _left_out(cores: Iterable[Core], config: GarageConfig, unreachable: Collecti
 
 def _used_stalls(
     grid: TileGrid, graph: LaneSquares, cores: Sequence[Core], config: GarageConfig, unreachable: Collection[str]
-) -> tuple[Stall, ...]:
+) -> tuple[PlacedStall, ...]:
     """All stalls, each with its use."""
     stalls = tuple(
         replace(stall, use=StallUse.UNREACHABLE) if stall.name in unreachable else stall

@@ -13,7 +13,7 @@ from garage2usd.layout.building import ground_inside
 from garage2usd.layout.cores import Core
 from garage2usd.layout.grounds import grounds_of
 from garage2usd.layout.mounts import carriageway, core_and_landing
-from garage2usd.layout.placement import Placement, Stall, placed
+from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.bag import BagSort, BagSpec
 from garage2usd.objects.bicycle import BICYCLE_COLOURS, BicycleSpec
@@ -89,7 +89,7 @@ _SORTS: tuple[_Sort, ...] = (
 
 def clutter(
     grid: TileGrid,
-    stalls: Sequence[Stall],
+    stalls: Sequence[PlacedStall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
     hung: Iterable[Placement],
@@ -137,7 +137,7 @@ def clutter(
 
 def _free_grounds(
     grid: TileGrid,
-    stalls: Sequence[Stall],
+    stalls: Sequence[PlacedStall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
     hung: Iterable[Placement],

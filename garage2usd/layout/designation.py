@@ -9,7 +9,7 @@ import shapely
 
 from garage2usd.config import ParkingConfig
 from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import Placement, Stall, StallUse, rounded
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, rounded
 from garage2usd.objects.charger import ChargerSpec
 from garage2usd.objects.outline import Point
 from garage2usd.objects.panel import Marking, Paint, Surface
@@ -27,8 +27,8 @@ _ROUNDING_M = 1e-6
 
 
 def with_designated_stalls(
-    stalls: tuple[Stall, ...], anchors: Iterable[Point], parking: ParkingConfig, profile: Profile
-) -> tuple[Stall, ...]:
+    stalls: tuple[PlacedStall, ...], anchors: Iterable[Point], parking: ParkingConfig, profile: Profile
+) -> tuple[PlacedStall, ...]:
     """The same with the accessible stalls nearest to any of `anchors`, stair cores or doors, then the charging ones.
 
     Notes
@@ -48,7 +48,7 @@ def with_designated_stalls(
     )
     uses = [stall.use for stall in stalls]
     vans = van_stalls(profile, accessible)
-    divided: dict[int, Stall] = {}
+    divided: dict[int, PlacedStall] = {}
     for index in order:
         if accessible <= 0:
             break
@@ -73,7 +73,7 @@ def with_designated_stalls(
 
 
 def _divided(
-    row: list[int], stalls: tuple[Stall, ...], profile: Profile, vans: int
+    row: list[int], stalls: tuple[PlacedStall, ...], profile: Profile, vans: int
 ) -> tuple[list[int], AccessWidths | None]:
     """An accessible stall, its aisle and, where there is room, the one beyond it, with their widths.
 
@@ -89,7 +89,7 @@ def _divided(
     return row, None
 
 
-def _redrawn(row: list[Stall], widths: AccessWidths | None) -> list[Stall]:
+def _redrawn(row: list[PlacedStall], widths: AccessWidths | None) -> list[PlacedStall]:
     """The stalls of a row from its first one on with other widths, on the same ground."""
     if widths is None or math.isclose(widths.aisle_m, row[0].width_m, abs_tol=_ROUNDING_M):
         return row
@@ -114,13 +114,13 @@ def _accessible_count(stalls: int, parking: ParkingConfig, profile: Profile) -> 
     return max(round(share * stalls), least)
 
 
-def _access_aisle(index: int, stalls: tuple[Stall, ...], uses: list[StallUse]) -> int | None:
+def _access_aisle(index: int, stalls: tuple[PlacedStall, ...], uses: list[StallUse]) -> int | None:
     """The standard stall beside one that its access aisle may take, rather one that has another on its other side."""
     beside = [other for other in (index - 1, index + 1) if _is_standard_beside(index, other, stalls, uses)]
     return max(beside, key=lambda aisle: _is_standard_beside(aisle, 2 * aisle - index, stalls, uses), default=None)
 
 
-def _is_standard_beside(index: int, other: int, stalls: tuple[Stall, ...], uses: list[StallUse]) -> bool:
+def _is_standard_beside(index: int, other: int, stalls: tuple[PlacedStall, ...], uses: list[StallUse]) -> bool:
     """Whether `other` is a standard stall in the same row as the stall of an index next to it."""
     if not 0 <= other < len(stalls) or uses[other] is not StallUse.STANDARD:
         return False
@@ -155,7 +155,7 @@ def _wheelchair() -> list[tuple[Point, ...]]:
     ]
 
 
-def chargers(stalls: tuple[Stall, ...]) -> list[Placement]:
+def chargers(stalls: tuple[PlacedStall, ...]) -> list[Placement]:
     """A charging post at the rear of each charging stall, behind where cars end."""
     return [
         stall.placement("Charger", ChargerSpec(), (0.0, -stall.length_m / 2 + _CHARGER_FROM_REAR_M))

@@ -11,7 +11,7 @@ from garage2usd.layout.ceiling import CeilingLevels
 from garage2usd.layout.cores import Core
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.lamps import TUBE
-from garage2usd.layout.placement import Placement, Stall, StallUse, placed
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, placed
 from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
@@ -110,7 +110,7 @@ def speed_bumps(
 
 def cones(
     grid: TileGrid,
-    stalls: tuple[Stall, ...],
+    stalls: tuple[PlacedStall, ...],
     taken: Container[str],
     fittings: FittingsConfig,
     draws: SquareDraws,

@@ -3,8 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 
 from garage2usd.garage import Stall
-from garage2usd.layout.placement import Stall as PlacedStall
-from garage2usd.layout.placement import cos_sin
+from garage2usd.layout.placement import PlacedStall, cos_sin
 from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["clear_aisle_m", "garage_stalls"]

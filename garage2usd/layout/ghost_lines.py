@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import shapely
 
-from garage2usd.layout.placement import Stall, box_inside
+from garage2usd.layout.placement import PlacedStall, box_inside
 from garage2usd.objects.outline import Box, Point, rectangle
 from garage2usd.objects.panel import Marking, Surface
 from garage2usd.structure.stalls import Edge
@@ -61,7 +61,7 @@ def ghosts_on_lane(
 
 
 def ghosts_on_stall(
-    number: int, stall: Stall, square_m: Point, row_half_m: float, line_m: float
+    number: int, stall: PlacedStall, square_m: Point, row_half_m: float, line_m: float
 ) -> tuple[Marking, ...]:
     """What of an older row lies on one stall, whose square has its middle at `square_m`, in the stall's coordinates."""
     along_x = stall.edge.along_x

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from garage2usd.config import FittingsConfig
 from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import Placement, Stall, of_spec
+from garage2usd.layout.placement import PlacedStall, Placement, of_spec
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.structure.grid import Cell
@@ -62,7 +62,7 @@ class LightLevels:
 
 
 def light_up(
-    lamps: Sequence[Placement], grid: TileGrid, stalls: Sequence[Stall], fittings: FittingsConfig
+    lamps: Sequence[Placement], grid: TileGrid, stalls: Sequence[PlacedStall], fittings: FittingsConfig
 ) -> tuple[list[Placement], LightLevels]:
     """The same lamps with the luminance that the floor needs, and what the floor then gets.
 

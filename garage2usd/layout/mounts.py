@@ -12,7 +12,16 @@ from garage2usd.config import GarageConfig
 from garage2usd.layout.cores import Core
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.layout.nearness import Points
-from garage2usd.layout.placement import Placement, Stall, cos_sin, edge_yaw_rad, of_spec, placed, rounded, to_world
+from garage2usd.layout.placement import (
+    PlacedStall,
+    Placement,
+    cos_sin,
+    edge_yaw_rad,
+    of_spec,
+    placed,
+    rounded,
+    to_world,
+)
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.column import ColumnSpec
@@ -60,7 +69,7 @@ def mounted_objects(
     pillars: Iterable[Placement],
     walls: Iterable[Placement],
     blocks: Iterable[Placement],
-    stalls: Sequence[Stall],
+    stalls: Sequence[PlacedStall],
     cores: Iterable[Core],
     standing: Iterable[Placement],
     config: GarageConfig,

@@ -7,7 +7,7 @@ from garage2usd.assets.countries import Country
 from garage2usd.assets.plate_texture import CHARACTERS, DOT, PROVINCES
 from garage2usd.config.vehicles import DRIVEN_PLATE
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, of_spec, placed
+from garage2usd.layout.placement import PlacedStall, Placement, of_spec, placed
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.number_plate import plates_on
 from garage2usd.randomness import Step
@@ -35,7 +35,7 @@ _NEXT = 1_299_709
 
 
 def number_plates(
-    stalls: Iterable[Stall], cars: Iterable[Placement], draws: SquareDraws, country: Country = Country.NONE
+    stalls: Iterable[PlacedStall], cars: Iterable[Placement], draws: SquareDraws, country: Country = Country.NONE
 ) -> list[Placement]:
     """The plates of each car.
 
@@ -66,7 +66,7 @@ def number_plates(
     ]
 
 
-def _texts(stalls: list[Stall], draws: SquareDraws, pattern: _Pattern) -> dict[str, str]:
+def _texts(stalls: list[PlacedStall], draws: SquareDraws, pattern: _Pattern) -> dict[str, str]:
     """The text that the car in each stall has or would have, by the stall's name."""
     shares = draws.of_step(Step.NUMBER_PLATES, max((stall.ordinal for stall in stalls), default=0))
     count = math.prod(map(len, pattern))

@@ -7,7 +7,7 @@ from garage2usd.config.own_cars import OwnCar, VehiclesConfig, read_own_cars
 from garage2usd.config.vehicles import PAINTS, CarBody
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.parked_cars import ParkedCars
-from garage2usd.layout.placement import Placement, Stall, rounded
+from garage2usd.layout.placement import PlacedStall, Placement, rounded
 from garage2usd.objects.car import CarSpec, car_spec
 from garage2usd.randomness import Step
 
@@ -18,7 +18,7 @@ _CLEARANCE_M = 0.1
 
 
 def with_own_cars(
-    parked: ParkedCars, stalls: tuple[Stall, ...], vehicles: VehiclesConfig, draws: SquareDraws
+    parked: ParkedCars, stalls: tuple[PlacedStall, ...], vehicles: VehiclesConfig, draws: SquareDraws
 ) -> ParkedCars:
     """The parked cars, of which a share are models of one's own.
 
@@ -51,7 +51,7 @@ def with_own_cars(
     return parked._replace(cars=result)
 
 
-def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: Stall) -> Placement | None:
+def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStall) -> Placement | None:
     """The car as a model, moved so that it is within its stall; None where the stall is too small."""
     turn = car.yaw_rad - stall.yaw_rad
     is_reversed = math.cos(turn) < 0

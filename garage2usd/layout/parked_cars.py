@@ -17,7 +17,7 @@ from garage2usd.errors import ConfigError
 from garage2usd.layout.draws import SquareDraws
 from garage2usd.layout.fleet import Fleet
 from garage2usd.layout.parking import WHEEL_STOP_FROM_REAR_M
-from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M
 from garage2usd.randomness import Step
@@ -75,7 +75,7 @@ class ParkedCars(NamedTuple):
 class _Car:
     """A car before it has its place across the stall; lengths in metres, angles in radians."""
 
-    stall: Stall
+    stall: PlacedStall
     body: CarBody
     paint: str
     is_reversed: bool
@@ -110,7 +110,7 @@ class _Car:
 class _Row:
     """The stalls of a square beside each other, from the left as one looks out of their mouths, and their cars."""
 
-    def __init__(self, stalls: Sequence[Stall], cars: Mapping[str, _Car], tight: Collection[str]) -> None:
+    def __init__(self, stalls: Sequence[PlacedStall], cars: Mapping[str, _Car], tight: Collection[str]) -> None:
         self.stalls = stalls
         self.width_m = stalls[0].width_m
         self.numbers = [number for number, stall in enumerate(stalls) if stall.name in cars]
@@ -190,11 +190,11 @@ class _Row:
 
 
 def park_cars(
-    stalls: tuple[Stall, ...],
+    stalls: tuple[PlacedStall, ...],
     config: GarageConfig,
     draws: SquareDraws,
     *,
-    tight: Iterable[Stall] = (),
+    tight: Iterable[PlacedStall] = (),
     held_back: Collection[str] = (),
 ) -> ParkedCars:
     """Random cars, of which none touches another or leaves the length of its stall.
@@ -254,7 +254,7 @@ def park_cars(
 
 
 def _car(
-    stall: Stall, drawn: Sequence[float], state: Sequence[float], fleet: Fleet, parking: ParkingConfig
+    stall: PlacedStall, drawn: Sequence[float], state: Sequence[float], fleet: Fleet, parking: ParkingConfig
 ) -> _Car | None:
     """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
     _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
@@ -286,10 +286,10 @@ def _car(
     )
 
 
-def _rows(stalls: Iterable[Stall]) -> list[list[Stall]]:
+def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
     """The stalls that lie beside each other on a square, each row from the left as one looks out of their mouths."""
-    rows: list[list[Stall]] = []
-    of_side: dict[tuple[object, object], list[Stall]] = {}
+    rows: list[list[PlacedStall]] = []
+    of_side: dict[tuple[object, object], list[PlacedStall]] = {}
     for stall in stalls:
         of_side.setdefault((stall.square, stall.edge), []).append(stall)
     for group in of_side.values():
@@ -351,7 +351,7 @@ def _slant(car: _Car, share: float, towards: int) -> float:
     return math.copysign(min(low + share * (high - low), math.asin(min(room_m, 1.0))), towards)
 
 
-def _occupancy(stalls: tuple[Stall, ...], parking: ParkingConfig) -> dict[str, bool]:
+def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:
     """Whether a car stands in each stall that the configuration names."""
     uses = {stall.name: stall.use for stall in stalls}
     named = {}

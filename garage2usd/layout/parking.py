@@ -12,7 +12,7 @@ from garage2usd.config.look import MarkingsLook
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.ghost_lines import ghosts_on_stall
 from garage2usd.layout.markings import hatching
-from garage2usd.layout.placement import Placement, Stall, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse
 from garage2usd.layout.stall_lines import stall_lines
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.panel import Surface
@@ -43,10 +43,10 @@ _HATCHES = {
 }
 
 
-def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[Stall, ...]:
+def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[PlacedStall, ...]:
     """All stalls in reading order, numbered from 1 on each square."""
     return tuple(
-        Stall(
+        PlacedStall(
             square=tile.square,
             ordinal=place.ordinal,
             edge=place.row.edge,
@@ -60,7 +60,9 @@ def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[Stall
     )
 
 
-def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequence[DeadEnd]) -> tuple[Stall, ...]:
+def with_turning_stalls(
+    stalls: tuple[PlacedStall, ...], grid: TileGrid, ends: Sequence[DeadEnd]
+) -> tuple[PlacedStall, ...]:
     """The same with a stall of each dead-end aisle kept free for turning.
 
     It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
@@ -71,7 +73,7 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequenc
         return stalls
     from scipy.spatial import KDTree  # noqa: PLC0415 - few garages have such ends, all wait for imports
 
-    def is_straight_on(stall: Stall) -> bool:
+    def is_straight_on(stall: PlacedStall) -> bool:
         return grid.tiles[stall.access_square].drivable[stall.edge]
 
     turned = list(stalls)
@@ -100,13 +102,13 @@ def with_turning_stalls(stalls: tuple[Stall, ...], grid: TileGrid, ends: Sequenc
 
 
 def stall_panels(
-    stalls: tuple[Stall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
+    stalls: tuple[PlacedStall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
 ) -> list[Placement]:
     """The floor of each stall with its lines, below them those of older rows by the squares that show them."""
     return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
 
 
-def _with_ghosts(stall: Stall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
+def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
     panel = _stall_panel(stall.width_m, stall.length_m, stall.use, look)
     number = ghosts.get(stall.square)
     if number is None or stall.use in _COATINGS:
@@ -125,7 +127,7 @@ def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsL
     return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
 
 
-def wheel_stops(stalls: tuple[Stall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
+def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
     """A wheel stop near the rear of each stall that cars park in, unless that would be too low to stop a wheel."""
     clause = profile.wheel_stop_height
     height_m = min(WHEEL_STOP_HEIGHT_M, clause.amount if clause else math.inf)

@@ -12,8 +12,8 @@ from garage2usd.structure.lane_graph import Square, StallType
 from garage2usd.structure.stalls import Edge
 
 __all__ = [
+    "PlacedStall",
     "Placement",
-    "Stall",
     "StallUse",
     "box_inside",
     "cos_sin",
@@ -77,8 +77,8 @@ class Placement:
 
 
 @dataclass(frozen=True, slots=True)
-class Stall:
-    """One parking stall.
+class PlacedStall:
+    """One parking stall on its square, as `garage2usd.garage.Stall` is without one.
 
     Attributes
     ----------

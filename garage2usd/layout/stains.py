@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from garage2usd.config import FittingsConfig
 from garage2usd.config.look import Dirt
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.placement import Placement, Stall, StallUse, edge_yaw_rad, of_spec, placed, to_world
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.drain import DrainSpec
 from garage2usd.objects.floor_stain import DirtSpec, StainMark, StainSpec, TyreMarkSpec
@@ -102,7 +102,7 @@ class _Floor:
 def floor_stains(
     grid: TileGrid,
     floors: Iterable[Placement],
-    stalls: Iterable[Stall],
+    stalls: Iterable[PlacedStall],
     fittings: FittingsConfig,
     draws: SquareDraws,
     dirt: Dirt = Dirt.USUAL,
@@ -130,7 +130,7 @@ def floor_stains(
     rate = fittings.floor_stain_rate
     if not rate:
         return
-    stalls_on: dict[Square, list[Stall]] = {}
+    stalls_on: dict[Square, list[PlacedStall]] = {}
     for stall in stalls:
         stalls_on.setdefault(stall.square, []).append(stall)
     most = max((len(row) for row in stalls_on.values()), default=0)
@@ -151,7 +151,7 @@ def floor_stains(
         yield from floor.placed
 
 
-def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64], rate: float) -> None:
+def _stain_stalls(floor: _Floor, stalls: list[PlacedStall], drawn: NDArray[np.float64], rate: float) -> None:
     """Oil where engines stand, and the marks of wheels that rolled in."""
     for index, stall in enumerate(stalls):
         (there, variant, _, across, along), (driven, tyre, _, aside, end) = drawn[2 * index : 2 * index + 2].tolist()
@@ -172,7 +172,7 @@ def _stain_stalls(floor: _Floor, stalls: list[Stall], drawn: NDArray[np.float64]
             floor.put(f"Oil_{number}", spec_of_oil, _on_tile(floor.tile, stall, local), _yaw(variant), _OIL_LIFT_M)
 
 
-def _on_tile(tile: Tile, stall: Stall, local: Point) -> Point:
+def _on_tile(tile: Tile, stall: PlacedStall, local: Point) -> Point:
     x, z = stall.to_world(local)
     return x - tile.x_m, z - tile.z_m
 
@@ -245,12 +245,14 @@ def _drain_box(tile: Tile, drain: Placement, spec: DrainSpec) -> Box:
     return x - half_x, z - half_z, x + half_x, z + half_z
 
 
-def _opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[Stall]]) -> Iterator[Stall]:
+def _opening_on(tile: Tile, edge: Edge, stalls_on: dict[Square, list[PlacedStall]]) -> Iterator[PlacedStall]:
     """The stalls whose mouths lie on one edge of a lane."""
     return (stall for stall in stalls_on.get(edge.beyond(tile.square), []) if stall.access_square == tile.square)
 
 
-def _mark_turns(floor: _Floor, stalls: list[Stall], setback_m: float, drawn: NDArray[np.float64], rate: float) -> None:
+def _mark_turns(
+    floor: _Floor, stalls: list[PlacedStall], setback_m: float, drawn: NDArray[np.float64], rate: float
+) -> None:
     """The marks of tyres that turned from the lane into stalls, on the lane's side."""
     tile = floor.tile
     for index, (stall, numbers) in enumerate(zip(stalls, drawn[_LANE_SLOTS:].tolist(), strict=False)):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from garage2usd.assets.glyphs import GLYPH_PITCH, GLYPH_WIDTH
 from garage2usd.config import FittingsConfig, LookConfig
 from garage2usd.config.look import BandForm, MarkingsLook, NumberForm, NumberPlace
-from garage2usd.layout.placement import Placement, Stall, placed
+from garage2usd.layout.placement import PlacedStall, Placement, placed
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.outline import Point
@@ -34,7 +34,7 @@ _FRAME_MARGIN = 0.3
 
 
 def stall_numbers(
-    stalls: Iterable[Stall], grid: TileGrid, look: LookConfig, fittings: FittingsConfig
+    stalls: Iterable[PlacedStall], grid: TileGrid, look: LookConfig, fittings: FittingsConfig
 ) -> list[Placement]:
     """The number of each stall, in pieces of two characters at most, so that few shapes make all numbers."""
     numbers = look.numbers
@@ -67,7 +67,7 @@ def stall_numbers(
     return placements
 
 
-def _placed(stall: Stall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
+def _placed(stall: PlacedStall, spec: Spec, point: Point, piece: int, *, is_upright: bool) -> Placement:
     return placed(
         f"StallNumber_{stall.ordinal}_{piece}",
         spec,
@@ -97,7 +97,7 @@ def _fitting_height_m(height_m: float, count: int, stall_width_m: float) -> floa
     return height_m if height_m <= most else int(most / _HEIGHT_STEP_M) * _HEIGHT_STEP_M
 
 
-def _along_m(stall: Stall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:
+def _along_m(stall: PlacedStall, place: NumberPlace, height_m: float, markings: MarkingsLook) -> tuple[float, float]:
     """Where the middle of a number on the floor lies along its stall, from its middle to the mouth, and its height."""
     half = stall.length_m / 2
     if place is NumberPlace.MIDDLE:
@@ -115,7 +115,7 @@ def _along_m(stall: Stall, place: NumberPlace, height_m: float, markings: Markin
     return half - _FROM_LINE_M - height_m / 2, height_m
 
 
-def _wall_behind_m(stall: Stall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
+def _wall_behind_m(stall: PlacedStall, grid: TileGrid, outside: NDArray[np.bool_]) -> float | None:
     """From the middle of a stall back to the outer wall on its square's rear edge; None without one there."""
     row, col = stall.edge.opposite.beyond(stall.square)
     rows, cols = outside.shape

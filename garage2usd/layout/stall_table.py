@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout.placement import Stall, StallUse, edge_yaw_rad, stall_name
+from garage2usd.layout.placement import PlacedStall, StallUse, edge_yaw_rad, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
@@ -19,7 +19,7 @@ _TYPE_NUMBERS = {stall_type: number for number, stall_type in enumerate(STALL_TY
 _USE_NUMBERS = {use: number for number, use in enumerate(STALL_USES)}
 
 
-class StallTable(Table[Stall]):
+class StallTable(Table[PlacedStall]):
     """The stalls of a garage: a sequence of them, and their columns as arrays.
 
     Attributes
@@ -36,7 +36,7 @@ class StallTable(Table[Stall]):
         What people read, as ASCII; shape (n,).
     """
 
-    def __init__(self, stalls: Iterable[Stall]) -> None:
+    def __init__(self, stalls: Iterable[PlacedStall]) -> None:
         stalls = tuple(stalls)
         self.square = np.array([stall.square for stall in stalls], dtype=np.int32).reshape(-1, 2)
         self.ordinal = np.array([stall.ordinal for stall in stalls], dtype=np.uint16)
@@ -72,7 +72,7 @@ class StallTable(Table[Stall]):
         rows, cols = self.square.T.tolist()
         return list(map(stall_name, zip(rows, cols, strict=True), self.ordinal.tolist()))
 
-    def at(self, rows: NDArray[np.intp]) -> list[Stall]:
+    def at(self, rows: NDArray[np.intp]) -> list[PlacedStall]:
         """The stalls in some rows."""
         columns = (
             self.square,
@@ -85,7 +85,7 @@ class StallTable(Table[Stall]):
             self.number,
         )
         return [
-            Stall(
+            PlacedStall(
                 square=(row, col),
                 ordinal=ordinal,
                 edge=EDGES[edge],

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.layout.placement import Stall
+from garage2usd.layout.placement import PlacedStall
 from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["tight_stalls"]
@@ -13,7 +13,7 @@ _ROOMY_AISLE_M, _ROOMY_STALL_M = 5.5, 2.3
 _ROUNDING_M = 1e-6
 
 
-def tight_stalls(graph: LaneSquares, stalls: Iterable[Stall]) -> tuple[Stall, ...]:
+def tight_stalls(graph: LaneSquares, stalls: Iterable[PlacedStall]) -> tuple[PlacedStall, ...]:
     """Stalls of which it is in doubt whether the design car gets into them, in their order."""
     return tuple(
         stall

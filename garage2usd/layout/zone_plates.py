@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from garage2usd.layout.grounds import Grounds, grounds_of
 from garage2usd.layout.nearness import distances_m
-from garage2usd.layout.placement import Placement, Stall, cos_sin, edge_yaw_rad, of_spec, placed, to_world
+from garage2usd.layout.placement import PlacedStall, Placement, cos_sin, edge_yaw_rad, of_spec, placed, to_world
 from garage2usd.layout.zones import Zones
 from garage2usd.objects.column import ColumnSpec
 from garage2usd.objects.outline import Point
@@ -65,7 +65,7 @@ def zone_plates(
     columns: Iterable[Placement],
     walls: Iterable[Placement],
     blocks: Iterable[Placement],
-    stalls: Iterable[Stall],
+    stalls: Iterable[PlacedStall],
     zones: Zones,
 ) -> list[Placement]:
     """Plates on columns and walls, such that the nearest one to each stall is that of its zone.

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-from garage2usd.layout.placement import Stall
+from garage2usd.layout.placement import PlacedStall
 from garage2usd.structure.grid import Structure
 from garage2usd.structure.lane_graph import Square
 
@@ -41,7 +41,7 @@ class Zones:
         return Zone(_LETTERS[col // self._side], row // self._side + 1)
 
 
-def with_numbers(stalls: Iterable[Stall], zones: Zones | None) -> tuple[Stall, ...]:
+def with_numbers(stalls: Iterable[PlacedStall], zones: Zones | None) -> tuple[PlacedStall, ...]:
     """The same stalls with their numbers, counted through each zone, or through the garage if it has no zones.
 
     Stalls in which nobody parks get no number.

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout import Layout, Stall
+from garage2usd.layout import Layout, PlacedStall
 from garage2usd.objects import KINDS, Spec
 from garage2usd.objects.number_plate import KIND as NUMBER_PLATE
 from garage2usd.objects.number_plate import NumberPlateSpec
@@ -125,7 +125,7 @@ def _placed_text(name: str, header: str, x: float, y: float, z: float, yaw_deg: 
     return instance_text(name, header, place_text(x, y, z, yaw_deg))
 
 
-def _stall_text(stall: Stall, *, is_taken: bool) -> str:
+def _stall_text(stall: PlacedStall, *, is_taken: bool) -> str:
     """What a stall is as attributes of its prim; corners are (x, z) in the world.
 
     That a car stands in it says the class that it inherits from, as variants of the garage take the cars away.

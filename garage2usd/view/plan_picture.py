@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CarBody
-from garage2usd.layout import Layout, Placement, Stall, StallUse
+from garage2usd.layout import Layout, PlacedStall, Placement, StallUse
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation
@@ -49,7 +49,9 @@ _DIGIT = re.compile(r"\d")
 _ROUTE_ASIDE_M, _ROUTE_WIDTH_M, _ROUTE_INTO_STALL_M = 0.45, 0.45, 0.3
 
 
-def draw_plan(layout: Layout, graph: LaneSquares, *, stall: Stall | None = None, marks: Sequence[Mark] = ()) -> Drawing:
+def draw_plan(
+    layout: Layout, graph: LaneSquares, *, stall: PlacedStall | None = None, marks: Sequence[Mark] = ()
+) -> Drawing:
     """Draw a layout from above, +X to the right and +Z down, its first square's corner at (0, 0).
 
     Parameters
@@ -158,7 +160,7 @@ def _car_outline(car: Placement, body: CarBody) -> list[Point]:
     return [car.to_world(point) for point in shape]
 
 
-def _number(stall: Stall) -> Text:
+def _number(stall: PlacedStall) -> Text:
     """The number of a stall, level and beside its mouth, so that the stall's middle stays clear."""
     # all digits as wide as the widest, so that few are measured
     width = text_width(_DIGIT.sub("8", stall.number), _NUMBER_M)
@@ -179,7 +181,7 @@ def _building(layout: Layout) -> Iterator[Region | Line]:
             yield Region(place.outlines()[0], INK, kind)
 
 
-def _route(graph: LaneSquares, stall: Stall) -> Iterator[Region | Line]:
+def _route(graph: LaneSquares, stall: PlacedStall) -> Iterator[Region | Line]:
     """Both routes on the right side of the lanes, and the stall with a frame."""
     route = route_of(graph, stall)
     corners = stall.corners_m()

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from garage2usd.errors import ConfigError
 from garage2usd.garage import LaneKind
-from garage2usd.layout import Layout, Stall
+from garage2usd.layout import Layout, PlacedStall
 from garage2usd.spelling import called
 from garage2usd.structure.lane_graph import LaneSquares, Square
 
@@ -21,7 +21,7 @@ class Route:
     from_stall: tuple[Square, ...]
 
 
-def find_stall(layout: Layout, number: str) -> Stall:
+def find_stall(layout: Layout, number: str) -> PlacedStall:
     """The stall of a number (``B2-07``) or an id (``Stall_r03_c07_2``), in letters of whatever case.
 
     Raises
@@ -37,7 +37,7 @@ def find_stall(layout: Layout, number: str) -> Stall:
     raise ConfigError("stall", number, known)
 
 
-def route_of(graph: LaneSquares, stall: Stall) -> Route:
+def route_of(graph: LaneSquares, stall: PlacedStall) -> Route:
     """The shortest routes from any entrance to a stall and from it to any exit, not through another portal."""
 
     def nearest(kind: LaneKind) -> list[Square]:
