@@ -24,6 +24,7 @@ from garage2usd.datasets.difficulty import stall_difficulties
 from garage2usd.driving import prove_stalls
 from garage2usd.errors import Garage2UsdError
 from garage2usd.exports import export
+from garage2usd.layout import Layout
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.pipeline import build
 from garage2usd.reading.files import open_stage
@@ -97,9 +98,7 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
         garage, graph = built.garage, built.garage.graph
         structure = garage.plan.structure
         found["plan"] = _digest([str(structure), structure.column_widths_mm.tolist(), structure.row_depths_mm.tolist()])
-        found["layout"] = _digest(
-            [[repr(stall) for stall in garage.layout.stalls], [repr(each) for each in garage.layout.placements]]
-        )
+        found["layout"] = layout_digest(garage.layout)
         found["svg"] = _digest(to_svg(draw_plan(garage.layout, graph)))
         report = json.loads(built.report.read_text())
         del report["seconds"]
@@ -124,6 +123,11 @@ def digests_of(settings: Mapping[str, Any]) -> dict[str, str]:
         found["difficulty"] = _digest([_plain(asdict(each)) for each in stall_difficulties(garage, proofs=proofs)])
         found["drive"] = _digest(_drive(built.stage))
     return found
+
+
+def layout_digest(layout: Layout) -> str:
+    """Digest of the stalls and the objects of a layout, whatever their classes are called."""
+    return _digest([repr(each).partition("(")[2] for each in (*layout.stalls, *layout.placements)])
 
 
 def _drive(stage: Path) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""All objects and lights of a stage in metres, Y up, as the rules look at them."""
+"""All objects and lights of a stage in metres, Y up."""
 
 from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""What is not convex seen from above, in convex parts."""
+"""Convex parts of outlines that are not convex."""
 
 import numpy as np
 import shapely

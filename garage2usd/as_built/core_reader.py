@@ -1,4 +1,4 @@
-"""What meshes say of stair cores: their doors, and the lanes that these open onto."""
+"""Doors of stair cores, found in meshes, and the lanes that they open onto."""
 
 from collections import defaultdict
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A garage that is checked, as plain geometry that a car drives in."""
+"""The ground of a garage as built that a car drives on, and the obstacles on it."""
 
 import math
 from collections.abc import Collection, Iterator, Mapping
@@ -41,7 +41,7 @@ _DIGITS = 4
 def driven_garage(
     garage: BuiltGarage, *, height_m: float = CAR_HEIGHT_M, left_out: Collection[str] = ()
 ) -> DrivenGarage:
-    """The stalls, the lanes by direction, and what stands on the floor; each thing by its prim path.
+    """Assemble the garage that is driven in: stalls, lanes, and each obstacle by its prim path.
 
     Parameters
     ----------

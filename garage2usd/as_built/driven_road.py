@@ -1,4 +1,4 @@
-"""A garage that is checked, as plain geometry that a car drives through from portal to portal."""
+"""The road through a garage as built, from portal to portal."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -64,7 +64,7 @@ class Mouth(NamedTuple):
 
 
 def driven_road(garage: BuiltGarage, *, car: DesignCar | None = None, height_m: float = CAR_HEIGHT_M) -> DrivenRoad:
-    """The road of a garage that is checked.
+    """Find the road through a garage.
 
     Parameters
     ----------

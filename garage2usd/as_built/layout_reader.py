@@ -1,4 +1,4 @@
-"""A layout, and a plan that could not be laid out, as a garage."""
+"""Reads layouts, and plans that could not be laid out."""
 
 from functools import lru_cache
 
@@ -24,7 +24,7 @@ __all__ = ["garage_of_layout", "garage_without_layout"]
 def garage_of_layout(
     layout: Layout, graph: LaneSquares, *, source: str, kind: str, faults: tuple[Fault, ...] = ()
 ) -> BuiltGarage:
-    """Everything that a layout tells; what only lies on the floor is left out."""
+    """Read a layout; objects that only lie on the floor are left out."""
     lux = layout.illuminance
     return BuiltGarage(
         source=source,
@@ -45,7 +45,7 @@ def garage_of_layout(
 def garage_without_layout(
     structure: Structure, graph: LaneSquares, bay: BayConfig, *, source: str, kind: str, faults: tuple[Fault, ...]
 ) -> BuiltGarage:
-    """What a plan tells that cannot be laid out: stalls and lanes, no objects and no light."""
+    """Read a plan that cannot be laid out: stalls and lanes, no objects and no light."""
     return BuiltGarage(
         source=source,
         kind=kind,

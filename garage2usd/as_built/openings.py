@@ -1,4 +1,4 @@
-"""What meshes say of vehicle doors and ramps: the opening that cars drive through, and slopes along a ramp."""
+"""Openings of vehicle doors and slopes of ramps, measured on their meshes."""
 
 from collections.abc import Iterable, Iterator
 from itertools import groupby

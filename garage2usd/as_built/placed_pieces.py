@@ -1,4 +1,4 @@
-"""Pieces of many placed meshes at once: one by one they take most of the time of what asks for them."""
+"""Pieces of many placed meshes, found at once, as one by one takes too long."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Reports and plan files as a garage; a plan with faults is read as far as it goes, so that rules name them."""
+"""Reads reports and plans; a plan with faults is read as far as it goes, so that rules name them."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -40,7 +40,7 @@ def garage_of_plan(path: Path, *, profile: Profile | None = None) -> tuple[Built
     Returns
     -------
     tuple
-        What is checked, and the configuration that it was laid out with.
+        The garage, and the configuration that it was laid out with.
 
     Raises
     ------

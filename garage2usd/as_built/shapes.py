@@ -1,4 +1,4 @@
-"""Meshes as what stands or hangs in a garage: convex pieces with an outline seen from above and two heights."""
+"""Meshes of objects, and their convex pieces as outlines seen from above with two heights."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -11,6 +11,8 @@ from statistics import median
 from typing import NamedTuple
 
 import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
 
 __all__ = ["DEAD_END_LIMIT_M", "Arc", "DeadEnd", "LaneEdge", "LaneGraph", "LaneKind", "LaneNode", "Point"]
 
@@ -133,6 +135,11 @@ class LaneGraph:
 
     nodes: tuple[LaneNode, ...]
     edges: tuple[LaneEdge, ...]
+
+    @cached_property
+    def positions_m(self) -> NDArray[np.float64]:
+        """(x, z) of each node; float64, shape (nodes, 2)."""
+        return np.array([node.position for node in self.nodes], dtype=np.float64).reshape(-1, 2)
 
     @cached_property
     def arcs(self) -> dict[Arc, LaneEdge]:

@@ -104,7 +104,7 @@ def _way(layout: Layout, graph: LaneSquares) -> NDArray[np.float64]:
         for entrance in layout.structure.where(Cell.ENTRANCE)
     )
     way = min(next(filter(None, found)), key=graph.length_m)
-    return graph.middles_m[[graph.number_of[square] for square in way]]
+    return graph.lanes.positions_m[[graph.number_of[square] for square in way]]
 
 
 def _drive(camera: Sdf.PrimSpec, layer: Sdf.Layer, way: NDArray[np.float64]) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Kind, Sdf, UsdGeom, Vt
 
+from garage2usd.garage import LaneGraph
 from garage2usd.layout import Layout, StallTable
 from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
@@ -49,29 +50,29 @@ def write_lane_graph(path: Path, layout: Layout, graph: LaneSquares) -> None:
         group = define(layer, root, "Xform", kind=Kind.Tokens.group)
         attribute(group, "purpose", _TYPES.Token, UsdGeom.Tokens.guide, uniform=True)
         _author_nodes(layer, root.AppendChild("Nodes"), graph)
-        _author_edges(layer, root.AppendChild("Edges"), graph)
+        _author_edges(layer, root.AppendChild("Edges"), graph.lanes)
         _author_stalls(layer, root.AppendChild(STALL_OUTLINES[-1]), layout, graph)
 
 
 def _author_nodes(layer: Sdf.Layer, path: Sdf.Path, graph: LaneSquares) -> None:
     angles = np.arange(_NODE_CORNERS) * math.tau / _NODE_CORNERS
     ring = _NODE_RADIUS_M * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    prim = _author_curves(layer, path, graph.middles_m[:, None] + ring, closed=True)
-    kind_of = dict(graph.graph.nodes(data="kind"))
-    words(prim, "garage:lane:kind", (kind_of[square].value for square in graph.number_of))
-    _author_squares(prim, "garage:lane", graph.squares)
-    attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(graph.clear_m.astype(np.float32)))
+    prim = _author_curves(layer, path, graph.lanes.positions_m[:, None] + ring, closed=True)
+    words(prim, "garage:lane:kind", (node.kind for node in graph.lanes.nodes))
+    _author_squares(prim, "garage:lane", np.array([*graph.number_of], dtype=np.int32).reshape(-1, 2))
+    widths_m = np.array([node.widths_m for node in graph.lanes.nodes], dtype=np.float32)
+    attribute(prim, "garage:lane:widths", _TYPES.Float2Array, Vt.Vec2fArray.FromNumpy(widths_m))
 
 
-def _author_edges(layer: Sdf.Layer, path: Sdf.Path, graph: LaneSquares) -> None:
-    ends = np.array([(edge.start, edge.end) for edge in graph.lanes.edges], dtype=np.int32).reshape(-1, 2)
-    lines = graph.middles_m[ends]
+def _author_edges(layer: Sdf.Layer, path: Sdf.Path, lanes: LaneGraph) -> None:
+    ends = np.array([(edge.start, edge.end) for edge in lanes.edges], dtype=np.int32).reshape(-1, 2)
+    lines = lanes.positions_m[ends]
     prim = _author_curves(layer, path, lines, closed=False)
     numbers(prim, "garage:lane:from", ends[:, 0])
     numbers(prim, "garage:lane:to", ends[:, 1])
-    words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in graph.lanes.edges))
+    words(prim, "garage:lane:direction", ("forward" if edge.one_way else "both" for edge in lanes.edges))
     numbers(prim, "garage:lane:length", np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1))
-    numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in graph.lanes.edges]))
+    numbers(prim, "garage:lane:width", np.array([edge.width_m for edge in lanes.edges]))
 
 
 def _author_stalls(layer: Sdf.Layer, path: Sdf.Path, layout: Layout, graph: LaneSquares) -> None:

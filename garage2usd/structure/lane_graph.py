@@ -8,7 +8,6 @@ from functools import cached_property
 
 import networkx as nx
 import numpy as np
-from numpy.typing import NDArray
 
 from garage2usd.config import BayConfig
 from garage2usd.errors import UnreachableStallError
@@ -57,45 +56,15 @@ class LaneSquares:
     stall_rows: tuple[StallRow, ...]
 
     @cached_property
-    def squares(self) -> NDArray[np.int32]:
-        """(row, col) of each node; int32, shape (nodes, 2)."""
-        return np.array(sorted(self.graph.nodes), dtype=np.int32).reshape(-1, 2)
-
-    @cached_property
     def number_of(self) -> dict[Square, int]:
         """Number of the node on each square that has one."""
-        return {(row, col): number for number, (row, col) in enumerate(self.squares.tolist())}
-
-    @cached_property
-    def middles_m(self) -> NDArray[np.float64]:
-        """(x, z) of the middle of each node's square; float64, shape (nodes, 2)."""
-        nodes = (self.graph.nodes[square] for square in self.number_of)
-        return np.array([(node["x_m"], node["z_m"]) for node in nodes], dtype=np.float64).reshape(-1, 2)
-
-    @cached_property
-    def sides_m(self) -> NDArray[np.float64]:
-        """Extent of each node's square along X and Z; float64, shape (nodes, 2)."""
-        rows, cols = self.squares.T
-        sides: NDArray[np.float64] = (
-            np.stack([self.structure.column_widths_mm[cols], self.structure.row_depths_mm[rows]], axis=1) / 1000
-        )
-        return sides
-
-    @cached_property
-    def clear_m(self) -> NDArray[np.float64]:
-        """Metres between the columns across X and Z on each node's square; float64, shape (nodes, 2)."""
-        clear: NDArray[np.float64] = self.sides_m - 2 * self.setback_m
-        return clear
+        return {square: number for number, square in enumerate(sorted(self.graph.nodes))}
 
     @cached_property
     def lanes(self) -> LaneGraph:
         """The lanes in metres; one-way from an entrance and into an exit, else driven both ways."""
         kinds = list(map(self.kind, self.number_of))
-        columns = (self.number_of, kinds, self.middles_m.tolist(), self.clear_m.tolist(), self.sides_m.tolist())
-        nodes = tuple(
-            LaneNode(kind.value, (x, z), (clear_x, clear_z), f"[{row}, {col}]", sides_m=(side_x, side_z))
-            for (row, col), kind, (x, z), (clear_x, clear_z), (side_x, side_z) in zip(*columns, strict=True)
-        )
+        nodes = tuple(map(self._node, self.number_of, kinds))
         edges = []
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
             start, end = self.number_of[first], self.number_of[second]
@@ -105,6 +74,13 @@ class LaneSquares:
             # squares that join in a line have the same side across it: R and C are constant along lines
             edges.append(LaneEdge(start, end, nodes[start].widths_m[first[1] != second[1]], one_way))
         return LaneGraph(nodes, tuple(edges))
+
+    def _node(self, square: Square, kind: LaneKind) -> LaneNode:
+        about, (row, col) = self.graph.nodes[square], square
+        side_x, side_z = self.structure.column_widths_mm[col] / 1000, self.structure.row_depths_mm[row] / 1000
+        clear_m = float(side_x - 2 * self.setback_m), float(side_z - 2 * self.setback_m)
+        sides_m = float(side_x), float(side_z)
+        return LaneNode(kind.value, (about["x_m"], about["z_m"]), clear_m, f"[{row}, {col}]", sides_m=sides_m)
 
     def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
         """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""

@@ -76,8 +76,10 @@ def test_dead_ends_are_those_of_the_squares(seed):
 def test_the_lanes_of_a_plan_are_its_squares_in_metres():
     garage = garage2usd.generate(seed=4)
     squares, lanes = garage.graph, garage.graph.lanes
+    columns_m, rows_m = squares.structure.column_edges_m, squares.structure.row_edges_m
     assert [node.kind for node in lanes.nodes] == [squares.kind(square) for square in squares.number_of]
-    assert [node.position for node in lanes.nodes] == list(map(tuple, squares.middles_m.tolist()))
+    for (row, col), (x, z) in zip(squares.number_of, lanes.positions_m.tolist(), strict=True):
+        assert (x, z) == pytest.approx((sum(columns_m[col : col + 2]) / 2, sum(rows_m[row : row + 2]) / 2))
     setback_m = garage.config.bay.carriageway_setback_m
     for edge in lanes.edges:
         kinds = [lanes.nodes[end].kind for end in (edge.start, edge.end)]
