@@ -1,15 +1,21 @@
 """A garage without a grid: a slanted one-way aisle with angled stalls, which driving and maps take as it is."""
 
 import math
+import xml.etree.ElementTree as ET
 
 import pytest
 import shapely
+from support.opendrive_reader import OpenDrive
 
 from garage2usd.as_built import BuiltGarage
+from garage2usd.config.maps import MapsConfig
 from garage2usd.driving import DesignCar, prove_garage
 from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.garage import LaneEdge, LaneGraph, LaneNode, Stall, StallKind, StallUse
+from garage2usd.maps.frame import map_point
+from garage2usd.maps.lanelet2 import write_lanelet2
 from garage2usd.maps.network import RIGHT
+from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.road_builder import network_of
 
 AISLE_M, PITCH_M = 4.6, 2.5 / math.sin(math.pi / 3)
@@ -72,3 +78,29 @@ def test_its_roads_have_one_lane():
     network = network_of(BuiltGarage("by hand", "plan", lanes, stalls))
     assert {road.lanes for road in network.roads} == {(RIGHT,)}
     assert sum(road.line.length_m for road in network.roads) == pytest.approx(40.0 + 4.6, abs=0.7)
+
+
+def test_its_stalls_lie_in_opendrive_and_lanelet2_where_they_are(tmp_path):
+    lanes, stalls = garage_at(0.4)
+    garage = BuiltGarage("by hand", "plan", lanes, stalls)
+    write_opendrive(garage, tmp_path / "map.xodr", MapsConfig())
+    road_map = OpenDrive(tmp_path / "map.xodr")
+    found = {}
+    for road in road_map.roads.values():
+        for item in road.iter("object"):
+            s, t, turn = (float(item.get(name)) for name in ("s", "t", "hdg"))
+            (x, y), heading = road_map.place(road, s, t)
+            cos, sin = math.cos(heading + turn), math.sin(heading + turn)
+            local = [(float(corner.get("u")), float(corner.get("v"))) for corner in item.iter("cornerLocal")]
+            found[item.get("name")] = {
+                (round(x + u * cos - v * sin, 3), round(y + u * sin + v * cos, 3)) for u, v in local
+            }
+    assert found == {
+        stall.name: {(round(x, 3), round(y, 3)) for x, y in map(map_point, stall.corners)} for stall in stalls
+    }
+    write_lanelet2(garage, tmp_path / "map.osm", MapsConfig())
+    map_ = ET.parse(tmp_path / "map.osm").getroot()
+    subtypes = [
+        tag.get("v") for relation in map_.iter("relation") for tag in relation.iter("tag") if tag.get("k") == "subtype"
+    ]
+    assert subtypes.count("parking") == len(stalls)
