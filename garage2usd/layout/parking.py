@@ -12,7 +12,7 @@ from garage2usd.config.look import MarkingsLook
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.ghost_lines import ghosts_on_stall
 from garage2usd.layout.markings import hatching
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad
 from garage2usd.layout.stall_lines import stall_lines
 from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
 from garage2usd.objects.panel import Surface
@@ -54,6 +54,7 @@ def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[Place
             centre_m=_middle(tile, stall_rectangle(tile, place.row, place.slot, bay)),
             width_m=bay.stall_width_m,
             length_m=bay.stall_length_m,
+            yaw_rad=edge_yaw_rad(place.row.edge),
         )
         for tile in grid
         for place in grid.stall_places.get(tile.square, [])

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from garage2usd.garage import StallUse
@@ -94,6 +94,8 @@ class PlacedStall:
         (x, z) of its middle.
     width_m, length_m
         Its size between the lines' middles.
+    yaw_rad
+        Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z.
     use
         What it is for.
     number
@@ -107,6 +109,7 @@ class PlacedStall:
     centre_m: Point
     width_m: float
     length_m: float
+    yaw_rad: float = field(repr=False)
     use: StallUse = StallUse.STANDARD
     number: str = ""
 
@@ -119,11 +122,6 @@ class PlacedStall:
     def access_square(self) -> Square:
         """(row, col) of the lane square beyond the mouth."""
         return self.edge.beyond(self.square)
-
-    @property
-    def yaw_rad(self) -> float:
-        """Turn about +Y; at 0 the mouth looks to +Z and a car parked nose-in looks to -Z."""
-        return edge_yaw_rad(self.edge)
 
     def placement(
         self,

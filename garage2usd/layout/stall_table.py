@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.layout.placement import PlacedStall, StallUse, edge_yaw_rad, stall_name
+from garage2usd.layout.placement import PlacedStall, StallUse, stall_name
 from garage2usd.layout.table import Table
 from garage2usd.structure.grid import NEIGHBOUR_STEPS
 from garage2usd.structure.lane_graph import StallType
@@ -32,6 +32,8 @@ class StallTable(Table[PlacedStall]):
         Number of each in `EDGES`, `STALL_TYPES` and `STALL_USES`; uint8, shape (n,).
     centre_m, size_m
         (x, z) of the middle, and width and length; float64, shape (n, 2).
+    yaw_rad
+        Turn of each about +Y; float64, shape (n,).
     number
         What people read, as ASCII; shape (n,).
     """
@@ -45,16 +47,12 @@ class StallTable(Table[PlacedStall]):
         self.use = np.array([_USE_NUMBERS[stall.use] for stall in stalls], dtype=np.uint8)
         self.centre_m = np.array([stall.centre_m for stall in stalls], dtype=np.float64).reshape(-1, 2)
         self.size_m = np.array([(stall.width_m, stall.length_m) for stall in stalls]).reshape(-1, 2)
+        self.yaw_rad = np.array([stall.yaw_rad for stall in stalls], dtype=np.float64)
         self.number = np.array([stall.number for stall in stalls], dtype=np.bytes_)
 
     def __len__(self) -> int:
         """Number of stalls."""
         return len(self.edge)
-
-    @property
-    def yaw_rad(self) -> NDArray[np.float64]:
-        """Turn of each about +Y; float64, shape (n,)."""
-        return np.array([edge_yaw_rad(edge) for edge in EDGES])[self.edge]
 
     @property
     def takes_cars(self) -> NDArray[np.bool_]:
@@ -81,6 +79,7 @@ class StallTable(Table[PlacedStall]):
             self.stall_type,
             self.centre_m,
             self.size_m,
+            self.yaw_rad,
             self.use,
             self.number,
         )
@@ -93,10 +92,11 @@ class StallTable(Table[PlacedStall]):
                 centre_m=(x, z),
                 width_m=width,
                 length_m=length,
+                yaw_rad=yaw,
                 use=STALL_USES[use],
                 number=number.decode("ascii"),
             )
-            for (row, col), ordinal, edge, stall_type, (x, z), (width, length), use, number in zip(
+            for (row, col), ordinal, edge, stall_type, (x, z), (width, length), yaw, use, number in zip(
                 *(column[rows].tolist() for column in columns), strict=True
             )
         ]
