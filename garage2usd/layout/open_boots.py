@@ -7,7 +7,7 @@ import shapely
 
 from garage2usd.assets.car_boot import has_boot
 from garage2usd.layout.grounds import grounds_of
-from garage2usd.layout.placement import Placement, Stall
+from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.objects.car import CarSpec, OpenCarSpec
 from garage2usd.randomness import Step, named_generator
 
@@ -27,7 +27,7 @@ def opened(car: Placement) -> Placement:
 
 def stalls_of_open_boots(
     placements: Iterable[Placement],
-    stalls: Iterable[Stall],
+    stalls: Iterable[PlacedStall],
     *,
     swept: Mapping[str, shapely.Geometry],
     per_hundred: float,

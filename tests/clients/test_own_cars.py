@@ -92,7 +92,7 @@ def test_checks_and_scenarios_take_each_class_for_parked_cars(own):
     assert subject.cars.keys() == own.cars.keys()
     assert all(home is not None for _, home in subject.cars.values())
     assert len(parked_cars(subject)) == len(own.cars)
-    taken = {stall.name for stall in driven_garage(subject).stalls if stall.absent is None}
+    taken = driven_garage(subject).taken
     assert {car.stall for car in own.cars.values()} <= taken
     findings, _ = check_file(own.built.stage)
     amiss = {"stall-blocked", "car-outside-stall", "lane-blocked"}

@@ -12,15 +12,11 @@ from support.driving_simulation import simulate
 from garage2usd.driving import (
     DesignCar,
     DrivenGarage,
-    DrivenStall,
-    LaneDirections,
     LanePose,
-    LaneSquare,
     Limits,
     Obstacles,
     Outcome,
     Pose,
-    SquareUse,
     find_way,
     prove_garage,
     way_search,
@@ -28,6 +24,7 @@ from garage2usd.driving import (
 from garage2usd.driving.search import Task, reeds_shepp_words, search
 from garage2usd.driving.way_search import find_way_by_steps
 from garage2usd.driving.witness import write_witness
+from garage2usd.garage import LaneEdge, LaneGraph, LaneNode, Stall, StallUse
 
 CAR = DesignCar()
 RADIUS_M = CAR.rear_axle_radius_m
@@ -131,11 +128,13 @@ def test_a_parallel_stall_hardly_longer_than_the_car_takes_many_short_moves():
 def street(spare_m):
     """A garage of one stall along a lane that is driven one way, to -Z."""
     shapes = parallel(spare_m)[2]
-    uses = (SquareUse.ENTRANCE, SquareUse.LANE, SquareUse.LANE, SquareUse.EXIT)
-    squares = [LaneSquare((-3.3, 12.0 - 8.0 * number), (4.4, 8.0), use) for number, use in enumerate(uses)]
-    directions = LaneDirections(tuple(squares), {(0, 1): 2.8, (1, 2): 2.8, (2, 3): 2.8})
+    kinds = ("entrance", "straight", "straight", "exit")
+    nodes = [LaneNode(kind, (-3.3, 12.0 - 8.0 * number), (4.4, 8.0), str(number)) for number, kind in enumerate(kinds)]
+    lanes = LaneGraph(tuple(nodes), tuple(LaneEdge(number, number + 1, 2.8, one_way=True) for number in range(3)))
     standing = Obstacles.of((str(number), shape) for number, shape in enumerate(shapes))
-    return DrivenGarage((DrivenStall("A1-01", (0.0, 0.0), 0.0, 1, None),), directions, standing)
+    corners = ((-1.0, 2.5), (1.0, 2.5), (1.0, -2.5), (-1.0, -2.5))
+    stall = Stall("A1-01", corners, StallUse.STANDARD, 1)
+    return DrivenGarage((stall,), lanes, standing, frozenset({stall.name}))
 
 
 def test_a_stall_that_steps_do_not_reach_is_proven_by_the_guided_search():
