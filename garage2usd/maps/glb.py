@@ -25,6 +25,7 @@ from garage2usd.reading.looks import MeshLooks
 from garage2usd.reading.meshes import DRAWN_TYPES, Triangles
 from garage2usd.reading.objects import DrawnPart, Matrix, PlacedObject, once_for_each_look
 from garage2usd.reading.remarks import Remarks
+from garage2usd.reading.surfaces import SurfaceLook
 from garage2usd.reading.values import metres_per_unit, metres_y_up
 from garage2usd.reading.walk import placed_objects
 
@@ -33,6 +34,8 @@ __all__ = ["write_glb"]
 _STALLS = "stalls"
 _STALL = "parking_stall"
 _IDENTITY = np.eye(4)
+_MATTE = 0.5
+"""Roughness from which on a surface mirrors nothing that is told apart."""
 
 
 def write_glb(
@@ -161,7 +164,9 @@ class _Looks:
     def __init__(self, remarks: Remarks) -> None:
         self._looks = MeshLooks(remarks=remarks)
         self.pictures = self._looks.pictures
-        self._facets_of = cache(lambda mesh: tuple(by_facets(self._looks.meshes.values[mesh])))
+        self._facets_of = cache(
+            lambda mesh, is_matte: tuple(by_facets(self._looks.meshes.values[mesh], is_matte=is_matte))
+        )
         self._moved: dict[tuple[Triangles, bytes], Triangles] = {}
         self._joined = cache(joined)
         self._outline_of = cache(_outline)
@@ -176,7 +181,7 @@ class _Looks:
             if kind in DRAWN_TYPES:
                 for mesh, surface in self._looks.of_part(placed, part):
                     is_bumpy = bool(surfaces[surface].normal_texture)
-                    for is_faceted, triangles in self._facets_of(mesh):
+                    for is_faceted, triangles in self._facets_of(mesh, _is_matte(surfaces[surface])):
                         own = self._placed(triangles, part.matrix)
                         key = surface, own.double_sided, is_faceted and not is_bumpy, own.colours is not None
                         alike.setdefault(key, []).append(own)
@@ -205,6 +210,10 @@ class _Looks:
         if key not in self._moved:
             self._moved[key] = moved_triangles(triangles, matrix)
         return self._moved[key]
+
+
+def _is_matte(surface: SurfaceLook) -> bool:
+    return surface.roughness >= _MATTE and surface.metallic <= 1 - _MATTE and not surface.clearcoat
 
 
 def _outline(triangles: Triangles) -> NDArray[np.float64]:

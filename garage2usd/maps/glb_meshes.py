@@ -30,7 +30,7 @@ _SQUARE = 1e-6
 """By how much the cosine between two axes may differ from that of a right angle: single precision."""
 _SMALLEST = 1e-12
 _FACET_RAD, _MOST_RAD = 1.4e-3, math.radians(10)
-"""By how much the normals of a faceted triangle may tilt from its own: all of them, and those of narrow ones."""
+"""By how much the normals of a faceted triangle may tilt from its own: any, and a narrow matte one."""
 _NARROW_M, _OFF_M = 0.03, 1e-3
 """Narrow triangles are lower than this; their normals tell of a surface that is no more than so much off."""
 _WELDED = 0.95
@@ -145,17 +145,20 @@ def _distinct(rows: NDArray[np.float32]) -> tuple[NDArray[np.intp], NDArray[np.i
     return order[differs], inverse
 
 
-def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
+def by_facets(mesh: Triangles, *, is_matte: bool = False) -> Iterator[tuple[bool, Triangles]]:
     """Split off the triangles at which all normals are as good as their own: those are faceted.
+
+    Parameters
+    ----------
+    mesh
+        The triangles.
+    is_matte
+        Whether their surface mirrors nothing, so that it is not seen whether narrow ones are smooth.
 
     Yields
     ------
     tuple
         Whether they are faceted, and the triangles.
-
-    Notes
-    -----
-    Whether triangles as narrow as the edges of trim are smooth is not seen.
     """
     corners = mesh.positions_m.T.astype(np.float64)[:, mesh.indices]
     sides = corners - np.roll(corners, 1, axis=2)
@@ -163,7 +166,7 @@ def by_facets(mesh: Triangles) -> Iterator[tuple[bool, Triangles]]:
     doubled = np.sqrt((areas**2).sum(axis=0))
     height = doubled / np.maximum(np.sqrt((sides**2).sum(axis=0)).max(axis=1), _SMALLEST)
     narrow = np.clip(_OFF_M / np.maximum(height, _SMALLEST), _FACET_RAD, _MOST_RAD)
-    tilt = np.where(height < _NARROW_M, narrow, _FACET_RAD)
+    tilt = np.where(is_matte & (height < _NARROW_M), narrow, _FACET_RAD)
     least = doubled * np.cos(tilt)
     are_faceted = np.ones(len(mesh.indices), dtype=bool)
     for normals in mesh.normals.T[:, mesh.indices.T].transpose(1, 0, 2):

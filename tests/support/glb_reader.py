@@ -239,7 +239,9 @@ class _Drawn:
             finish = material.GetAttribute("garage:material:finish")
             name = finish.Get() if finish else material.GetName()
             materials.add((name, bool(UsdGeom.Mesh(prim).GetDoubleSidedAttr().Get())))
-            smooth.append(_smooth_corners(prim, self._matrix(prim)))
+            roughness = material.GetChild("Surface").GetAttribute("inputs:roughness").Get()
+            is_matte = roughness is None or roughness >= 0.5
+            smooth.append(_smooth_corners(prim, self._matrix(prim), is_matte=is_matte))
         return materials, np.concatenate(smooth)
 
 
@@ -258,10 +260,10 @@ def _fans(counts):
     return np.stack([first, first + following, first + following + 1], axis=1)
 
 
-def _smooth_corners(prim, matrix):
+def _smooth_corners(prim, matrix, *, is_matte):
     """World place and normal of the corners of triangles whose normals are not the triangle's; shape (n, 6).
 
-    Those of triangles so narrow that nobody sees whether they are smooth are left out.
+    Those of matte triangles so narrow that nobody sees whether they are smooth are left out.
     """
     mesh = UsdGeom.Mesh(prim)
     primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
@@ -278,7 +280,7 @@ def _smooth_corners(prim, matrix):
     height = area / np.linalg.norm(sides, axis=2).max(axis=1)
     tilt = np.arccos(np.clip(cosine, -1, 1)).max(axis=1)
     narrow = (height < NARROW_M) & (tilt * height < BAND_OFF_M) & (tilt < MOST_TILT_RAD)
-    kept = (cosine < 0.999) & (area > 0)[:, None] & ~narrow[:, None]
+    kept = (cosine < 0.999) & (area > 0)[:, None] & ~(narrow & is_matte)[:, None]
     return np.hstack([own[fans[kept]], normals[fans[kept]]])
 
 

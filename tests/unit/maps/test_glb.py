@@ -45,10 +45,10 @@ def test_it_is_the_stage(made, tmp_path):
 
 
 @each_sample
-def test_it_is_the_stage_of_a_sample_and_as_large(sample, builds, tmp_path):
+def test_it_is_the_stage_of_a_sample_and_little_larger(sample, builds, tmp_path):
     built = builds(sample, "usdz")
     judge(write_glb, built, tmp_path)
-    assert (tmp_path / "garage.glb").stat().st_size <= 1.05 * built.stage.stat().st_size
+    assert (tmp_path / "garage.glb").stat().st_size <= 1.1 * built.stage.stat().st_size
 
 
 def strip(width_m, tilt_deg):
@@ -71,8 +71,10 @@ def strip(width_m, tilt_deg):
         (0.002, 11, False),
     ],
 )
-def test_narrow_triangles_are_smooth_where_that_is_more_than_a_millimetre(width_m, tilt_deg, is_faceted):
-    assert [found for found, _ in by_facets(strip(width_m, tilt_deg))] == [is_faceted]
+def test_narrow_matte_triangles_are_smooth_where_that_is_more_than_a_millimetre(width_m, tilt_deg, is_faceted):
+    mesh = strip(width_m, tilt_deg)
+    assert [found for found, _ in by_facets(mesh, is_matte=True)] == [is_faceted]
+    assert [found for found, _ in by_facets(mesh)] == [tilt_deg == 0.0]
 
 
 def test_faceted_and_smooth_triangles_of_a_material_share_their_places(made, tmp_path):
