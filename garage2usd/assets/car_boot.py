@@ -21,12 +21,8 @@ __all__ = ["has_boot", "open_boot_box", "with_open_boot", "with_rear_swung_up"]
 
 _Plane = tuple[tuple[float, float, float], float]
 """Normal and distance: what is inside has `normal @ point >= distance`."""
-_CUT = frozenset(
-    {
-        *("Body", "Cabin", "Glass", "RearGlass", "Pillars", "Seams", "Trim", "Bright"),
-        *("TailLamps", "ReverseLamps", "LampHousings", "PlateHolders"),
-    }
-)
+_CUT_SKIN = ("Body", "Cabin", "Glass", "RearGlass", "Pillars")
+_CUT = frozenset((*_CUT_SKIN, "Seams", "Trim", "Bright", "TailLamps", "ReverseLamps", "LampHousings", "PlateHolders"))
 """Parts of a car that a boot's shut line runs through."""
 _PANELS = ("Body", "Cabin")
 """Those of them that have an inside."""
