@@ -718,7 +718,7 @@ SHAPES: dict[str, SideView] = _USUAL | {
     "muscle_coupe": _changed(
         _SALOON,
         (0.53, 0.675, 0.69, 0.725, 0.69),
-        roof=_roof(0.335, 0.47, 0.625, 0.825, 0.965),
+        roof=_roof(0.335, 0.475, 0.635, 0.885, 0.965),
         pillars=(0.625,),
         window_run_out_m=0.55,
         clearance_m=0.15,
