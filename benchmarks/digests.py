@@ -37,7 +37,7 @@ QUICK = ("plain_1", "angled_contour_2", "given_loop", "two_portals_3", "uk_1", "
 """Eight of them, which touch most of the road."""
 
 _PROFILES = ("cn-jgj100", "de-garvo", "uk-istructe", "us-ada")
-_LOOP = "......\n.===E.\n.=.=..\n.=.=..\n.===X.\n......"
+_LOOP = "......\n.====E\n.=..=.\n.=..=.\n.====X\n......"
 _SMALL = "....\nE==X\n...."
 _DEAD_END = "......\nE====X\n..=...\n..=...\n......"
 
