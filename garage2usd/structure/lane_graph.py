@@ -64,7 +64,19 @@ class LaneSquares:
     def lanes(self) -> LaneGraph:
         """The lanes in metres; one-way from an entrance and into an exit, else driven both ways."""
         kinds = list(map(self.kind, self.number_of))
-        nodes = tuple(map(self._node, self.number_of, kinds))
+        structure, margin_m = self.structure, 2 * self.setback_m
+        widths_m = (structure.column_widths_mm / 1000).tolist()
+        depths_m = (structure.row_depths_mm / 1000).tolist()
+        nodes = tuple(
+            LaneNode(
+                kind.value,
+                (self.graph.nodes[row, col]["x_m"], self.graph.nodes[row, col]["z_m"]),
+                (widths_m[col] - margin_m, depths_m[row] - margin_m),
+                f"[{row}, {col}]",
+                sides_m=(widths_m[col], depths_m[row]),
+            )
+            for (row, col), kind in zip(self.number_of, kinds, strict=True)
+        )
         edges = []
         for first, second in sorted((min(pair), max(pair)) for pair in self.graph.edges):
             start, end = self.number_of[first], self.number_of[second]
@@ -74,13 +86,6 @@ class LaneSquares:
             # squares that join in a line have the same side across it: R and C are constant along lines
             edges.append(LaneEdge(start, end, nodes[start].widths_m[first[1] != second[1]], one_way))
         return LaneGraph(nodes, tuple(edges))
-
-    def _node(self, square: Square, kind: LaneKind) -> LaneNode:
-        about, (row, col) = self.graph.nodes[square], square
-        side_x, side_z = self.structure.column_widths_mm[col] / 1000, self.structure.row_depths_mm[row] / 1000
-        clear_m = float(side_x - 2 * self.setback_m), float(side_z - 2 * self.setback_m)
-        sides_m = float(side_x), float(side_z)
-        return LaneNode(kind.value, (about["x_m"], about["z_m"]), clear_m, f"[{row}, {col}]", sides_m=sides_m)
 
     def shortest_way(self, start: Square, end: Square) -> list[Square] | None:
         """The shortest route between two lanes or portals in metres, through no other portal; None if there is none."""
