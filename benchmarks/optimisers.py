@@ -36,9 +36,9 @@ SETTINGS: dict[str, tuple[PlanConfig, BayConfig]] = {
 }
 STEPS = {
     "hill climbing": "climbed",
-    "annealing by whole plans": "annealed",
-    "annealing of flips": "drifted",
-    "annealing by labels": "annealed_under_rules",
+    "annealing by whole plans": "annealed_whole",
+    "annealing of flips": "annealed_by_flips",
+    "annealing by labels": "annealed_by_labels",
 }
 """The methods of `LocalSearch`."""
 

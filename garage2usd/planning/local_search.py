@@ -70,8 +70,8 @@ site."""
 
 # annealing without rules: distances are those of the last measurement, which is why there is one every so many rounds
 # over the squares; large sites, whose plans are nearer to the bound, start cooler
-_DRIFTED, _DRIFT_FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
-_DRIFT_HOTTEST, _DRIFT_HOTTEST_LARGE, _DRIFT_COLDEST = 0.6, 0.3, 0.1
+_FLIPPED, _FLIPS, _REFRESH_ROUNDS = 2, 1_600_000, 20
+_FLIP_HOTTEST, _FLIP_HOTTEST_LARGE, _FLIP_COLDEST = 0.6, 0.3, 0.1
 
 
 def local_search(
@@ -96,16 +96,16 @@ def local_search(
         sizes.price[0] = ground.weights[0] / _STALL_M2
     search = LocalSearch(ground, board, sizes, random, min(1.0, plan.episodes / _FULL_EPISODES))
     if not uses_aisles(ground, plan):
-        ranked = search.annealed(search.climbed(search.valued(ranked), plan.climb_top))
+        ranked = search.annealed_whole(search.climbed(search.valued(ranked), plan.climb_top))
     elif not ground.rules.is_asked and not is_sized:
-        ranked = search.drifted(ranked)
+        ranked = search.annealed_by_flips(ranked)
     else:
         is_middle = len(ground.squares) <= _WHOLE_SQUARES
         ranked = search.valued(ranked)
         if is_middle:
-            ranked = search.valued(search.annealed(ranked))
+            ranked = search.valued(search.annealed_whole(ranked))
         if not is_middle or is_sized or faults_of(ground, board, ranked[0][1]):
-            ranked = search.annealed_under_rules(ranked)
+            ranked = search.annealed_by_labels(ranked)
     ranked = keeping_rules_first(ground, board, ranked)
     return least_floor_first(site, ground, ranked, bay) if is_sized else ranked
 
@@ -158,7 +158,7 @@ class LocalSearch:
         climbing = partial(self._improve, passes=_CLIMB_PASSES)
         return self._improved(ranked, ranked[: min(count, affordable)], climbing)
 
-    def annealed(self, ranked: list[Ranked]) -> list[Ranked]:
+    def annealed_whole(self, ranked: list[Ranked]) -> list[Ranked]:
         """Anneal the best plans by flips, each judged by the whole plan; best first."""
         is_small = self.squares <= _SMALL_SQUARES
         small, middle = (_ANNEALED_SIZED, _ANNEALED_SIZED_MIDDLE) if self.is_sized else (_ANNEALED, _ANNEALED_MIDDLE)
@@ -173,7 +173,7 @@ class LocalSearch:
         """Climb and anneal from the lanes on the board; their value."""
         return improve(self.ground, self.board, self.sizes, self.room, self.random, passes, flips, *heats)
 
-    def annealed_under_rules(self, ranked: list[Ranked]) -> list[Ranked]:
+    def annealed_by_labels(self, ranked: list[Ranked]) -> list[Ranked]:
         """Anneal the best plans under the rules of circulation by labelled moves; best first."""
         move = new_trial_move(self.ground)
         trials = int(np.clip(_LABEL_TRIALS_A_SQUARE * self.squares, *_LABEL_TRIALS) * self.effort)
@@ -194,14 +194,14 @@ class LocalSearch:
             ranked = self._improved(ranked, [starts[number % len(starts)]], annealing)
         return ranked
 
-    def drifted(self, ranked: list[Ranked]) -> list[Ranked]:
+    def annealed_by_flips(self, ranked: list[Ranked]) -> list[Ranked]:
         """Anneal the best plans by flips, each judged by the squares around it; best first."""
-        hottest = _DRIFT_HOTTEST if self.squares < _LARGE_SQUARES else _DRIFT_HOTTEST_LARGE
-        flips, refresh = int(_DRIFT_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
-        drifting = partial(
-            anneal_flips, self.ground, self.board, self.room.cells, self.random, flips, hottest, _DRIFT_COLDEST, refresh
+        hottest = _FLIP_HOTTEST if self.squares < _LARGE_SQUARES else _FLIP_HOTTEST_LARGE
+        flips, refresh = int(_FLIPS * self.effort), _REFRESH_ROUNDS * self.squares
+        annealing = partial(
+            anneal_flips, self.ground, self.board, self.room.cells, self.random, flips, hottest, _FLIP_COLDEST, refresh
         )
-        return self._improved(ranked, ranked[:_DRIFTED], drifting)
+        return self._improved(ranked, ranked[:_FLIPPED], annealing)
 
     def _improved(self, ranked: list[Ranked], starts: list[Ranked], improve: Callable[[], float]) -> list[Ranked]:
         """Improve some plans, and keep all as they were; best first."""
