@@ -28,13 +28,12 @@ typedef struct {
     double length[MOST_PIECES];
 } Word;
 
-/* Squares of the floor from least x and z on, and how far each is from a goal: -1 where it is shut, INFINITY where no
- * way leads; `reached` are all others. */
+/* Squares of the floor from least x and z on, as many one way as the other, with their side, and how far each is from a
+ * goal: -1 where it is shut, INFINITY where no way leads. */
 typedef struct {
     double *far;
     int64_t side;
-    double left, low;
-    int64_t reached;
+    double left, low, square;
 } Guide;
 
 /* An axis, and how far a hull goes along it. */

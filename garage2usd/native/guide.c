@@ -6,7 +6,9 @@
 
 #include "driving.h"
 
+/* Side of a square, where no more than so many lie side by side; else they are wider. */
 #define SQUARE_M 0.2
+#define MOST_SIDE_BY_SIDE 512
 #define HALF_DIAGONAL 0.7071067811865476
 #define DIAGONAL 1.4142135623730951
 
@@ -67,35 +69,39 @@ static double distance_to(const Spot *shape, int64_t count, double x, double z)
 }
 
 /* The first and the last of the rows or columns whose middles lie between two places. */
-static int64_t first_within(double low, double corner) { return (int64_t)ceil((low - corner) / SQUARE_M - 0.5); }
-static int64_t last_within(double high, double corner) { return (int64_t)floor((high - corner) / SQUARE_M - 0.5); }
+static int64_t first_within(double low, double side) { return (int64_t)ceil(low / side - 0.5); }
+static int64_t last_within(double high, double side) { return (int64_t)floor(high / side - 0.5); }
 
 static void shut(Guide *guide, const Scene *scene, double radius)
 {
     int64_t corners = scene->shapes.rows;
+    double square = guide->square;
     for (int64_t number = 0; number < scene->shapes.layers; number++) {
         const double *box = scene->boxes.at + number * 4;
         const Spot *shape = (const Spot *)scene->shapes.at + number * corners;
-        int64_t left = first_within(box[0] - radius, guide->left), right = last_within(box[2] + radius, guide->left);
-        int64_t low = first_within(box[1] - radius, guide->low), high = last_within(box[3] + radius, guide->low);
+        int64_t left = first_within(box[0] - radius - guide->left, square);
+        int64_t right = last_within(box[2] + radius - guide->left, square);
+        int64_t low = first_within(box[1] - radius - guide->low, square);
+        int64_t high = last_within(box[3] + radius - guide->low, square);
         for (int64_t row = low < 0 ? 0 : low; row <= high && row < guide->side; row++)
             for (int64_t column = left < 0 ? 0 : left; column <= right && column < guide->side; column++) {
                 double *far = &guide->far[row * guide->side + column];
-                double x = guide->left + (column + 0.5) * SQUARE_M, z = guide->low + (row + 0.5) * SQUARE_M;
+                double x = guide->left + (column + 0.5) * square, z = guide->low + (row + 0.5) * square;
                 if (*far >= 0 && distance_to(shape, corners, x, z) < radius)
                     *far = -1;
             }
     }
 }
 
-/* Spread over a square about a start from goals (heading, least x and z, most x and z); false where there is no memory.
- * `reached` gets how many squares do lead to a goal. */
+/* Spread over a square about a start from goals (heading, least x and z, most x and z); false where there is no
+ * memory. */
 bool make_guide(Guide *guide, const Scene *scene, Pose start, const DoubleTable *goals, double reach, double margin)
 {
-    guide->side = 2 * (int64_t)ceil((reach + SQUARE_M) / SQUARE_M);
-    guide->left = start.x - guide->side * SQUARE_M / 2;
-    guide->low = start.z - guide->side * SQUARE_M / 2;
-    guide->reached = 0;
+    double side = greater(SQUARE_M, 2 * reach / MOST_SIDE_BY_SIDE);
+    guide->square = side;
+    guide->side = 2 * (int64_t)ceil((reach + side) / side);
+    guide->left = start.x - guide->side * side / 2;
+    guide->low = start.z - guide->side * side / 2;
     int64_t count = guide->side * guide->side;
     guide->far = malloc(sizeof(double) * (size_t)count);
     Heap heap = {malloc(sizeof(Reached) * (size_t)count * 9), 0};
@@ -108,15 +114,15 @@ bool make_guide(Guide *guide, const Scene *scene, Pose start, const DoubleTable 
     for (int64_t square = 0; square < count; square++)
         guide->far[square] = INFINITY;
     const double *body = scene->body.at;
-    double radius = lesser(lesser(body[0], body[1]), body[2]) + margin - SQUARE_M * HALF_DIAGONAL;
+    double radius = lesser(lesser(body[0], body[1]), body[2]) + margin - side * HALF_DIAGONAL;
     if (radius > 0)
         shut(guide, scene, radius);
     for (int64_t number = 0; number < goals->rows; number++) {
         const double *goal = goals->at + number * 5;
         for (int64_t row = 0; row < guide->side; row++)
             for (int64_t column = 0; column < guide->side; column++) {
-                double x = guide->left + column * SQUARE_M, z = guide->low + row * SQUARE_M;
-                bool is_in = x <= goal[3] && x + SQUARE_M >= goal[1] && z <= goal[4] && z + SQUARE_M >= goal[2];
+                double x = guide->left + column * side, z = guide->low + row * side;
+                bool is_in = x <= goal[3] && x + side >= goal[1] && z <= goal[4] && z + side >= goal[2];
                 int64_t square = row * guide->side + column;
                 if (is_in && guide->far[square] > 0) {
                     guide->far[square] = 0;
@@ -128,14 +134,13 @@ bool make_guide(Guide *guide, const Scene *scene, Pose start, const DoubleTable 
         Reached from = take(&heap);
         if (from.far > guide->far[from.square])
             continue;
-        guide->reached++;
         int64_t row = from.square / guide->side, column = from.square % guide->side;
         for (int64_t down = -1; down <= 1; down++)
             for (int64_t right = -1; right <= 1; right++) {
                 if (row + down < 0 || row + down >= guide->side || column + right < 0 || column + right >= guide->side)
                     continue;
                 int64_t next = (row + down) * guide->side + column + right;
-                double far = from.far + (down != 0 && right != 0 ? DIAGONAL : 1) * SQUARE_M;
+                double far = from.far + (down != 0 && right != 0 ? DIAGONAL : 1) * side;
                 if (far < guide->far[next]) {
                     guide->far[next] = far;
                     add(&heap, (Reached){far, next});
@@ -149,7 +154,8 @@ bool make_guide(Guide *guide, const Scene *scene, Pose start, const DoubleTable 
 /* Way from a place to the nearest goal, INFINITY where there is none. */
 double guided_way(const Guide *guide, double x, double z)
 {
-    int64_t column = (int64_t)floor((x - guide->left) / SQUARE_M), row = (int64_t)floor((z - guide->low) / SQUARE_M);
+    int64_t column = (int64_t)floor((x - guide->left) / guide->square);
+    int64_t row = (int64_t)floor((z - guide->low) / guide->square);
     if (row < 0 || column < 0 || row >= guide->side || column >= guide->side)
         return INFINITY;
     double far = guide->far[row * guide->side + column];

@@ -107,7 +107,8 @@ WIDE_CIRCLE = {"turning_radius": {"value": 12.0, **M}}
     ("profile", "rules"),
     [
         (profile_with(**WIDE_CIRCLE), {"aisle-width"}),
-        (profile_without("aisle_width", **WIDE_CIRCLE), {"swept-path"}),
+        # the search for one of the stalls ends at its bound
+        (profile_without("aisle_width", **WIDE_CIRCLE), {"swept-path", "swept-path-undecided"}),
         (profile_without("aisle_width", "turning_radius", "design_car_height"), set()),
     ],
     ids=["by the rule of aisles", "by the car that does not get round", "not where the usual car gets round"],
