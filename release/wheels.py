@@ -33,7 +33,7 @@ PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 EXTRAS = ("dataset", "gymnasium", "sensors")
 """Those whose packages every system has; Blender's module is for one Python."""
 _SCENARIOS = "maps"
-_WITHOUT_SCENARIOS = {"linux-aarch64", "3.14"}
+_WITHOUT_SCENARIOS = {"linux-aarch64", "macos-arm64", "3.14"}
 """Systems and Pythons for which a package of OpenSCENARIO's has no wheel, so that a compiler makes it."""
 _MACHINES = {
     "linux-x86_64": "EM_X86_64",
