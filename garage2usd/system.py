@@ -37,6 +37,7 @@ __all__ = [
     "can_be_copied",
     "cores",
     "end_with",
+    "in_words",
     "is_console",
     "limit_memory",
     "limit_processor_s",
@@ -74,6 +75,12 @@ def cores() -> int:
     if sys.platform == "linux":
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def in_words() -> str:
+    """Name the system, its version and its kind of machine."""
+    libc = " ".join(platform.libc_ver()) if sys.platform == "linux" else ""
+    return " ".join(word for word in (platform.system(), platform.release(), platform.machine(), libc) if word)
 
 
 def can_be_copied() -> bool:

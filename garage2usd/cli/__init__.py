@@ -11,6 +11,7 @@ from garage2usd.cli.build import build
 from garage2usd.cli.check import check
 from garage2usd.cli.commands import Commands
 from garage2usd.cli.dataset import dataset
+from garage2usd.cli.doctor import doctor
 from garage2usd.cli.drive import drive
 from garage2usd.cli.export import export
 from garage2usd.cli.look import look
@@ -46,7 +47,7 @@ def main() -> None:
     """Generate underground parking garages and export them as OpenUSD stages."""
 
 
-for _command in (build, check, dataset, drive, export, look, meshes, plan, render, schema, textures, view):
+for _command in (build, check, dataset, doctor, drive, export, look, meshes, plan, render, schema, textures, view):
     main.add_command(_command)
 
 

@@ -186,6 +186,5 @@ class BoxTree:
 def _places(points_m: NDArray[np.float64]) -> NDArray[np.uint16]:
     """Places in steps of the box around all."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
-    steps = (points_m - low) / np.maximum(high - low, np.finfo(np.float64).tiny) * (_FINEST - 1)
-    places: NDArray[np.uint16] = steps.astype(np.uint16)
-    return places
+    sides = np.maximum(high - low, np.finfo(np.float64).tiny)
+    return np.asarray((points_m - low) / sides * (_FINEST - 1), dtype=np.uint16)

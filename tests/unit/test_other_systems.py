@@ -7,8 +7,10 @@ import subprocess
 import sys
 
 import pytest
+from click.testing import CliRunner
 from support.sample_files import REPOSITORY
 
+from garage2usd.cli import main
 from garage2usd.errors import ConfigError
 from garage2usd.output import check_file, check_name
 
@@ -69,6 +71,25 @@ def test_commands_run_and_make_the_same_garage(system, site):
         if path.name != "garage_report.json":  # which tells times
             assert (site / "there" / path.name).read_bytes() == path.read_bytes(), path.name
     assert not [path for path in site.rglob("*") if path.name.startswith(".")]
+
+
+def test_the_doctor_tells_of_the_same_garage(site):
+    reports = [run_as_on(system, site, "doctor", "--seeds", "1") for system in (None, "win32")]
+    for report in reports:
+        assert report.returncode == 0, (report.stdout, report.stderr)
+        assert "faults  none" in report.stdout
+    here, there = (re.search("seed 1  (.* driven)", report.stdout)[1] for report in reports)
+    assert here == there
+
+
+def test_the_doctor_finds_loops_that_cannot_be_loaded(monkeypatch):
+    def load():
+        raise RuntimeError("loops.so is stale")
+
+    monkeypatch.setattr("garage2usd.native.load", load)
+    run = CliRunner().invoke(main, ["doctor"])
+    assert run.exit_code == 1
+    assert run.output.splitlines()[-1].endswith("faults  loops: loops.so is stale")
 
 
 def test_a_data_set_is_made_and_verified(system, site):

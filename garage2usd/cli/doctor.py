@@ -1,0 +1,123 @@
+"""``garage2usd doctor``."""
+
+import hashlib
+import sys
+import time
+from collections.abc import Iterable
+
+import click
+
+from garage2usd.cli.parameters import echo_table
+from garage2usd.errors import Garage2UsdError
+from garage2usd.system import HAS_EMBREE, in_words
+from garage2usd.version import VERSION
+
+__all__ = ["doctor"]
+
+_PACKAGES = {"numpy": "NumPy", "scipy": "SciPy", "shapely": "Shapely", "usd-core": "USD"}
+_SIDES = 7, 9
+_DIGITS = 12
+
+
+@click.command()
+@click.option(
+    "--seeds",
+    metavar="N",
+    type=click.IntRange(1, 1000),
+    default=3,
+    show_default=True,
+    help="How many garages are made, of the seeds from 1 on.",
+)
+def doctor(*, seeds: int) -> None:
+    """Check this installation and print a report: packages, compiled loops, rays, Blender and small garages.
+
+    Each garage is planned, built, checked and driven in a temporary folder. The digests of its plan, its files and its
+    ways tell whether two machines make the same. Exit code 1 if something that is installed does not work.
+
+    \b
+    Example:
+      garage2usd doctor > report.txt
+    """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.native import LIBRARY, load  # noqa: PLC0415 - keeps --help instant
+
+    python = ".".join(map(str, sys.version_info[:3]))
+    echo_table([("garage2usd", f"{VERSION}, Python {python}, {in_words()}"), ("packages", _versions())])
+    faults: list[str] = []
+    try:
+        load()
+        echo_table([("loops", LIBRARY.name)])
+    except (OSError, RuntimeError) as error:
+        faults.append(f"loops: {error}")
+    echo_table([("rays", _rays()), ("Blender", _blender())])
+    for seed in range(1, seeds + 1) if not faults else ():
+        begun = time.perf_counter()
+        try:
+            told, wrong = _garage(seed)
+        except Garage2UsdError as error:
+            faults.append(f"seed {seed}: {error}")
+            continue
+        faults += [f"seed {seed}: {each}" for each in wrong]
+        echo_table([(f"seed {seed}", f"{told}, {time.perf_counter() - begun:.1f} s")])
+    echo_table([("faults", fault) for fault in faults] or [("faults", "none")])
+    if faults:
+        raise click.exceptions.Exit(1)
+
+
+def _versions() -> str:
+    from importlib.metadata import version  # noqa: PLC0415 - keeps --help instant
+
+    return ", ".join(f"{words} {version(name)}" for name, words in _PACKAGES.items())
+
+
+def _rays() -> str:
+    from garage2usd.extras import RAYS, is_there  # noqa: PLC0415 - keeps --help instant
+
+    if not all(is_there(module) for module in RAYS):
+        return "not installed (extra sensors)"
+    return "by Embree" if HAS_EMBREE else "by NumPy, slowly, as embreex has no package for this machine"
+
+
+def _blender() -> str:
+    from garage2usd.extras import is_there  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.render.blender_process import find_blender, modules_of  # noqa: PLC0415
+
+    blender = find_blender()
+    missing = [module for module in modules_of(blender) if not is_there(module)]
+    if missing:
+        return f"not there: {', '.join(missing)} (extra blender)"
+    return "the Python module bpy" if blender.program is None else str(blender.program)
+
+
+def _garage(seed: int) -> tuple[str, list[str]]:
+    """Make a garage: what is told of it, and what is wrong with it."""
+    from garage2usd.checks import Severity, check_file  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.config import GarageConfig  # noqa: PLC0415
+    from garage2usd.driving import prove_stalls  # noqa: PLC0415
+    from garage2usd.driving.witness import write_witness  # noqa: PLC0415
+    from garage2usd.output import staging_folder  # noqa: PLC0415
+    from garage2usd.pipeline import build  # noqa: PLC0415
+    from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415
+
+    height, width = _SIDES
+    config = GarageConfig(seed=seed, site={"width_cells": width, "height_cells": height})
+    with staging_folder() as folder:
+        made = build(config, folder / "garage.usdc")
+        files = [path for path in folder.rglob("*") if path.is_file() and path != made.report]
+        stage = _digest((path.relative_to(folder).as_posix(), path.read_bytes()) for path in files)
+        findings, _ = check_file(made.stage)
+        proofs = prove_stalls(made.garage.layout, made.garage.graph)
+        ways = folder / "ways.json"
+        write_witness(ways, proofs)
+        driven = _digest([(ways.name, ways.read_bytes())])
+    wrong = [f"{each.rule}: {each.place} {each.message}" for each in findings if each.severity is Severity.ERROR]
+    plan = plan_digest(made.garage.layout.structure.cells)[:_DIGITS]
+    proven = sum(proof.is_proven for proof in proofs)
+    return f"plan {plan}, stage {stage}, ways {driven}, {proven} of {len(proofs)} stalls driven", wrong
+
+
+def _digest(named: Iterable[tuple[str, bytes]]) -> str:
+    """Digest files with their names, in the order of these."""
+    sums = hashlib.sha256()
+    for name, data in sorted(named):
+        sums.update(f"{name} {len(data)}\n".encode() + data)
+    return sums.hexdigest()[:_DIGITS]
