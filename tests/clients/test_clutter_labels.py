@@ -7,13 +7,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from garage2usd.checks.plan_reader import plan_subject
-from garage2usd.checks.stage_reader import subject_of_stage
 from PIL import Image
 from support.label_tables import labelled_objects
 from support.unity import layer, reader
 
 import garage2usd
+from garage2usd.as_built.plan_reader import garage_of_plan
+from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import OpenCarSpec
@@ -89,7 +89,7 @@ def test_stage_and_report_are_judged_as_the_garage(made):
     assert any(isinstance(place.spec, OpenCarSpec) for place in built.garage.layout.placements)
     expected = Counter(finding.rule for finding in built.findings)
     profile = built.garage.config.standard
-    for subject in (subject_of_stage(made.stage, source="stage"), plan_subject(built.report)[0]):
+    for subject in (garage_of_stage(made.stage, source="stage"), garage_of_plan(built.report)[0]):
         assert Counter(finding.rule for finding in check(subject, profile)) == expected, subject.source
 
 

@@ -11,7 +11,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from garage2usd.checks.driven_ground import driven_garage
 from PIL import Image
 from support.browser import find_browser
 from support.foreign_cars import write_glb, write_parts, write_z_up
@@ -23,6 +22,7 @@ from support.unity import layer, reader
 from support.viewer_page import viewed
 
 import garage2usd
+from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.checks import check_file, read_subject
 from garage2usd.config import GarageConfig
 from garage2usd.exports import export
