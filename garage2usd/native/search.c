@@ -4,10 +4,10 @@
  * heading. Headings are whole multiples of 3 degrees (or what is asked) off the lanes' own, so that a lane's heading is
  * met exactly; a car parked askew comes onto one of them with its first arc.
  *
- * A guided search tries words of Reeds and Shepp to the goals from each place that is looked at. What is left of the way
- * is then the greater of two (D. Dolgov, S. Thrun, M. Montemerlo, J. Diebel: Path planning for autonomous vehicles in
- * unknown semi-structured environments, 2010): the cheapest word, which knows how the car turns, and the way of the rear
- * axle round all that stands, which does not. */
+ * A guided search tries words of Reeds and Shepp to the goals from each place that is looked at. What is left of the
+ * way is then the greater of two (D. Dolgov, S. Thrun, M. Montemerlo, J. Diebel: Path planning for autonomous vehicles
+ * in unknown semi-structured environments, 2010): the cheapest word, which knows how the car turns, and the way of the
+ * rear axle round all that stands, which does not. */
 #include <stdlib.h>
 
 #include "driving.h"
