@@ -9,3 +9,5 @@ _MODULE = importlib.util.module_from_spec(_SPEC)
 _SPEC.loader.exec_module(_MODULE)
 
 compile_loops = _MODULE.compile_loops
+asked_target = _MODULE._asked_target
+LIBRARY, TARGETS = _MODULE.LIBRARY, _MODULE.TARGETS

@@ -8,8 +8,10 @@ import sys
 
 import pytest
 from click.testing import CliRunner
+from support.hatch_building import LIBRARY, TARGETS, asked_target
 from support.sample_files import REPOSITORY
 
+from garage2usd import native
 from garage2usd.cli import main
 from garage2usd.errors import ConfigError
 from garage2usd.output import check_file, check_name
@@ -146,6 +148,17 @@ def test_long_paths_are_refused_where_there_is_a_limit(tmp_path, monkeypatch):
     monkeypatch.setattr("garage2usd.output.LONGEST_PATH", 200)
     with pytest.raises(ConfigError, match="a path of at most 200 characters"):
         check_file(place)
+
+
+def test_a_wheel_is_made_for_a_target_that_there_is(monkeypatch):
+    assert LIBRARY == native.LIBRARY
+    for name, target in TARGETS.items():
+        monkeypatch.setenv("GARAGE2USD_TARGET", name)
+        assert asked_target() is target
+    assert {target.suffix for target in TARGETS.values()} == {".so", ".dylib", ".dll"}
+    monkeypatch.setenv("GARAGE2USD_TARGET", "amiga")
+    with pytest.raises(SystemExit, match="GARAGE2USD_TARGET: got 'amiga'; allowed: linux-x86_64, linux-aarch64, macos"):
+        asked_target()
 
 
 def text_writers(tree):
