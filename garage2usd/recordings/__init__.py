@@ -1,4 +1,5 @@
 """What the sensors of a rig record along a drive: pictures with ground truth, points, masks and calibration."""
+# Over 300 lines: the road of a recording, and all that is refused before its work.
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
@@ -233,7 +234,7 @@ def check_recording(
         has_around_view = any(isinstance(camera, AroundViewCamera) for camera in rig.cameras)
         check_slots(slots, kinds, has_ground_view=birds_eye is not None or has_around_view)
     check_sequences(sequences, rig, kinds, formats)
-    without = WITHOUT_MODULE + (", and none for LiDARs alone: --points without --only" if rig.lidars else "")
+    without = WITHOUT_MODULE + ("; not for LiDARs alone: --points without --only" if rig.lidars else "")
     draws = modules_of(find_blender(blender)) if rig.cameras else ()
     require(f"the rig {rig.name}", [*draws, *_modules_for(rig, sequences, birds_eye)], without=without)
     return kinds, formats
