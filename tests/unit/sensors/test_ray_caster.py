@@ -8,8 +8,10 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.reading.labels import read_labels
 from garage2usd.sensors import ray_caster
+from garage2usd.sensors.ego_mask import ego_mask
 from garage2usd.sensors.ray_caster import BoxTree, _Embree
 from garage2usd.sensors.ray_scene import read_ray_scene
+from garage2usd.sensors.rig import read_rig
 
 SINGLE_M = 1e-4
 """How far apart two surfaces may be of which single precision does not tell the nearer one."""
@@ -81,3 +83,13 @@ def test_a_garage_gives_the_same_hits_as_by_embree(builds, monkeypatch):
     assert hit.mean() > 0.5
     assert found.range_m[hit] == pytest.approx(expected.range_m[hit], abs=SINGLE_M)
     assert (found.triangle[hit] == expected.triangle[hit]).mean() > 0.98
+
+
+def test_the_mask_of_the_own_car_is_the_same(monkeypatch):
+    rig = read_rig("avp_surround").scaled(0.1)
+    camera = rig.cameras[0]
+    expected = ego_mask(camera, rig.body)
+    monkeypatch.setattr(ray_caster, "HAS_EMBREE", False)
+    found = ego_mask(camera, rig.body)
+    assert 0.01 < found.mean() < 0.9
+    assert (found == expected).mean() > 0.999
