@@ -16,18 +16,19 @@ from garage2usd.structure.grid import Structure
 
 __all__ = ["optimisers"]
 
-SITES, FIRST_SEED = 8, 71_125_000
-"""Seeds on which nothing was tuned."""
+FIRST_SEED = 71_125_000
+"""Seeds from it on are held out: nothing was tuned on them."""
 WORTH_PERCENT, TIME_PERCENT = 0.2, 10.0
 """An optimiser does not pay that gains less than this share of the stalls for more than this share of the time."""
 ROUNDING = 1e-6
 
 IRREGULAR = {"min_fill": 0.55, "min_obstacle_distance_cells": 4, "min_portal_distance_cells": 8}
-SIZES: dict[str, dict[str, object]] = {
-    "7 x 9": {"height_cells": 7, "width_cells": 9},
-    "12 x 16": {"height_cells": 12, "width_cells": 16, "rectangles": 5, "obstacles": 3, **IRREGULAR},
-    "24 x 32": {"height_cells": 24, "width_cells": 32, "rectangles": 5, "obstacles": 6, **IRREGULAR},
+SIZES: dict[str, tuple[int, dict[str, object]]] = {
+    "7 x 9": (24, {"height_cells": 7, "width_cells": 9}),
+    "12 x 16": (8, {"height_cells": 12, "width_cells": 16, "rectangles": 5, "obstacles": 3, **IRREGULAR}),
+    "24 x 32": (8, {"height_cells": 24, "width_cells": 32, "rectangles": 5, "obstacles": 6, **IRREGULAR}),
 }
+"""How many sites of each size, and their settings."""
 EQUAL = BayConfig(dimensioned=False)
 SETTINGS: dict[str, tuple[PlanConfig, BayConfig]] = {
     "rules, equal squares": (PlanConfig(), EQUAL),
@@ -57,7 +58,7 @@ class Figures(NamedTuple):
 def optimisers() -> str:
     """One row for each optimiser that takes part in plans of a size under some settings."""
     rows = [
-        f"## Optimisers, {SITES} held-out sites of each size, with and without",
+        f"## Optimisers on {sum(count for count, _ in SIZES.values())} held-out sites, with and without",
         "",
         (
             "Means over the sites of plans with all optimisers, and of plans with one left out; its gain in stalls, or "
@@ -106,14 +107,20 @@ def _rows(size: str, setting: str) -> Iterator[str]:
 def _made(size: str, setting: str, planner: Planner) -> list[Figures]:
     plan, bay = SETTINGS[setting]
     made = []
-    for seed in range(FIRST_SEED, FIRST_SEED + SITES):
-        site = make_site(SiteConfig(**SIZES[size]), bay=bay, seed=seed)
+    for seed, site in _sites(size, bay):
         start = time.process_time()
         found = planner(site, plan, bay, seed)
         seconds = time.process_time() - start
         floor = area_per_stall_m2(found.structure, bay)
         made.append(Figures(found.score.stalls, floor, found.score.value, seconds))
     return made
+
+
+def _sites(size: str, bay: BayConfig) -> Iterator[tuple[int, Structure]]:
+    """Each seed of a size with its site."""
+    count, settings = SIZES[size]
+    for seed in range(FIRST_SEED, FIRST_SEED + count):
+        yield seed, make_site(SiteConfig(**settings), bay=bay, seed=seed)
 
 
 def _mean(made: list[Figures]) -> Figures:
@@ -177,8 +184,7 @@ def _exact() -> Iterator[str]:
     for setting in ("rules, equal squares", "no rules, equal squares"):
         plan, bay = SETTINGS[setting]
         pairs = []
-        for seed in range(FIRST_SEED, FIRST_SEED + SITES):
-            site = make_site(SiteConfig(**SIZES["7 x 9"]), bay=bay, seed=seed)
+        for seed, site in _sites("7 x 9", bay):
             start = time.process_time()
             made = _planned(site, plan, bay, seed)
             middle = time.process_time()
@@ -194,5 +200,5 @@ def _exact() -> Iterator[str]:
         )
         yield (
             f"| {setting} | {best_stalls:.1f} | {made_stalls:.1f} | {best_value:.2f} | {made_value:.2f} "
-            f"| {optimal} of {SITES} | {best_s:.2f} | {made_s:.2f} |"
+            f"| {optimal} of {len(pairs)} | {best_s:.2f} | {made_s:.2f} |"
         )
