@@ -77,7 +77,7 @@ def configurations() -> Iterator[tuple[str, dict[str, Any]]]:
         "no_dead_ends": {"plan": {"dead_ends": "forbid"}},
         "marked": {"plan": {"unreachable_stalls": "mark"}, "bay": {"aisle_width_m": 5.0}},
         "nested": {"stage": {"form": "nested"}},
-        "refused": {"bay": {"aisle_width_m": 5.0}},
+        "narrow": {"bay": {"aisle_width_m": 5.0}},
         "cores": {"fittings": {"stair_cores": False}},
         "pairs": {"fittings": {"wheel_stops": "pairs", "speed_bump_rate": 1.0, "cone_rate": 0.2}},
     }

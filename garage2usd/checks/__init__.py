@@ -37,7 +37,6 @@ from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [
     "RULES",
-    "BuiltGarage",
     "Finding",
     "Rule",
     "Severity",

@@ -15,6 +15,7 @@ from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import AISLE
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
 from garage2usd.errors import ConfigError
+from garage2usd.garage import StallUse
 from garage2usd.layout.access import barriers, ramp_lights, with_ramps
 from garage2usd.layout.boards import with_boards
 from garage2usd.layout.building import columns, ground_inside, outer_walls
@@ -38,7 +39,7 @@ from garage2usd.layout.overhead import exit_signs, mirrors
 from garage2usd.layout.own_cars import with_own_cars
 from garage2usd.layout.parked_cars import park_cars
 from garage2usd.layout.parking import stall_panels, stalls_of, wheel_stops, with_turning_stalls
-from garage2usd.layout.placement import PlacedStall, Placement, StallUse
+from garage2usd.layout.placement import PlacedStall, Placement
 from garage2usd.layout.puddles import puddles
 from garage2usd.layout.services import cable_trays, ducts, sprinklers
 from garage2usd.layout.signs import country_of, with_signs_of
@@ -65,7 +66,6 @@ __all__ = [
     "PlacedStall",
     "Placement",
     "StallTable",
-    "StallUse",
     "lay_out",
 ]
 

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from garage2usd.config.vehicles import CarBody
-from garage2usd.layout import Layout, PlacedStall, Placement, StallUse
+from garage2usd.garage import StallUse
+from garage2usd.layout import Layout, PlacedStall, Placement
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import CarSpec
 from garage2usd.planning import MeasuredCirculation, measured_circulation

@@ -4,7 +4,8 @@ import shapely
 from support.footprints import footprint
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout import StallUse, lay_out
+from garage2usd.garage import StallUse
+from garage2usd.layout import lay_out
 from garage2usd.layout.designation import use_symbol
 from garage2usd.layout.markings import zebra
 from garage2usd.objects.stall_number import NumberSpec

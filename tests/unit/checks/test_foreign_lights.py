@@ -64,7 +64,7 @@ def test_intensity_and_exposure_count(made):
 def test_lights_of_others_light_the_floor(kind, made):
     """A small lamp over one point is its candela over the square of its height, and less aside."""
     stage = switched_off(edited(made))
-    nodes = [node for node in garage_of_stage(stage, source="stage").nodes if not node.is_portal]
+    nodes = [node for node in garage_of_stage(stage, source="stage").lanes.nodes if not node.is_portal]
     (x, z), height = nodes[0].position, 3.0
     light = kind.Define(stage, "/Lamp")
     light.CreateIntensityAttr(1000.0)

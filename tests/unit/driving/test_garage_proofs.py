@@ -19,7 +19,8 @@ from garage2usd.driving.lane_poses import lane_poses
 from garage2usd.driving.layout_garage import layout_garage, object_name
 from garage2usd.driving.witness import write_witness
 from garage2usd.errors import ConfigError
-from garage2usd.layout import StallUse, lay_out
+from garage2usd.garage import StallUse
+from garage2usd.layout import lay_out
 from garage2usd.stage.driving_layer import write_driving_layer
 from garage2usd.structure.grid import Cell
 

@@ -181,7 +181,7 @@ def test_slots_of_a_stage_with_z_up_in_centimetres(stage, tmp_path):
     for one, other in zip(plain.slots, held_slots.slots, strict=True):
         x, y, z = one.corners_m.T
         assert np.abs(other.corners_m - np.stack([x + 3, -z - 2, y + 4.5], axis=1)).max() < 1e-4
-        assert other.angle_deg == pytest.approx(90.0, abs=0.01)
+        assert other.stall.angle_deg == pytest.approx(90.0, abs=0.01)
 
 
 def test_a_stage_without_stalls_is_refused(tmp_path):
