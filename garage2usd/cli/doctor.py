@@ -19,7 +19,7 @@ _SIDES = 7, 9
 _DIGITS = 12
 
 
-@click.command()
+@click.command(short_help="Check this installation and print a report.")
 @click.option(
     "--seeds",
     metavar="N",
