@@ -268,7 +268,7 @@ def test_what_is_drawn_is_said_before_and_how_long_a_picture_takes_when_one_is(b
     monkeypatch.setattr(drawing.time, "monotonic", lambda: next(seconds))
     jobs = []
 
-    def pretend(job, _folder, done):
+    def pretend(job, _folder, done, _blender):
         jobs.append(job)
         for samples in (0, 3, 8, 9, 24):
             done(samples)
