@@ -14,7 +14,8 @@ from garage2usd.assets.car_patches import Faces, flat
 from garage2usd.assets.car_shapes import SHAPES
 from garage2usd.assets.car_shell import Shell, both_sides, grid_quads
 from garage2usd.assets.cars import car
-from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part
+from garage2usd.assets.manifold import with_manifold_points
+from garage2usd.assets.mesh import Asset, Collider, Face, Part, make_part, next_corners
 from garage2usd.config.vehicles import CarBody
 
 __all__ = ["has_boot", "open_boot_box", "with_open_boot", "with_rear_swung_up"]
@@ -137,7 +138,9 @@ def with_open_boot(asset: Asset, body: CarBody) -> Asset:
                 rim.append(_band(edges[:, ::-1], _RIM))
     moved = [replace(part, collider=Collider.CONVEX_HULL) if part.name == "BootBody" else part for part in moved]
     well = make_part("BootWell", [*np.concatenate(rim), *flat(_well(boot))], "interior_dark", crease_deg=30.0)
-    return replace(asset, parts=(*kept, *moved, well))
+    uncut = {id(part) for part in asset.parts}
+    parts = [part if id(part) in uncut else with_manifold_points(part) for part in (*kept, *moved, well)]
+    return replace(asset, parts=tuple(parts))
 
 
 @lru_cache(maxsize=64)
@@ -242,9 +245,7 @@ def _halves(face: Face, normal: NDArray[np.float64], distance: float) -> tuple[F
 
 def _border(part: Part) -> NDArray[np.float64]:
     """The edges of a part that no other face shares, as its faces run; float64, shape (edges, 2, 3)."""
-    ends = np.cumsum(part.face_counts)
-    after = np.arange(len(part.face_indices)) + 1
-    after[ends - 1] = ends - part.face_counts
+    after = next_corners(part.face_counts.astype(np.int64))
     edges = np.stack([part.face_indices, part.face_indices[after]], axis=1)
     known = set(map(tuple, edges.tolist()))
     border = [edge for edge in edges.tolist() if (edge[1], edge[0]) not in known]

@@ -18,7 +18,9 @@ __all__ = [
     "Collider",
     "Face",
     "Part",
+    "area_vectors",
     "make_part",
+    "next_corners",
     "pascal_case",
     "unique_rows",
 ]
@@ -168,7 +170,7 @@ def make_part(
     used, flat = np.unique(flat, return_inverse=True)
     points, flat = points[used], flat.ravel()
 
-    area = _area_vectors(points[flat], counts)
+    area = area_vectors(points[flat], counts)
     unit = area / np.linalg.norm(area, axis=1, keepdims=True)
     normals, normal_indices = _distinct_normals(_corner_normals(flat, counts, area, unit, crease_deg))
     look = MATERIALS[material]
@@ -220,7 +222,7 @@ def _clean_loops(
     flat, face_of = flat[keep], face_of[keep]
     counts = np.bincount(face_of, minlength=len(counts))
     solid = counts >= _MIN_CORNERS
-    solid[solid] = np.linalg.norm(_area_vectors(points[flat[solid[face_of]]], counts[solid]), axis=1) > MIN_AREA_M2
+    solid[solid] = np.linalg.norm(area_vectors(points[flat[solid[face_of]]], counts[solid]), axis=1) > MIN_AREA_M2
     return flat[solid[face_of]], counts[solid]
 
 
@@ -232,7 +234,15 @@ def _previous(counts: NDArray[np.int64]) -> NDArray[np.int64]:
     return before
 
 
-def _area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDArray[np.float64]:
+def next_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """For each corner the index of the next one in its face."""
+    ends = np.cumsum(counts)
+    after = np.arange(counts.sum()) + 1
+    after[ends - 1] = ends - counts
+    return after
+
+
+def area_vectors(corners: NDArray[np.float64], counts: NDArray[np.int64]) -> NDArray[np.float64]:
     """Newell's normal of each face, as long as twice its area; float64, shape (F, 3)."""
     starts = np.cumsum(counts) - counts
     relative = corners - np.repeat(corners[starts], counts, axis=0)

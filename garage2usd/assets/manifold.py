@@ -1,0 +1,68 @@
+"""Manifold meshes: points that several fans of faces share are split, and slivers are dropped."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.assets.mesh import Part, area_vectors, next_corners
+
+__all__ = ["with_manifold_points"]
+
+_LEAST_AREA_M2 = 1e-8
+"""Twice the area of a face below which it is a sliver that cutting left."""
+
+
+def with_manifold_points(part: Part) -> Part:
+    """Return the same mesh with one point for each fan of faces.
+
+    Two faces belong to a fan if they share an edge that no third face has. Faces of hardly any area are dropped. Points
+    of different fans remain at one place, so that the mesh looks the same.
+
+    Parameters
+    ----------
+    part
+        A mesh without texture coordinates.
+    """
+    part = _without_slivers(part)
+    counts, points = part.face_counts.astype(np.int64), part.face_indices.astype(np.int64)
+    after = next_corners(counts)
+    start, end = points, points[after]
+    forward, backward = start * len(part.points) + end, end * len(part.points) + start
+    keys, first, times = np.unique(forward, return_index=True, return_counts=True)
+    place = np.minimum(np.searchsorted(keys, backward), len(keys) - 1)
+    own = times[np.searchsorted(keys, forward)]
+    is_joined = (keys[place] == backward) & (times[place] == 1) & (own == 1)
+    corner = np.flatnonzero(is_joined)
+    facing = first[place[corner]]
+    fans = _components(len(points), [(corner, after[facing]), (after[corner], facing)])
+    _, firsts, number = np.unique(points * len(points) + fans, return_index=True, return_inverse=True)
+    return replace(part, points=part.points[points[firsts]], face_indices=number.reshape(-1).astype(np.int32))
+
+
+def _without_slivers(part: Part) -> Part:
+    counts = part.face_counts.astype(np.int64)
+    area = np.linalg.norm(area_vectors(part.points[part.face_indices].astype(float), counts), axis=1)
+    is_kept = area > _LEAST_AREA_M2
+    of_corner = np.repeat(is_kept, counts)
+    normals, normal_indices = np.unique(part.normal_indices[of_corner], return_inverse=True)
+    points, indices = np.unique(part.face_indices[of_corner], return_inverse=True)
+    return replace(
+        part,
+        points=part.points[points],
+        face_counts=part.face_counts[is_kept],
+        face_indices=indices.reshape(-1).astype(np.int32),
+        normals=part.normals[normals],
+        normal_indices=normal_indices.reshape(-1).astype(np.int32),
+    )
+
+
+def _components(size: int, pairs: list[tuple[NDArray[np.intp], NDArray[np.intp]]]) -> NDArray[np.int64]:
+    """The number of the connected component of each of some things, of which pairs are joined."""
+    from scipy.sparse import coo_array  # noqa: PLC0415 - few garages have meshes that are cut
+    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
+
+    one, other = (np.concatenate(side) for side in zip(*pairs, strict=True))
+    joined = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(size, size))
+    _, labels = connected_components(joined, directed=False)
+    return np.asarray(labels, dtype=np.int64)
