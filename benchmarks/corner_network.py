@@ -17,7 +17,7 @@ from flax import linen as nn
 from strip_changes import changed
 from strips import Strip
 
-from garage2usd.progress import Progress, silent
+from garage2usd.common.progress import Progress, silent
 
 __all__ = ["CornerNetwork", "Training", "train"]
 

@@ -18,11 +18,11 @@ import numpy as np
 
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import as_json, check_file
+from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import config_from_mapping
 from garage2usd.config.maps import GridConfig, MapsConfig
 from garage2usd.datasets.difficulty import stall_difficulties
 from garage2usd.driving import prove_stalls
-from garage2usd.errors import Garage2UsdError
 from garage2usd.exports import export
 from garage2usd.layout import Layout
 from garage2usd.maps.drives import DrivePlanner

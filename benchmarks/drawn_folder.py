@@ -6,7 +6,7 @@ from pathlib import Path
 
 from strips import Strip, read_strips
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 __all__ = ["read_drawn", "write_drawn"]
 

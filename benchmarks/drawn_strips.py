@@ -20,10 +20,10 @@ from strip_rig import drawn_rig
 from strips import CORNERS_FILE, write_strips
 
 import garage2usd
+from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.progress import silent
 from garage2usd.config import GarageConfig
 from garage2usd.datasets import Recipe
-from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.progress import silent
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View

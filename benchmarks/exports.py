@@ -11,7 +11,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import garage2usd
-from garage2usd.system import cores
+from garage2usd.common.system import cores
 
 __all__ = ["exports"]
 

@@ -11,8 +11,8 @@ import garage2usd
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.lanes import read_lanes
-from garage2usd.sensors.lidar import raster_beams, scan, spinning_beams
-from garage2usd.sensors.ray_scene import read_ray_scene
+from garage2usd.sensors.rays.lidar import raster_beams, scan, spinning_beams
+from garage2usd.sensors.rays.ray_scene import read_ray_scene
 
 __all__ = ["lidar"]
 

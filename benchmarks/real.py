@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from drawn_folder import read_drawn, write_drawn
 from strips import Strip, read_strips
 
-from garage2usd.errors import ConfigError, Garage2UsdError
+from garage2usd.common.errors import ConfigError, Garage2UsdError
 
 if TYPE_CHECKING:
     from teachers import Outcome, Teacher

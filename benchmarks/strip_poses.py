@@ -13,7 +13,7 @@ from strips import SIDES
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.config.maps import DriveConfig
 from garage2usd.recordings.way import Way
-from garage2usd.sensors.rig import AroundViewCamera, Rig
+from garage2usd.sensors.rig.rig import AroundViewCamera, Rig
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.cameras import DRIVE_NAME
 

@@ -4,7 +4,7 @@ import numpy as np
 from strips import SIDES, SIZE_PX
 
 from garage2usd.config.vehicles import DRIVEN_BODIES
-from garage2usd.sensors.rig import Rig, rig_from_mapping
+from garage2usd.sensors.rig.rig import Rig, rig_from_mapping
 
 __all__ = ["drawn_rig"]
 

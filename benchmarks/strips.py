@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 __all__ = ["CORNERS_FILE", "SIDES", "SIZE_PX", "Strip", "read_strips", "write_strips"]
 

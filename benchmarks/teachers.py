@@ -8,8 +8,8 @@ from average_precision import Detections, Score, matched, score
 from corner_network import CornerNetwork, Training, train
 from strips import Strip
 
-from garage2usd.errors import ConfigError
-from garage2usd.progress import Progress, silent
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.progress import Progress, silent
 
 __all__ = ["TOGETHER", "Outcome", "Teacher", "Training", "measured", "photographs_of_others", "table"]
 

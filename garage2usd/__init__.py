@@ -7,11 +7,11 @@
 
 from typing import TYPE_CHECKING
 
-from garage2usd.public_names import on_first_use
+from garage2usd.common.public_names import on_first_use
 
 if TYPE_CHECKING:
+    from garage2usd.common.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.config import GarageConfig, load_config
-    from garage2usd.errors import ConfigError, Garage2UsdError, GenerationError, UnreachableStallError
     from garage2usd.exports import export
     from garage2usd.pipeline import Garage, build, generate
     from garage2usd.planning.optimum import Optimum, find_optimum

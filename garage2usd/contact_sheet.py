@@ -9,20 +9,20 @@ from typing import NamedTuple
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.extras import require
+from garage2usd.common.output import check_file, publish_at, staging_folder, unfinished_folder
+from garage2usd.common.progress import Announce, Progress, silent, unheard
+from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.look_text import look_in_words
 from garage2usd.config.stage import AssetPlace
-from garage2usd.errors import ConfigError, GenerationError
-from garage2usd.extras import require
-from garage2usd.output import check_file, publish_at, staging_folder, unfinished_folder
 from garage2usd.pipeline import Garage, generate, stage_metadata
 from garage2usd.planning import Plan
-from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.render import Device, Picture, render_stage
 from garage2usd.render.blender_process import WITHOUT_MODULE, find_blender, modules_of
 from garage2usd.stage import arrangement_of, write_stage
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
-from garage2usd.version import VERSION
 
 __all__ = ["SHEET_SUFFIXES", "SheetGarage", "draw_contact_sheet"]
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.extras import of_extra
 from garage2usd.config import GarageConfig
-from garage2usd.extras import of_extra
 from garage2usd.planning.decision import (
     Action,
     DecisionProcess,

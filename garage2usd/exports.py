@@ -9,9 +9,12 @@ from typing import NamedTuple
 
 from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.extras import require
+from garage2usd.common.output import check_file, check_name, drafting, publish_at, staging_folder
+from garage2usd.common.processes import each_in_a_copy, without_collector
+from garage2usd.common.progress import Progress, silent, unheard
 from garage2usd.config.maps import MapsConfig, ScenarioConfig
-from garage2usd.errors import ConfigError
-from garage2usd.extras import require
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.network import Network
@@ -20,10 +23,7 @@ from garage2usd.maps.opendrive import write_opendrive
 from garage2usd.maps.parked_cars import parked_cars
 from garage2usd.maps.road_builder import network_of
 from garage2usd.maps.stage_facts import stage_facts
-from garage2usd.output import check_file, check_name, drafting, publish_at, staging_folder
 from garage2usd.pipeline import build
-from garage2usd.processes import each_in_a_copy, without_collector
-from garage2usd.progress import Progress, silent, unheard
 from garage2usd.reading.files import STAGE_SUFFIXES, open_stage
 from garage2usd.reading.objects import PlacedObject
 from garage2usd.reading.remarks import Remarks

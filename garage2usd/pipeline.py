@@ -10,17 +10,18 @@ from PIL import Image
 
 from garage2usd.checks import Finding, judged_layout
 from garage2usd.checks.swept_path import design_car
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.output import check_file, check_name, check_writable, publish_at, staging_folder
+from garage2usd.common.processes import without_collector
+from garage2usd.common.progress import Progress, silent
+from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.driving import DesignCar, with_clutter, with_truth_of_misparked, without_unreachable
 from garage2usd.driving.refusal import refuse_undrivable
-from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, lay_out
-from garage2usd.layout.tight import tight_stalls
-from garage2usd.output import check_file, check_name, check_writable, publish_at, staging_folder
+from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.planning import Plan, given_plan, plan_lanes, play
-from garage2usd.processes import without_collector
-from garage2usd.progress import Progress, silent
 from garage2usd.reading.report import UnmetClause
 from garage2usd.report import make_report, write_report
 from garage2usd.site import make_site
@@ -28,7 +29,6 @@ from garage2usd.site.room import check_room
 from garage2usd.stage import StageFormat, arrangement_of, shared_folder, write_labels, write_stage
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares, build_lane_graph
-from garage2usd.version import VERSION
 from garage2usd.view.learning_picture import draw_learning_curve, draw_structures
 from garage2usd.view.plan_picture import draw_plan
 from garage2usd.view.raster import to_image, write_png

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.json_text import json_text
+from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig
-from garage2usd.errors import ConfigError
-from garage2usd.json_text import json_text
 from garage2usd.layout import Layout
-from garage2usd.layout.compartments import compartment_name
+from garage2usd.layout.egress.compartments import compartment_name
 from garage2usd.planning import (
     Plan,
     area_per_stall_m2,
@@ -35,7 +36,6 @@ from garage2usd.reading.report import (
 )
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.lane_graph import LaneSquares
-from garage2usd.version import VERSION
 
 __all__ = ["learning_figures", "make_report", "write_report"]
 

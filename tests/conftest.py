@@ -11,7 +11,7 @@ from filelock import FileLock
 from support.durations import write_durations
 
 import garage2usd
-from garage2usd.limits import ONE_THREAD
+from garage2usd.common.limits import ONE_THREAD
 
 for variable, value in ONE_THREAD.items():
     os.environ.setdefault(variable, value)  # before USD is loaded; workers inherit it

@@ -14,9 +14,9 @@ from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.render.pictures import class_colour
-from garage2usd.sensors.lidar import measure
-from garage2usd.sensors.ray_scene import read_ray_scene
-from garage2usd.sensors.rig import read_rig
+from garage2usd.sensors.rays.lidar import measure
+from garage2usd.sensors.rays.ray_scene import read_ray_scene
+from garage2usd.sensors.rig.rig import read_rig
 
 BACKGROUND = (18, 20, 24)
 MARGIN_M = 1.0

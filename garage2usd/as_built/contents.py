@@ -11,7 +11,7 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
 
 from garage2usd.as_built.shapes import Array, Body, MeshShape, Thing, box_shape
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.objects import PIECE_LABELS
 from garage2usd.reading.lights import DOMES, LIGHT_TYPES, LightSource, light_of, luminance_of
 from garage2usd.reading.objects import PlacedObject, once_for_each_look

@@ -12,11 +12,11 @@ from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.openings import section_of
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.as_built.shapes import Thing
+from garage2usd.common.limits import allow_seconds
 from garage2usd.driving import DrivenGarage
 from garage2usd.driving.assembly import BELONGINGS, StandingThing, assembled
 from garage2usd.garage import LaneGraph, Point
 from garage2usd.layout.grounds import Grounds
-from garage2usd.limits import allow_seconds
 from garage2usd.objects import CAR_LABELS
 
 __all__ = ["CAR_HEIGHT_M", "driven_garage", "rounded"]

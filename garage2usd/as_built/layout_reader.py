@@ -10,7 +10,7 @@ from garage2usd.config import BayConfig
 from garage2usd.garage import Fault
 from garage2usd.layout import Layout
 from garage2usd.layout.garage_stalls import garage_stalls
-from garage2usd.layout.parking import stalls_of
+from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.objects import KINDS, Spec
 from garage2usd.stage.arrangement import arrange

@@ -6,11 +6,11 @@ from typing import Any
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.layout_reader import garage_of_layout, garage_without_layout
+from garage2usd.common.documents import MAX_REPORT_BYTES, read_json, read_text
+from garage2usd.common.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.config import GarageConfig, config_from_mapping, load_config
 from garage2usd.config.files import is_array_file, matrices_of
-from garage2usd.documents import MAX_REPORT_BYTES, read_json, read_text
 from garage2usd.driving import without_unreachable
-from garage2usd.errors import ConfigError, ReportError, UnreachableStallError
 from garage2usd.garage import Fault
 from garage2usd.layout import Layout, PlacedStall, lay_out
 from garage2usd.planning import dimensioned

@@ -10,10 +10,10 @@ from pxr import Usd
 
 from garage2usd.as_built.contents import PlacedLight, read_contents
 from garage2usd.as_built.garage import BuiltGarage
-from garage2usd.errors import ConfigError, StageError
+from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.garage import Point
 from garage2usd.layout import Placement
-from garage2usd.layout.lighting import MAINTENANCE, direct_lux, lane_points_of
+from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux, lane_points_of
 from garage2usd.layout.placement import of_spec
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.reading.files import open_stage

@@ -11,8 +11,8 @@ from garage2usd.assets.car_shapes import Rim
 from garage2usd.assets.car_shell import both_sides
 from garage2usd.assets.faces import lathe_faces
 from garage2usd.assets.mesh import Asset, Collider, Part, make_part
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CarBody
-from garage2usd.errors import ConfigError
 
 __all__ = ["MOST_STEER_DEG", "steered", "steered_box", "wheels"]
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from garage2usd.assets.materials import Finish, Material, StoredTexture, Touch
 from garage2usd.assets.mesh import MIN_AREA_M2, WELD_DECIMALS, Asset, Collider, Part, make_part, unique_rows
+from garage2usd.common.foreign_models import ForeignPart, ForeignSurface
 from garage2usd.config.own_cars import OwnCar, placed_parts
-from garage2usd.foreign_models import ForeignPart, ForeignSurface
 
 __all__ = ["own_car"]
 

@@ -11,11 +11,11 @@ import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from garage2usd.assets.materials import OwnTexture
+from garage2usd.common.documents import read_bytes
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.map_names import Channel
 from garage2usd.config.stage import TextureQuality
 from garage2usd.config.texture_sets import MapFile
-from garage2usd.documents import read_bytes
-from garage2usd.errors import ConfigError
 
 __all__ = ["own_file", "own_pixels", "own_shape"]
 

@@ -9,7 +9,7 @@ import shapely
 from shapely import affinity
 
 from garage2usd.assets.flat import GRID_M
-from garage2usd.randomness import Step, generator
+from garage2usd.common.randomness import Step, generator
 
 __all__ = ["PuddleOutline", "puddle_outline"]
 

@@ -5,7 +5,7 @@ import zlib
 from bisect import bisect_right
 from collections.abc import Iterator
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 __all__ = ["WEAR_STEPS", "painted", "wear_palette"]
 

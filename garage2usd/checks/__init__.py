@@ -26,9 +26,9 @@ from garage2usd.checks import (
 from garage2usd.checks.finding import Finding, Severity, as_json, as_table
 from garage2usd.checks.rule import Rule
 from garage2usd.checks.unmet import not_checked_lines, unmet_clauses
+from garage2usd.common.documents import is_file
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
-from garage2usd.documents import is_file
-from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile
 from garage2usd.reading.files import STAGE_SUFFIXES

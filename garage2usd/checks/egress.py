@@ -10,7 +10,7 @@ from garage2usd.as_built.core_reader import core_doors
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.checks.rule import ROUNDING_M, Miss, RuleBook, where_laid_out, where_structure_is_known
 from garage2usd.garage import Point
-from garage2usd.layout.compartments import compartment_name
+from garage2usd.layout.egress.compartments import compartment_name
 from garage2usd.profiles import Area, Length, Profile
 from garage2usd.structure.grid import Cell
 

@@ -23,8 +23,8 @@ from garage2usd.cli.streams import open_streams
 from garage2usd.cli.supervision import SUPERVISED, supervise
 from garage2usd.cli.textures import textures
 from garage2usd.cli.view import view
-from garage2usd.limits import ONE_THREAD
-from garage2usd.version import VERSION
+from garage2usd.common.limits import ONE_THREAD
+from garage2usd.common.version import VERSION
 
 __all__ = ["main", "run"]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Self, TextIO
 import click
 
 from garage2usd.cli.termination import TERMINATION
-from garage2usd.progress import time_in_words
+from garage2usd.common.progress import time_in_words
 
 if TYPE_CHECKING:
     from click._termui_impl import ProgressBar

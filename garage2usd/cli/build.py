@@ -9,7 +9,7 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_notices, echo_table, profile_option, seed_option
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from garage2usd.config.maps import MapsConfig
@@ -97,8 +97,8 @@ def build(
             progress=progress,
         )
         if exports:
+            from garage2usd.common.system import cores  # noqa: PLC0415
             from garage2usd.exports import export  # noqa: PLC0415 - most builds are not exported
-            from garage2usd.system import cores  # noqa: PLC0415
 
             exports = export(
                 made.stage, exports, settings=settings.maps, progress=progress, workers=cores(), notice=notices.append

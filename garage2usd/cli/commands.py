@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from garage2usd.cli.termination import TERMINATION
-from garage2usd.errors import ConfigError, Garage2UsdError
+from garage2usd.common.errors import ConfigError, Garage2UsdError
 
 __all__ = ["Commands"]
 

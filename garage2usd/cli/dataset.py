@@ -7,7 +7,7 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_table
-from garage2usd.errors import DataSetError
+from garage2usd.common.errors import DataSetError
 
 __all__ = ["dataset"]
 

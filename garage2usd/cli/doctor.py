@@ -8,9 +8,9 @@ from collections.abc import Iterable
 import click
 
 from garage2usd.cli.parameters import echo_table
-from garage2usd.errors import Garage2UsdError
-from garage2usd.system import HAS_EMBREE, in_words
-from garage2usd.version import VERSION
+from garage2usd.common.errors import Garage2UsdError
+from garage2usd.common.system import HAS_EMBREE, in_words
+from garage2usd.common.version import VERSION
 
 __all__ = ["doctor"]
 
@@ -70,7 +70,7 @@ def _versions() -> str:
 
 
 def _rays() -> str:
-    from garage2usd.extras import RAYS, is_there  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.extras import RAYS, is_there  # noqa: PLC0415 - keeps --help instant
 
     if not all(is_there(module) for module in RAYS):
         return "not installed (extra sensors)"
@@ -78,7 +78,7 @@ def _rays() -> str:
 
 
 def _blender() -> str:
-    from garage2usd.extras import is_there  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.extras import is_there  # noqa: PLC0415 - keeps --help instant
     from garage2usd.render.blender_process import find_blender, modules_of  # noqa: PLC0415
 
     blender = find_blender()
@@ -91,10 +91,10 @@ def _blender() -> str:
 def _garage(seed: int) -> tuple[str, list[str]]:
     """Make a garage: what is told of it, and what is wrong with it."""
     from garage2usd.checks import Severity, check_file  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.output import staging_folder  # noqa: PLC0415
     from garage2usd.config import GarageConfig  # noqa: PLC0415
     from garage2usd.driving import prove_stalls  # noqa: PLC0415
     from garage2usd.driving.witness import write_witness  # noqa: PLC0415
-    from garage2usd.output import staging_folder  # noqa: PLC0415
     from garage2usd.pipeline import build  # noqa: PLC0415
     from garage2usd.structure.symmetry import plan_digest  # noqa: PLC0415
 

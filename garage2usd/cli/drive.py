@@ -9,18 +9,18 @@ import click
 
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, drive_options, refuse_seed, seed_option
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from garage2usd.as_built import BuiltGarage
+    from garage2usd.common.progress import Progress
     from garage2usd.config.maps import DriveConfig
     from garage2usd.config.vehicles import CarBody
     from garage2usd.driving import StallProof
     from garage2usd.maps.drives import Drive
     from garage2usd.pipeline import Garage
-    from garage2usd.progress import Progress
 
 __all__ = ["drive"]
 
@@ -72,7 +72,7 @@ def drive(
       garage2usd drive garage.usdz --stall A1-08 --animate -o car.usdc
       garage2usd drive garage.usdz --stall A1-08 --animate --rig own.toml -o car.usdc
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.output import check_file, check_name  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.output import check_file, check_name  # noqa: PLC0415 - keeps --help instant
 
     if rig is not None and not animate:
         raise ConfigError("rig", rig, "only with --animate")
@@ -119,7 +119,7 @@ def _drive_to(
     """Drive to one stall and tell of it."""
     from garage2usd.config.maps import Leg  # noqa: PLC0415 - keeps --help instant
     from garage2usd.maps.drives import DrivePlanner  # noqa: PLC0415
-    from garage2usd.sensors.rig import read_rig  # noqa: PLC0415
+    from garage2usd.sensors.rig.rig import read_rig  # noqa: PLC0415
 
     car = None if rig is None else read_rig(rig).body
     with Bars(sys.stderr) as progress:
@@ -221,7 +221,7 @@ def _write(output: Path, proofs: "Sequence[StallProof]") -> None:
 
 def _publish(output: Path, write: "Callable[[Path], Sequence[Path]]") -> None:
     """Have a file written whose name ends in small letters, and put it and what it refers to into their places."""
-    from garage2usd.output import publish_at, staging_folder  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.output import publish_at, staging_folder  # noqa: PLC0415 - keeps --help instant
 
     with staging_folder(output) as staging:
         file = staging / f"drive{output.suffix.lower()}"

@@ -65,10 +65,10 @@ def export(
       garage2usd export garage_report.json -o garage.glb -o garage.yaml
       garage2usd export garage.usdz -o garage.xosc --stall A1-08 --leg in
     """  # noqa: D301 - click's mark for a block that is not wrapped
+    from garage2usd.common.system import cores  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
     from garage2usd.config.maps import ScenarioConfig  # noqa: PLC0415
     from garage2usd.exports import export as export_garage  # noqa: PLC0415
-    from garage2usd.system import cores  # noqa: PLC0415
 
     settings = load_config(config).maps if config else None
     asked = {"stall": stall, "entrance": entrance, "exit": exit_, "leg": leg}

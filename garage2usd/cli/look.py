@@ -10,7 +10,7 @@ import click
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.option_values import Numbers, Size
 from garage2usd.cli.parameters import INPUT_FILE, echo_table
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from garage2usd.contact_sheet import SheetGarage
@@ -137,7 +137,7 @@ def _garages(path: Path | None, numbers: tuple[int, ...] | None) -> Iterator["Sh
 
 def _is_recipe(path: Path) -> bool:
     """Whether a file is the recipe of a data set, and no configuration."""
-    from garage2usd.documents import read_toml  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.documents import read_toml  # noqa: PLC0415 - keeps --help instant
 
     if path.suffix.lower() == ".json":
         return True

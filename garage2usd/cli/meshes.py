@@ -25,7 +25,7 @@ _LEAST_GARAGES = 2
 @click.option("--choose", is_flag=True, help="Choose the shapes anew: those that usual garages have in common.")
 def meshes(folder: Path, *, choose: bool) -> None:
     """Bake the meshes of usual shapes into a file in FOLDER, those that the package ships unless others are chosen."""
-    from garage2usd.output import check_file, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.common.output import check_file, publish, staging_folder  # noqa: PLC0415
     from garage2usd.stage.baked_meshes import MESH_FILE, bake_meshes, baked_shapes  # noqa: PLC0415
 
     check_file(folder / MESH_FILE.name)

@@ -7,7 +7,7 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 __all__ = ["INPUT_FILE", "drive_options", "echo_notices", "echo_table", "profile_option", "refuse_seed", "seed_option"]
 

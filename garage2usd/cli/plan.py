@@ -10,8 +10,8 @@ from garage2usd.cli.bars import Bars
 from garage2usd.cli.parameters import INPUT_FILE, echo_table, refuse_seed, seed_option
 
 if TYPE_CHECKING:
+    from garage2usd.common.progress import Progress
     from garage2usd.pipeline import Garage
-    from garage2usd.progress import Progress
     from garage2usd.view.plan_sheet import Mark
 
 __all__ = ["plan"]
@@ -62,8 +62,8 @@ def plan(
       garage2usd plan garage.usdz --findings -o findings.png
       garage2usd plan samples/paper_7x9.toml --optimum
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
+    from garage2usd.common.errors import ConfigError  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.output import check_file, drafting, publish_at, staging_folder  # noqa: PLC0415
     from garage2usd.view.plan_picture import draw_plan  # noqa: PLC0415
     from garage2usd.view.raster import to_image, write_png  # noqa: PLC0415
     from garage2usd.view.route import find_stall  # noqa: PLC0415
@@ -126,9 +126,9 @@ def _beside_optimum(garage: "Garage", progress: "Progress") -> list[tuple[str, s
 
 def _garage(path: Path, seed: int | None, progress: "Progress") -> "Garage":
     """Made from a configuration, or again from a report."""
+    from garage2usd.common.documents import is_file  # noqa: PLC0415
+    from garage2usd.common.errors import ConfigError  # noqa: PLC0415
     from garage2usd.config import load_config  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.documents import is_file  # noqa: PLC0415
-    from garage2usd.errors import ConfigError  # noqa: PLC0415
     from garage2usd.pipeline import generate  # noqa: PLC0415
     from garage2usd.reading.report import read_report  # noqa: PLC0415
     from garage2usd.stage import StageFormat  # noqa: PLC0415

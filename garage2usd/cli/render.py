@@ -10,13 +10,13 @@ from click.shell_completion import CompletionItem
 from garage2usd.cli.bars import Bars
 from garage2usd.cli.option_values import Place, Several, Size
 from garage2usd.cli.parameters import INPUT_FILE, echo_table
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from garage2usd.render import Device, Picture, SlotFormat
-    from garage2usd.sensors.birds_eye import BirdsEye
+    from garage2usd.sensors.rays.birds_eye import BirdsEye
 
 __all__ = ["render"]
 
@@ -28,7 +28,7 @@ _SLOT_FORMATS = ("json", "coco", "panoptic", "dmpr-ps")
 
 def _rigs(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """The shipped rigs that begin so, else whatever file the shell finds."""
-    from garage2usd.sensors.rig import RIG_NAMES  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.sensors.rig.rig import RIG_NAMES  # noqa: PLC0415 - keeps --help instant
 
     names = [CompletionItem(name) for name in RIG_NAMES if name.startswith(incomplete)]
     return names or [CompletionItem(incomplete, type="file")]
@@ -181,7 +181,7 @@ def render(
       garage2usd render garage.usdz --rig avp_surround --along 1:A1-08 --birds-eye 0.02 --slots coco,dmpr-ps -o drive
     """  # noqa: D301 - click's mark for a block that is not wrapped
     from garage2usd.render import Device, Picture, SlotFormat, render_stage  # noqa: PLC0415 - keeps --help instant
-    from garage2usd.sensors.birds_eye import BirdsEye  # noqa: PLC0415
+    from garage2usd.sensors.rays.birds_eye import BirdsEye  # noqa: PLC0415
 
     kinds = [Picture(kind) for kind in pictures or _PICTURES]
     told = None if slots is None else [SlotFormat(each) for each in slots]

@@ -7,8 +7,8 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, TextIO
 
-from garage2usd.errors import OutputError
-from garage2usd.system import is_console
+from garage2usd.common.errors import OutputError
+from garage2usd.common.system import is_console
 
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer

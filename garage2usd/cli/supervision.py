@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from garage2usd.cli.termination import ENDING
-from garage2usd.limits import enforce
-from garage2usd.system import OUT_OF_TIME, run_in_child
+from garage2usd.common.limits import enforce
+from garage2usd.common.system import OUT_OF_TIME, run_in_child
 
 __all__ = ["CRASHES", "SUPERVISED", "supervise"]
 
@@ -24,9 +24,9 @@ _FAILED = 1
 def supervise(command: Callable[[], object], *, name: str) -> NoReturn:
     """Run a command in a child process and end as it ends; if it crashes, that is an error in one line and exit code 1.
 
-    The child has the limits of `garage2usd.limits`, and gets the signals that ask this process to end. It is forked
-    before any library is loaded, so nothing is loaded twice and no thread is lost. Windows has no `fork`: the command
-    runs in this process there, without limits.
+    The child has the limits of `garage2usd.common.limits`, and gets the signals that ask this process to end. It is
+    forked before any library is loaded, so nothing is loaded twice and no thread is lost. Windows has no `fork`: there
+    the command runs in this process, without limits.
     """
     for stream in (sys.stdout, sys.stderr):
         stream.flush()

@@ -12,7 +12,7 @@ __all__ = ["textures"]
 def textures(folder: Path) -> None:
     """Bake the texture set that the wheel ships into FOLDER, byte for byte, a folder for each quality."""
     from garage2usd.assets.textures import bake_textures  # noqa: PLC0415
-    from garage2usd.output import check_writable, publish, staging_folder  # noqa: PLC0415
+    from garage2usd.common.output import check_writable, publish, staging_folder  # noqa: PLC0415
 
     check_writable(folder)
     with staging_folder(folder) as staging:

@@ -31,7 +31,7 @@ def view(*, path: Path, port: int, no_browser: bool) -> None:
       garage2usd view garage.usdz
       garage2usd view out/garage.usdc --port 8000 --no-browser
     """  # noqa: D301 - click's mark for a block that is not wrapped
-    from garage2usd.limits import lift  # noqa: PLC0415 - keeps --help instant
+    from garage2usd.common.limits import lift  # noqa: PLC0415 - keeps --help instant
     from garage2usd.reading.files import open_stage  # noqa: PLC0415
     from garage2usd.view.viewer import ViewerServer, read_scene  # noqa: PLC0415
 

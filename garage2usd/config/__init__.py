@@ -8,6 +8,9 @@ from typing import Any
 
 from pydantic import Field, ValidationError, field_validator
 
+from garage2usd.common.documents import read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.settings import Settings, config_error
 from garage2usd.config.clutter import ClutterConfig
 from garage2usd.config.design import designed_settings
 from garage2usd.config.files import with_files, with_textures, without_files
@@ -18,10 +21,7 @@ from garage2usd.config.own_cars import VehiclesConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import BayConfig, SiteConfig
 from garage2usd.config.stage import StageConfig
-from garage2usd.documents import read_toml
-from garage2usd.errors import ConfigError
 from garage2usd.profiles import DEFAULT_PROFILE, PROFILE_NAMES, Profile, load_profile, read_profile
-from garage2usd.settings import Settings, config_error
 
 __all__ = [
     "BayConfig",

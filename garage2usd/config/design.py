@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from garage2usd.common.settings import Settings
 from garage2usd.config.fittings import CEILING_ROOM_M, FittingsConfig
 from garage2usd.config.plan import PlanConfig
 from garage2usd.config.site import DEFAULT_SIDE_M, BayConfig, SiteConfig
@@ -11,7 +12,6 @@ from garage2usd.profiles import Length, Profile
 from garage2usd.profiles.access import least_stall_width_m
 from garage2usd.profiles.clauses import Illuminance
 from garage2usd.profiles.profile import USUAL_CAR_WIDTH_M
-from garage2usd.settings import Settings
 
 __all__ = ["designed_settings"]
 

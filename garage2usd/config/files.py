@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from garage2usd.documents import ARRAY_SUFFIXES, read_arrays, read_text
-from garage2usd.errors import ConfigError
+from garage2usd.common.documents import ARRAY_SUFFIXES, read_arrays, read_text
+from garage2usd.common.errors import ConfigError
 
 __all__ = ["is_array_file", "matrices_of", "with_files", "with_textures", "without_files"]
 

@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from garage2usd.common.settings import Settings
 from garage2usd.config.markets import MarketName, PaintShares, SegmentShares
-from garage2usd.settings import Settings
 
 __all__ = ["FittingsConfig", "ParkingConfig"]
 

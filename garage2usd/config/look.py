@@ -10,8 +10,8 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
+from garage2usd.common.settings import Settings
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
-from garage2usd.settings import Settings
 
 __all__ = [
     "AISLE",

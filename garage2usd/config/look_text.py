@@ -3,8 +3,8 @@
 import json
 from typing import Any
 
+from garage2usd.common.settings import Settings
 from garage2usd.config.look import LookConfig
-from garage2usd.settings import Settings
 
 __all__ = ["look_in_words", "look_text"]
 

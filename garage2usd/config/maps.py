@@ -4,7 +4,7 @@ from enum import StrEnum
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from garage2usd.settings import Settings
+from garage2usd.common.settings import Settings
 
 __all__ = ["DriveConfig", "GridConfig", "Leg", "MapsConfig", "ScenarioConfig"]
 

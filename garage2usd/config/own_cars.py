@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, field_validator
 
+from garage2usd.common.documents import read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
+from garage2usd.common.settings import Settings, validated
 from garage2usd.config.vehicles import CAR_BODIES, CarBody, VehicleClass
-from garage2usd.documents import read_toml
-from garage2usd.errors import ConfigError
-from garage2usd.foreign_models import MODEL_SUFFIXES, ForeignPart, model_digest, read_model
-from garage2usd.settings import Settings, validated
 
 __all__ = ["ModelFolder", "OwnCar", "VehiclesConfig", "cars_by_name", "placed_parts", "read_own_cars"]
 

@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field
 
-from garage2usd.settings import Settings
+from garage2usd.common.settings import Settings
 
 __all__ = ["Agent", "Choice", "CirculationMode", "DeadEnds", "PlanConfig", "SarsaParameters", "UnreachableStalls"]
 

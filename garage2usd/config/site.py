@@ -6,7 +6,7 @@ from typing import Annotated, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from garage2usd.settings import Settings
+from garage2usd.common.settings import Settings
 
 __all__ = ["DEFAULT_SIDE_M", "BayConfig", "SidesM", "SiteConfig"]
 

@@ -5,7 +5,7 @@ from pathlib import PurePosixPath
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from garage2usd.settings import Settings
+from garage2usd.common.settings import Settings
 
 __all__ = ["AssetPlace", "StageConfig", "StageForm", "TextureQuality"]
 

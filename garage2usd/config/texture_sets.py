@@ -10,10 +10,10 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
+from garage2usd.common.documents import read_bytes, read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.settings import Settings, validated
 from garage2usd.config.map_names import Channel, channels_of
-from garage2usd.documents import read_bytes, read_toml
-from garage2usd.errors import ConfigError
-from garage2usd.settings import Settings, validated
 
 __all__ = ["REPEAT_M", "MapFile", "Role", "TextureFolder", "TextureSet", "read_texture_sets"]
 

@@ -2,8 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from garage2usd.extras import require
-from garage2usd.public_names import on_first_use
+from garage2usd.common.extras import require
+from garage2usd.common.public_names import on_first_use
 
 if TYPE_CHECKING:
     from garage2usd.datasets.making import DataSet, make_dataset

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import jinja2
 
+from garage2usd.common.version import VERSION
 from garage2usd.datasets.manifest import ManifestRow
 from garage2usd.datasets.recipe import Recipe, ShardForm
-from garage2usd.version import VERSION
 
 __all__ = ["data_card"]
 

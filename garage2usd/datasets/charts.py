@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.extras import of_extra
+from garage2usd.common.extras import of_extra
 
 with of_extra("the page of a data set"):
     import matplotlib as mpl

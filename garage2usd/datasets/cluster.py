@@ -11,9 +11,9 @@ import dask
 import dask.system
 from distributed import Client, KilledWorker, LocalCluster, as_completed
 
-from garage2usd.errors import ConfigError, DataSetError, Garage2UsdError
-from garage2usd.limits import ONE_THREAD
-from garage2usd.version import VERSION
+from garage2usd.common.errors import ConfigError, DataSetError, Garage2UsdError
+from garage2usd.common.limits import ONE_THREAD
+from garage2usd.common.version import VERSION
 
 __all__ = ["Workers", "workers"]
 

@@ -12,11 +12,11 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from garage2usd.common.documents import MAX_SETTINGS_BYTES, read_json
+from garage2usd.common.settings import Record
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
-from garage2usd.documents import MAX_SETTINGS_BYTES, read_json
 from garage2usd.driving import StallProof
 from garage2usd.pipeline import Garage
-from garage2usd.settings import Record
 
 __all__ = [
     "REFERENCE_FILE",

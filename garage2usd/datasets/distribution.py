@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from garage2usd.settings import Settings, validated
+from garage2usd.common.settings import Settings, validated
 
 __all__ = ["Choice", "Distribution", "LogRange", "Mix", "Range", "distribution_of"]
 

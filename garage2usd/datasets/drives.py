@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, field_validator
 
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.randomness import Step, generator
+from garage2usd.common.settings import Settings
 from garage2usd.config.maps import DriveConfig
-from garage2usd.errors import ConfigError
-from garage2usd.randomness import Step, generator
 from garage2usd.recordings import CloudFormat, Device, check_recording, record
 from garage2usd.recordings import Sequence as SequenceFormat
 from garage2usd.render import Picture, SlotFormat
-from garage2usd.sensors.birds_eye import BirdsEye
-from garage2usd.sensors.rig import RIG_NAMES, Rig, read_rig
-from garage2usd.settings import Settings
+from garage2usd.sensors.rays.birds_eye import BirdsEye
+from garage2usd.sensors.rig.rig import RIG_NAMES, Rig, read_rig
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,11 +6,11 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.contact_sheet import SheetGarage
 from garage2usd.datasets.making import PLAN_FILE
 from garage2usd.datasets.plans import DrawnPlan, planned, plans_of, replanned
 from garage2usd.datasets.recipe import RECIPE_FILE, Recipe, load_recipe
-from garage2usd.errors import ConfigError
 
 __all__ = ["chosen_garages"]
 

@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
+from garage2usd.common.progress import Progress, silent
+from garage2usd.common.version import VERSION
 from garage2usd.datasets.card import data_card
 from garage2usd.datasets.contour import contour_shape
 from garage2usd.datasets.difficulty import Level
@@ -20,11 +24,7 @@ from garage2usd.datasets.recipe import RECIPE_FILE, Recipe
 from garage2usd.datasets.shards import Shard, failed_row, made_rows, make_shard, shards_of, sweep
 from garage2usd.datasets.sums import SUMS_FILE, damaged_assets, read_sums, sha256_of, sums_text
 from garage2usd.datasets.variety import PlanFigures
-from garage2usd.errors import ConfigError
 from garage2usd.exports import check_formats
-from garage2usd.output import HIDDEN_PREFIX, check_writable, only_run, store, writing
-from garage2usd.progress import Progress, silent
-from garage2usd.version import VERSION
 
 if TYPE_CHECKING:
     from garage2usd.datasets.cluster import Workers

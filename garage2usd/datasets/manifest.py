@@ -7,7 +7,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from garage2usd.settings import Record
+from garage2usd.common.settings import Record
 
 __all__ = [
     "MANIFEST_SCHEMA",

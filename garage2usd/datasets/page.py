@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.extras import of_extra
 from garage2usd.datasets.charts import bars, histogram, split_colours
 from garage2usd.datasets.contour import ContourShape
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.variety import FIGURES, PlanFigures, Spread, Variety
-from garage2usd.extras import of_extra
 from garage2usd.structure.symmetry import cropped_cells
 from garage2usd.view.drawing import Colour
 from garage2usd.view.plan_thumbnail import THUMBNAIL_COLOURS, draw_thumbnail

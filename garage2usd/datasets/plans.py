@@ -8,15 +8,15 @@ import numpy as np
 import pyarrow as pa
 from pydantic import Field
 
+from garage2usd.common.errors import ConfigError, Garage2UsdError, MissingExtraError
+from garage2usd.common.settings import Record
 from garage2usd.config import GarageConfig
 from garage2usd.datasets.difficulty import Level, garage_difficulty, stall_difficulties
 from garage2usd.datasets.recipe import Distinct, Recipe
-from garage2usd.errors import ConfigError, Garage2UsdError, MissingExtraError
 from garage2usd.pipeline import generate, generate_plan
 from garage2usd.planning import Plan, evaluate
 from garage2usd.reading.report import LearningFigures
 from garage2usd.report import learning_figures
-from garage2usd.settings import Record
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.symmetry import plan_digest
 

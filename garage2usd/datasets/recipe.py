@@ -11,17 +11,17 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, field_validator, model_validator
 
+from garage2usd.common.documents import MAX_SETTINGS_BYTES, read_json, read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.randomness import Step, derived_seed
+from garage2usd.common.settings import Settings, validated
+from garage2usd.common.version import VERSION
 from garage2usd.config import GarageConfig, config_from_mapping, profile_setting
 from garage2usd.datasets.difficulty import Level
 from garage2usd.datasets.distribution import Weight, distribution_of
 from garage2usd.datasets.drives import DrivesConfig
 from garage2usd.datasets.settings_table import first_value, over, pin_textures, resolved
-from garage2usd.documents import MAX_SETTINGS_BYTES, read_json, read_toml
-from garage2usd.errors import ConfigError
-from garage2usd.randomness import Step, derived_seed
-from garage2usd.sensors.rig import read_rig
-from garage2usd.settings import Settings, validated
-from garage2usd.version import VERSION
+from garage2usd.sensors.rig.rig import read_rig
 
 __all__ = ["Alternative", "Distinct", "MakeConfig", "Recipe", "ShardForm", "ShardsConfig", "load_recipe"]
 

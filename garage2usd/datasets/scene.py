@@ -8,6 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from garage2usd.checks import Severity, judged_layout
+from garage2usd.common.json_text import json_text
 from garage2usd.datasets.difficulty import garage_difficulty, stall_difficulties
 from garage2usd.datasets.drives import record_drives
 from garage2usd.datasets.manifest import FileEntry, ManifestRow
@@ -16,7 +17,6 @@ from garage2usd.datasets.recipe import MakeConfig, Recipe
 from garage2usd.driving import StallProof, prove_stalls
 from garage2usd.exports import export
 from garage2usd.garage import StallUse
-from garage2usd.json_text import json_text
 from garage2usd.pipeline import Garage, generate, stage_metadata
 from garage2usd.planning import measured_circulation
 from garage2usd.reading.report import Report

@@ -10,13 +10,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from garage2usd.common.errors import MissingExtraError
+from garage2usd.common.output import HIDDEN_PREFIX, store, writing
+from garage2usd.common.randomness import Step, generator
 from garage2usd.datasets.manifest import ManifestRow, rows_of_text, text_of_rows
 from garage2usd.datasets.plans import DrawnPlan, proportional, said
 from garage2usd.datasets.recipe import ASSET_FOLDER, Recipe, ShardForm
 from garage2usd.datasets.scene import make_scene
-from garage2usd.errors import MissingExtraError
-from garage2usd.output import HIDDEN_PREFIX, store, writing
-from garage2usd.randomness import Step, generator
 
 __all__ = ["SHARD_FOLDER", "Shard", "empty_splits", "made_rows", "make_shard", "shard_members", "shards_of", "sweep"]
 

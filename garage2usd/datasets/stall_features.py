@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.driving import StallProof, prove_stalls
-from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout
+from garage2usd.layout.ceiling.lighting import direct_lux
 from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.layout.lighting import direct_lux
 from garage2usd.layout.placement import cos_sin
 from garage2usd.pipeline import Garage
 

@@ -5,8 +5,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from garage2usd.common.output import HIDDEN_PREFIX
 from garage2usd.datasets.recipe import ASSET_FOLDER
-from garage2usd.output import HIDDEN_PREFIX
 
 __all__ = ["SUMS_FILE", "damaged_assets", "files_of", "read_sums", "sha256_of", "sums_text"]
 

@@ -11,17 +11,17 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from garage2usd.checks import Severity, check_file
+from garage2usd.common.errors import ConfigError, Garage2UsdError
+from garage2usd.common.output import staging_folder
+from garage2usd.common.progress import Progress, silent
+from garage2usd.common.system import link_folder
 from garage2usd.datasets.making import LINES_FILE, PLAN_FILE, TABLE_FILE
 from garage2usd.datasets.manifest import MANIFEST_SCHEMA, ManifestRow, rows_of_table, rows_of_text
 from garage2usd.datasets.plans import DrawnPlan, plans_of
 from garage2usd.datasets.recipe import ASSET_FOLDER, RECIPE_FILE, Distinct, Recipe, load_recipe
 from garage2usd.datasets.shards import SHARD_FOLDER, shard_members
 from garage2usd.datasets.sums import SUMS_FILE, files_of, read_sums, sha256_of
-from garage2usd.errors import ConfigError, Garage2UsdError
-from garage2usd.output import staging_folder
-from garage2usd.progress import Progress, silent
 from garage2usd.structure.symmetry import plan_digest
-from garage2usd.system import link_folder
 
 __all__ = ["Fault", "verify_dataset"]
 

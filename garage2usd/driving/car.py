@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.profiles.profile import USUAL_CAR_LENGTH_M, USUAL_CAR_WIDTH_M
 
 __all__ = ["DesignCar", "Point", "Pose"]

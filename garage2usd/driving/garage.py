@@ -13,6 +13,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 import shapely
 
+from garage2usd.common.progress import Progress, silent
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.lane_poses import families, lane_poses
 from garage2usd.driving.manoeuvre import Manoeuvre
@@ -20,7 +21,6 @@ from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Outcome, Search, least_clearance_m, touched_parked
 from garage2usd.driving.way_search import find_guided_way, find_way_by_steps
 from garage2usd.garage import DEAD_END_LIMIT_M, Arc, LaneGraph, Point, Stall
-from garage2usd.progress import Progress, silent
 
 __all__ = ["DrivenGarage", "Find", "Nose", "StallProof", "middle_of", "prove_garage"]
 

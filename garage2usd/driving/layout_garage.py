@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
+from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.driving.assembly import StandingThing, assembled
 from garage2usd.driving.car import DesignCar, Pose
@@ -15,8 +16,7 @@ from garage2usd.driving.proof import Limits, Outcome
 from garage2usd.layout import Layout, Placement, lay_out
 from garage2usd.layout.garage_stalls import garage_stalls
 from garage2usd.layout.grounds import Grounds
-from garage2usd.layout.open_boots import stalls_of_open_boots
-from garage2usd.progress import Progress, silent
+from garage2usd.layout.parking.open_boots import stalls_of_open_boots
 from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = [

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.progress import Progress, silent
 from garage2usd.config import GarageConfig
 from garage2usd.driving.garage import prove_garage
 from garage2usd.driving.layout_garage import layout_garage
 from garage2usd.driving.proof import Outcome
-from garage2usd.errors import ConfigError
 from garage2usd.layout import Layout, PlacedStall
 from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.progress import Progress, silent
 from garage2usd.structure.lane_graph import LaneSquares
 
 __all__ = ["refuse_undrivable"]

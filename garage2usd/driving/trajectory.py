@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.version import VERSION
 from garage2usd.driving.car import DesignCar
-from garage2usd.version import VERSION
 
 __all__ = ["Trajectory", "write_trajectory_csv", "write_trajectory_json"]
 

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.manoeuvre import Gear, Manoeuvre, Move
 from garage2usd.driving.obstacles import Obstacles
 from garage2usd.driving.proof import LanePose, Limits, Search, least_clearance_m
 from garage2usd.driving.search import HEADINGS, Found, Task, search
 from garage2usd.driving.sweep import Floats, touched_shapes
-from garage2usd.errors import ConfigError
 from garage2usd.native import Int64s
 
 __all__ = ["find_guided_way", "find_way", "find_way_by_steps"]

@@ -7,11 +7,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from garage2usd.common.version import VERSION
 from garage2usd.driving.car import DesignCar, Pose
 from garage2usd.driving.garage import StallProof
 from garage2usd.driving.manoeuvre import Manoeuvre
 from garage2usd.driving.proof import Limits, Outcome
-from garage2usd.version import VERSION
 
 __all__ = ["write_witness"]
 

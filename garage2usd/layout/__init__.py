@@ -11,46 +11,46 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import AISLE
 from garage2usd.config.plan import DeadEnds, UnreachableStalls
-from garage2usd.errors import ConfigError
 from garage2usd.garage import StallUse
-from garage2usd.layout.access import barriers, ramp_lights, with_ramps
-from garage2usd.layout.boards import with_boards
-from garage2usd.layout.building import columns, ground_inside, outer_walls
-from garage2usd.layout.ceiling import beams, ceiling_levels
+from garage2usd.layout.ceiling.beams import beams, ceiling_levels
+from garage2usd.layout.ceiling.lamps import installed_lamps, ramp_lamps
+from garage2usd.layout.ceiling.lighting import LightLevels, light_up
+from garage2usd.layout.ceiling.services import cable_trays, ducts, sprinklers
+from garage2usd.layout.ceiling.signs_and_mirrors import exit_signs, mirrors
 from garage2usd.layout.clearance import check_carriageways
-from garage2usd.layout.clutter import clutter
-from garage2usd.layout.cores import Core, core_placements
-from garage2usd.layout.designation import chargers, with_designated_stalls
-from garage2usd.layout.drains import drains
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.egress import plan_egress
+from garage2usd.layout.egress.cores import Core, core_placements
+from garage2usd.layout.egress.exits import plan_egress
 from garage2usd.layout.fittings import cones, speed_bumps, tube_lights
-from garage2usd.layout.floor_panels import drawn_markings_of, floor_panels
-from garage2usd.layout.lamps import installed_lamps, ramp_lamps
-from garage2usd.layout.lighting import LightLevels, light_up
-from garage2usd.layout.mounts import mounted_objects
-from garage2usd.layout.no_parking import no_parking_signs
-from garage2usd.layout.number_plates import number_plates
-from garage2usd.layout.open_boots import opened
-from garage2usd.layout.overhead import exit_signs, mirrors
-from garage2usd.layout.own_cars import with_own_cars
-from garage2usd.layout.parked_cars import park_cars
-from garage2usd.layout.parking import stall_panels, stalls_of, wheel_stops, with_turning_stalls
+from garage2usd.layout.floor.drains import drains
+from garage2usd.layout.floor.panels import drawn_markings_of, floor_panels
+from garage2usd.layout.floor.puddles import puddles
+from garage2usd.layout.floor.stains import floor_stains
+from garage2usd.layout.floor.stall_numbers import stall_numbers
+from garage2usd.layout.parking.clutter import clutter
+from garage2usd.layout.parking.designation import chargers, with_designated_stalls
+from garage2usd.layout.parking.no_parking import no_parking_signs
+from garage2usd.layout.parking.number_plates import number_plates
+from garage2usd.layout.parking.open_boots import opened
+from garage2usd.layout.parking.own_cars import with_own_cars
+from garage2usd.layout.parking.parked_cars import park_cars
+from garage2usd.layout.parking.stall_table import STALL_USES, StallTable
+from garage2usd.layout.parking.stalls import stall_panels, stalls_of, wheel_stops, with_turning_stalls
+from garage2usd.layout.parking.tight import tight_stalls
+from garage2usd.layout.parking.zones import Zones, with_numbers
 from garage2usd.layout.placement import PlacedStall, Placement
-from garage2usd.layout.puddles import puddles
-from garage2usd.layout.services import cable_trays, ducts, sprinklers
+from garage2usd.layout.shell.boards import with_boards
+from garage2usd.layout.shell.building import columns, ground_inside, outer_walls
+from garage2usd.layout.shell.mounts import mounted_objects
+from garage2usd.layout.shell.ramps import barriers, ramp_lights, with_ramps
+from garage2usd.layout.shell.zone_plates import zone_plates
 from garage2usd.layout.signs import country_of, with_signs_of
-from garage2usd.layout.stains import floor_stains
-from garage2usd.layout.stall_numbers import stall_numbers
-from garage2usd.layout.stall_table import STALL_USES, StallTable
 from garage2usd.layout.table import ObjectTable
-from garage2usd.layout.tight import tight_stalls
 from garage2usd.layout.tiles import TileGrid, ceiling_panel
-from garage2usd.layout.zone_plates import zone_plates
-from garage2usd.layout.zones import Zones, with_numbers
 from garage2usd.look import drawn_look
 from garage2usd.objects import KINDS
 from garage2usd.objects.number_plate import NumberPlateSpec

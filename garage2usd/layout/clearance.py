@@ -1,6 +1,6 @@
 """Whether cars get through: the clear width of lanes and doors."""
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.layout.tiles import Tile, TileGrid
 
 __all__ = ["check_carriageways", "check_clear_width"]

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.randomness import Step, generator, named_generator
+from garage2usd.common.randomness import Step, generator, named_generator
 from garage2usd.structure.lane_graph import Square
 
 __all__ = ["SquareDraws"]

@@ -5,19 +5,19 @@ from collections.abc import Collection, Container, Mapping
 
 import numpy as np
 
+from garage2usd.common.randomness import Step, generator
 from garage2usd.config import FittingsConfig
 from garage2usd.garage import LaneKind
-from garage2usd.layout.ceiling import CeilingLevels
-from garage2usd.layout.cores import Core
+from garage2usd.layout.ceiling.beams import CeilingLevels
+from garage2usd.layout.ceiling.lamps import TUBE
+from garage2usd.layout.ceiling.services import LINES_REACH_M
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.lamps import TUBE
+from garage2usd.layout.egress.cores import Core
 from garage2usd.layout.placement import PlacedStall, Placement, StallUse, placed
-from garage2usd.layout.services import LINES_REACH_M
 from garage2usd.layout.tiles import Tile, TileGrid
 from garage2usd.objects.cone import ConeSpec
 from garage2usd.objects.speed_bump import SPEED_BUMP_HEIGHT_M, SpeedBumpSpec
 from garage2usd.profiles import Profile
-from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Cell
 from garage2usd.structure.lane_graph import LaneSquares, Square
 

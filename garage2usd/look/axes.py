@@ -5,8 +5,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from garage2usd.common.randomness import Step, named_generator
 from garage2usd.config.look import LookConfig
-from garage2usd.randomness import Step, named_generator
 
 __all__ = ["Axes", "Group"]
 

@@ -6,15 +6,15 @@ from functools import cached_property
 
 from garage2usd.as_built.driven_road import driven_road
 from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.spelling import called
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Portal, StallProof
 from garage2usd.driving.route import Route, Router
 from garage2usd.driving.timing import Motion, timed
 from garage2usd.driving.trajectory import Trajectory
 from garage2usd.driving.turns import Steering
-from garage2usd.errors import ConfigError
 from garage2usd.garage import LaneKind, Stall
-from garage2usd.spelling import called
 
 __all__ = ["Drive", "DrivePlanner"]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdLux
 
 from garage2usd.as_built.shapes import are_upright
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.layout.grounds import hulls_of
 from garage2usd.maps.glb_file import GlbFile, Piece
 from garage2usd.maps.glb_lights import place_of, punctual_light, why_left_out

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.json_text import short_json
+from garage2usd.common.json_text import short_json
+from garage2usd.common.version import VERSION
 from garage2usd.maps.glb_materials import Materials
 from garage2usd.maps.glb_meshes import Primitive, beside, places_of, primitive_of
 from garage2usd.maps.glb_textures import shortest
@@ -18,7 +19,6 @@ from garage2usd.reading.objects import Matrix
 from garage2usd.reading.pictures import Pictures
 from garage2usd.reading.remarks import Remarks
 from garage2usd.reading.surfaces import SurfaceLook
-from garage2usd.version import VERSION
 
 __all__ = ["GlbFile", "Piece"]
 

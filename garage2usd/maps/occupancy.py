@@ -10,8 +10,8 @@ import shapely
 from numpy.typing import NDArray
 
 from garage2usd.as_built import BuiltGarage
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import GridConfig
-from garage2usd.errors import ConfigError
 from garage2usd.garage import StallUse
 from garage2usd.layout.grounds import Grounds
 from garage2usd.maps.frame import map_points

@@ -9,7 +9,7 @@ from garage2usd.as_built import BuiltGarage
 from garage2usd.as_built.openings import section_of
 from garage2usd.as_built.placed_pieces import placed_pieces
 from garage2usd.as_built.shapes import Body, Thing
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.layout.grounds import Grounds, hulls_of
 
 __all__ = ["floor_of", "occupied_ground", "ramp_floors"]

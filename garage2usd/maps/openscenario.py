@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
+from garage2usd.common.extras import of_extra
+from garage2usd.common.version import VERSION
 from garage2usd.config.maps import DriveConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.trajectory import Trajectory
-from garage2usd.extras import of_extra
 from garage2usd.maps.frame import heading_rad, map_point, map_points
 from garage2usd.maps.parked_cars import ParkedCar
 from garage2usd.maps.xml_text import element_lines, write_lines
-from garage2usd.version import VERSION
 
 with of_extra("a scenario"):
     from scenariogeneration import xosc

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from garage2usd.extras import of_extra
+from garage2usd.common.extras import of_extra
 from garage2usd.maps.frame import projection
 from garage2usd.maps.xml_text import number_text, tag_text, write_lines
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import shapely
 
 from garage2usd.as_built import BuiltGarage
+from garage2usd.common.errors import StageError
 from garage2usd.driving import RampFloor
-from garage2usd.errors import StageError
 from garage2usd.maps.network import LEFT, RIGHT, Junction, LaneLink, Lanes, Neighbour, Network, Road
 from garage2usd.maps.reference_line import Point, straight, turn
 from garage2usd.maps.road_nodes import OUTSIDE, Opening, RoadNode, road_nodes

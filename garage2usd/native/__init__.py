@@ -16,8 +16,8 @@ from typing import Annotated, Any, ParamSpec, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.system import LIBRARY_SUFFIX
 from garage2usd.native.digest import digest_of
-from garage2usd.system import LIBRARY_SUFFIX
 
 __all__ = [
     "LIBRARY",

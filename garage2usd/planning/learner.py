@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.progress import Progress, silent
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Agent, CirculationMode, DeadEnds, SarsaParameters
 from garage2usd.planning import aisles
@@ -13,7 +14,6 @@ from garage2usd.planning.archive import new_archive, next_random, ranked_lanes
 from garage2usd.planning.board import Board, new_board
 from garage2usd.planning.ground import Ground, Lanes, ground_of
 from garage2usd.planning.sarsa import grown, learn, new_memory, new_room
-from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, Structure
 
 __all__ = ["Learnt", "learn_aisles", "learn_squares", "uses_aisles"]

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.errors import ConfigError, GenerationError
+from garage2usd.common.progress import Progress, silent
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import CirculationMode, DeadEnds
-from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.planning.board import NO_VALUE, new_board
 from garage2usd.planning.circulation import circulation
 from garage2usd.planning.frontier import (
@@ -24,7 +25,6 @@ from garage2usd.planning.frontier import (
 )
 from garage2usd.planning.ground import PADDING, Ground, cells_of, ground_of
 from garage2usd.planning.score import Score, evaluate, is_feasible
-from garage2usd.progress import Progress, silent
 from garage2usd.structure.grid import Cell, CellArray, Structure
 
 __all__ = ["Optimum", "counting_bound", "find_optimum"]

@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from garage2usd.common.errors import GenerationError
+from garage2usd.common.progress import Progress, silent
+from garage2usd.common.randomness import Step, generator
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.plan import Choice
-from garage2usd.errors import GenerationError
 from garage2usd.planning.board import (
     NO_VALUE,
     Board,
@@ -23,8 +25,6 @@ from garage2usd.planning.learner import learn_aisles, learn_squares, uses_aisles
 from garage2usd.planning.local_search import Ranked, keeping_rules_first, least_floor_first, local_search
 from garage2usd.planning.plan import ArchivedPlan, Plan
 from garage2usd.planning.score import Score, evaluate
-from garage2usd.progress import Progress, silent
-from garage2usd.randomness import Step, generator
 from garage2usd.structure.grid import Structure
 
 __all__ = ["plan_lanes"]

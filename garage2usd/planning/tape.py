@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure
 
 __all__ = ["ACTIONS", "play", "rank_of", "tape_at", "tape_of"]

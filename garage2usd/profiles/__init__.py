@@ -6,11 +6,11 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from garage2usd.documents import read_toml
-from garage2usd.errors import ConfigError
+from garage2usd.common.documents import read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.settings import validated
 from garage2usd.profiles.clauses import Area, Clause, Confidence, Length, LengthRange, Severity, Steps
 from garage2usd.profiles.profile import Profile
-from garage2usd.settings import validated
 
 __all__ = [
     "DEFAULT_PROFILE",

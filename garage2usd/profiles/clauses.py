@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from garage2usd.settings import Settings
+from garage2usd.common.settings import Settings
 
 __all__ = [
     "Amount",

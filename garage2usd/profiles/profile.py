@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
+from garage2usd.common.settings import Settings
 from garage2usd.profiles.clauses import Area, Clause, Count, Illuminance, Length, LengthRange, Ratio, Steps
-from garage2usd.settings import Settings
 
 __all__ = ["USUAL_CAR_LENGTH_M", "USUAL_CAR_WIDTH_M", "Profile"]
 

@@ -8,9 +8,9 @@ from pathlib import Path, PurePosixPath
 
 from pxr import Ar, Sdf, Tf, Usd
 
-from garage2usd.errors import StageError
-from garage2usd.limits import allow_seconds
-from garage2usd.output import can_say
+from garage2usd.common.errors import StageError
+from garage2usd.common.limits import allow_seconds
+from garage2usd.common.output import can_say
 
 __all__ = ["STAGE_SUFFIXES", "open_stage", "usd_reason", "usd_text"]
 

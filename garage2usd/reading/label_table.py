@@ -6,9 +6,9 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
-from garage2usd.documents import is_file, read_text
-from garage2usd.errors import StageError
-from garage2usd.settings import Record, first_fault
+from garage2usd.common.documents import is_file, read_text
+from garage2usd.common.errors import StageError
+from garage2usd.common.settings import Record, first_fault
 
 __all__ = ["LARGEST_CLASS_ID", "LARGEST_ID", "LabelTable", "LabelledObject", "SemanticClass", "read_label_table"]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.objects import CLASSES, CLASSES_VERSION
 from garage2usd.reading.label_table import LARGEST_CLASS_ID, LARGEST_ID, SemanticClass, read_label_table
 from garage2usd.reading.number_plates import CAR_OF_PLATE, PLATE_TEXT

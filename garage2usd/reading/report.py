@@ -5,12 +5,12 @@ from typing import Annotated, Any
 
 from pydantic import AliasChoices, Field, SerializerFunctionWrapHandler, ValidationError, model_serializer
 
+from garage2usd.common.documents import MAX_REPORT_BYTES, read_text
+from garage2usd.common.errors import ConfigError, ReportError
+from garage2usd.common.settings import Record, first_fault
 from garage2usd.config import GarageConfig, LookConfig, config_from_mapping
-from garage2usd.documents import MAX_REPORT_BYTES, read_text
-from garage2usd.errors import ConfigError, ReportError
-from garage2usd.layout.lighting import LightLevels
+from garage2usd.layout.ceiling.lighting import LightLevels
 from garage2usd.planning import Principles, Score
-from garage2usd.settings import Record, first_fault
 
 __all__ = [
     "CirculationFigures",

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 
 __all__ = ["READ_AT", "lacks", "metres_per_unit", "metres_y_up", "number_of", "numbers_of", "opinions_of", "vector_of"]
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.extras import RAYS, require
+from garage2usd.common.output import check_file, check_writable, publish, unfinished_folder
+from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.config.maps import DriveConfig
-from garage2usd.errors import ConfigError
-from garage2usd.extras import RAYS, require
-from garage2usd.output import check_file, check_writable, publish, unfinished_folder
-from garage2usd.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings.birds_eye import check_birds_eye
@@ -23,15 +23,15 @@ from garage2usd.render.devices import CPU, Device, find_device
 from garage2usd.render.frames_file import write_frames
 from garage2usd.render.pictures import with_needed, write_mask
 from garage2usd.render.slot_labels import NEEDED, SlotLabels, check_slots
-from garage2usd.sensors.around_view_camera import AroundViewCamera
-from garage2usd.sensors.birds_eye import BirdsEye
-from garage2usd.sensors.calibration import write_calibration
-from garage2usd.sensors.camera import Camera
-from garage2usd.sensors.ego_mask import ego_mask
-from garage2usd.sensors.point_cloud_files import CloudFormat
-from garage2usd.sensors.ray_caster import SLOWLY
-from garage2usd.sensors.recording import Recording
-from garage2usd.sensors.rig import Rig, read_rig
+from garage2usd.sensors.formats.calibration import write_calibration
+from garage2usd.sensors.formats.point_cloud_files import CloudFormat
+from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.rays.birds_eye import BirdsEye
+from garage2usd.sensors.rays.ray_caster import SLOWLY
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.camera import Camera
+from garage2usd.sensors.rig.ego_mask import ego_mask
+from garage2usd.sensors.rig.rig import Rig, read_rig
 from garage2usd.sensors.slots import read_slots
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import DRIVEN_PAINT, CarBody
-from garage2usd.errors import ConfigError
 from garage2usd.objects.car import car_spec
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.way import Way
@@ -18,13 +18,13 @@ from garage2usd.render import Picture
 from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import classes_of, read_depth, read_ids, write_mask
-from garage2usd.sensors.birds_eye import BirdsEye, free_space
-from garage2usd.sensors.poses import CAR_FROM_VEHICLE, VehiclePose
-from garage2usd.sensors.rig import Rig
-from garage2usd.sensors.seen_points import seen_points
+from garage2usd.sensors.rays.birds_eye import BirdsEye, free_space
+from garage2usd.sensors.rays.seen_points import seen_points
+from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, VehiclePose
+from garage2usd.sensors.rig.rig import Rig
 
 if TYPE_CHECKING:
-    from garage2usd.sensors.driven_surface import DrivenSurface
+    from garage2usd.sensors.rays.driven_surface import DrivenSurface
 
 __all__ = ["FREE_FOLDER", "BirdsEyeViews", "check_birds_eye"]
 
@@ -112,7 +112,7 @@ class BirdsEyeViews:
 
     def _driven_surface(self) -> "DrivenSurface":
         """The garage's surface that cars drive on, less what no view shows."""
-        from garage2usd.sensors.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
+        from garage2usd.sensors.rays.driven_surface import DrivenSurface  # noqa: PLC0415 - of an extra
 
         return DrivenSurface(self._way.garage, self._labels, without=self._way.absent(self._labels))
 

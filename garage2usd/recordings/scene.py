@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from pxr import Ar, Usd, UsdUtils
 
+from garage2usd.common.version import VERSION
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels
 from garage2usd.recordings.birds_eye import BirdsEyeViews
@@ -18,14 +19,13 @@ from garage2usd.render import Picture
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
 from garage2usd.render.devices import ComputeDevice
 from garage2usd.render.drawing import MOTION_NEEDS, Drawing
-from garage2usd.sensors.around_view_camera import AroundViewCamera
-from garage2usd.sensors.birds_eye import BirdsEye
-from garage2usd.sensors.camera import Camera
-from garage2usd.sensors.poses import VehiclePose
-from garage2usd.sensors.recording import Recording, Shot
-from garage2usd.sensors.rig import Rig
+from garage2usd.sensors.formats.recording import Recording, Shot
+from garage2usd.sensors.rays.birds_eye import BirdsEye
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.camera import Camera
+from garage2usd.sensors.rig.poses import VehiclePose
+from garage2usd.sensors.rig.rig import Rig
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
-from garage2usd.version import VERSION
 
 __all__ = ["EGO_FOLDER", "POINTS_FOLDER", "Scene"]
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.render.pictures import Picture
-from garage2usd.sensors.around_view_camera import AroundViewCamera
-from garage2usd.sensors.camera import PinholeCamera
-from garage2usd.sensors.point_cloud_files import CloudFormat
-from garage2usd.sensors.poses import MAP_TO_Y_UP, y_up_to_stage
-from garage2usd.sensors.recording import Recording
-from garage2usd.sensors.rig import Rig
+from garage2usd.sensors.formats.point_cloud_files import CloudFormat
+from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.camera import PinholeCamera
+from garage2usd.sensors.rig.poses import MAP_TO_Y_UP, y_up_to_stage
+from garage2usd.sensors.rig.rig import Rig
 
 if TYPE_CHECKING:
     from garage2usd.recordings.sweeps import Sweeps
@@ -77,12 +77,12 @@ def write_sequence(kind: Sequence, recording: Recording, folder: Path, sweeps: "
     place = folder / kind
     shutil.rmtree(place, ignore_errors=True)
     if kind is Sequence.NUSCENES:
-        from garage2usd.sensors.nuscenes import write_nuscenes  # noqa: PLC0415 - of an extra, which pictures do without
+        from garage2usd.sensors.formats.nuscenes import write_nuscenes  # noqa: PLC0415 - of an extra, which pictures do without
 
         place.mkdir(parents=True)
         write_nuscenes(recording, place, stage=sweeps.stage, labels=sweeps.labels, scene=sweeps.solids)
     else:
-        from garage2usd.sensors.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
+        from garage2usd.sensors.formats.ros_bag import write_ros_bag  # noqa: PLC0415 - as above
 
         write_ros_bag(recording, place, stage_to_map=np.linalg.inv(y_up_to_stage(sweeps.stage) @ MAP_TO_Y_UP))
     return place

@@ -11,16 +11,16 @@ from pxr import Usd
 
 from garage2usd.as_built.garage import BuiltGarage
 from garage2usd.as_built.stage_reader import garage_of_stage
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
-from garage2usd.errors import ConfigError
 from garage2usd.garage import Stall
 from garage2usd.maps.drives import DrivePlanner
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import find_views
-from garage2usd.sensors.columns import column_to_y_up
-from garage2usd.sensors.mount import Sensor
-from garage2usd.sensors.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, VehiclePose, poses_along, y_up_to_stage
-from garage2usd.sensors.twist import Twist
+from garage2usd.sensors.rig.columns import column_to_y_up
+from garage2usd.sensors.rig.mount import Sensor
+from garage2usd.sensors.rig.poses import CAR_FROM_VEHICLE, MAP_TO_Y_UP, VehiclePose, poses_along, y_up_to_stage
+from garage2usd.sensors.rig.twist import Twist
 from garage2usd.stage.cameras import EYE_M, FRAMES_PER_SECOND
 from garage2usd.stage.driving_car import CAR_NAME
 

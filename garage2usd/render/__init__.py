@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from pxr import Usd, UsdGeom
 
-from garage2usd.errors import ConfigError
-from garage2usd.extras import require
-from garage2usd.output import check_file, check_writable, publish, staging_folder
-from garage2usd.progress import Announce, Progress, silent, unheard
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.extras import require
+from garage2usd.common.output import check_file, check_writable, publish, staging_folder
+from garage2usd.common.progress import Announce, Progress, silent, unheard
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import Labels, read_labels
 from garage2usd.reading.values import metres_per_unit
@@ -23,7 +23,7 @@ from garage2usd.render.frames_file import write_frames
 from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import Picture, with_needed
 from garage2usd.render.slot_labels import NEEDED, SlotFormat, SlotLabels, check_slots
-from garage2usd.sensors.birds_eye import Orthographic
+from garage2usd.sensors.rays.birds_eye import Orthographic
 from garage2usd.sensors.slots import read_slots
 from garage2usd.stage.labels import OBJECT_LABELS
 

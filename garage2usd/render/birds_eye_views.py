@@ -7,7 +7,7 @@ from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
 from garage2usd.objects import CAR_LABELS
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import USD_FROM_OPENCV, View
-from garage2usd.sensors.birds_eye import BirdsEye
+from garage2usd.sensors.rays.birds_eye import BirdsEye
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.variants import SWITCHES
 

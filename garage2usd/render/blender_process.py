@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from garage2usd.errors import ConfigError, RenderError
-from garage2usd.extras import BLENDER, PICTURES, is_there
-from garage2usd.system import blender_places, temporary_in
+from garage2usd.common.errors import ConfigError, RenderError
+from garage2usd.common.extras import BLENDER, PICTURES, is_there
+from garage2usd.common.system import blender_places, temporary_in
 
 __all__ = ["BLENDER_MODULE", "WITHOUT_MODULE", "Blender", "find_blender", "modules_of", "run_blender"]
 

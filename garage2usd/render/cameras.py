@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.spelling import called
 from garage2usd.reading.values import metres_per_unit
-from garage2usd.sensors.around_view import SEAM_M, AroundView
-from garage2usd.sensors.birds_eye import Orthographic
-from garage2usd.sensors.camera_effects import CameraEffects
-from garage2usd.sensors.lenses import Fisheye, Pinhole
-from garage2usd.sensors.lenses import Lens as SensorLens
-from garage2usd.sensors.twist import Twist
-from garage2usd.spelling import called
+from garage2usd.sensors.rays.around_view import SEAM_M, AroundView
+from garage2usd.sensors.rays.birds_eye import Orthographic
+from garage2usd.sensors.rays.lenses import Fisheye, Pinhole
+from garage2usd.sensors.rays.lenses import Lens as SensorLens
+from garage2usd.sensors.rig.camera_effects import CameraEffects
+from garage2usd.sensors.rig.twist import Twist
 
 __all__ = ["Lens", "View", "find_views"]
 

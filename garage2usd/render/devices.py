@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
-from garage2usd.errors import ConfigError, RenderError
+from garage2usd.common.errors import ConfigError, RenderError
 from garage2usd.render.blender_process import BLENDER_MODULE, Blender
 
 __all__ = ["CPU", "ComputeDevice", "Device", "find_device"]

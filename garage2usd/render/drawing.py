@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.limits import lift
-from garage2usd.progress import Announce, Progress, time_in_words, unheard
+from garage2usd.common.limits import lift
+from garage2usd.common.progress import Announce, Progress, time_in_words, unheard
 from garage2usd.reading.labels import Labels
 from garage2usd.render.blender_process import run_blender
 from garage2usd.render.cameras import View
@@ -36,10 +36,10 @@ from garage2usd.render.pictures import (
     write_picture,
     write_pixels,
 )
-from garage2usd.sensors.birds_eye import Orthographic
 from garage2usd.sensors.developing import develop
-from garage2usd.sensors.lenses import Pinhole
 from garage2usd.sensors.motion_blur import exposed_in_motion
+from garage2usd.sensors.rays.birds_eye import Orthographic
+from garage2usd.sensors.rays.lenses import Pinhole
 
 __all__ = ["MOTION_NEEDS", "Drawing"]
 

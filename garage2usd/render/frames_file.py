@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from garage2usd.common.version import VERSION
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture, VisibleInstance, class_colour
-from garage2usd.version import VERSION
 
 __all__ = ["write_frames"]
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.render.cameras import Lens, View
 from garage2usd.stage.cameras import APERTURE_MM, FOCAL_MM
 

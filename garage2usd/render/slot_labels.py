@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.errors import ConfigError
-from garage2usd.json_text import json_text
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.json_text import json_text
 from garage2usd.reading.labels import Labels
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture, classes_of, read_depth, read_ids, write_ids
-from garage2usd.sensors.around_view import AroundView
-from garage2usd.sensors.birds_eye import FLOOR_CLASSES, Orthographic
-from garage2usd.sensors.coco import CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
-from garage2usd.sensors.dmpr_ps import dmpr_ps
-from garage2usd.sensors.seen_points import seen_points
+from garage2usd.sensors.formats.coco import CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
+from garage2usd.sensors.formats.dmpr_ps import dmpr_ps
+from garage2usd.sensors.formats.slots_file import slots_document
+from garage2usd.sensors.rays.around_view import AroundView
+from garage2usd.sensors.rays.birds_eye import FLOOR_CLASSES, Orthographic
+from garage2usd.sensors.rays.seen_points import seen_points
 from garage2usd.sensors.slots import SlotFrame, SlotRecord, Slots, read_slots
-from garage2usd.sensors.slots_file import slots_document
 
 __all__ = ["NEEDED", "SlotFormat", "SlotLabels", "check_slots"]
 

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.randomness import Step, generator
-from garage2usd.sensors.ray_scene import RayScene
+from garage2usd.common.randomness import Step, generator
+from garage2usd.sensors.rays.ray_scene import RayScene
 
 __all__ = ["ObjectBox", "object_boxes", "share_in_sight"]
 

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from garage2usd.randomness import Step, named_generator
-from garage2usd.sensors.around_view import AroundView
-from garage2usd.sensors.camera_effects import CameraEffects
-from garage2usd.sensors.lenses import Lens
+from garage2usd.common.randomness import Step, named_generator
+from garage2usd.sensors.rays.around_view import AroundView
+from garage2usd.sensors.rays.lenses import Lens
+from garage2usd.sensors.rig.camera_effects import CameraEffects
 
 __all__ = ["Developed", "develop", "exposure_scale", "sensed"]
 

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from garage2usd.sensors.camera_effects import CameraEffects
-from garage2usd.sensors.lenses import Lens, Pinhole
-from garage2usd.sensors.twist import Twist
+from garage2usd.sensors.rays.lenses import Lens, Pinhole
+from garage2usd.sensors.rig.camera_effects import CameraEffects
+from garage2usd.sensors.rig.twist import Twist
 
 __all__ = ["exposed_in_motion"]
 

@@ -11,11 +11,11 @@ import shapely
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.garage import LaneNode, Stall
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up
-from garage2usd.sensors.outline import outline_in_picture, polygons_of
+from garage2usd.sensors.rays.outline import outline_in_picture, polygons_of
 
 __all__ = ["CORNERS", "PLACES_PX", "Slot", "SlotFrame", "SlotRecord", "Slots", "Visibility", "read_slots"]
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
-from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.site.contour import draw_contour
 from garage2usd.site.given import check_structure, given_contour, place_obstacles, place_portals
 from garage2usd.site.obstacles import draw_obstacles

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import SiteConfig
-from garage2usd.errors import ConfigError
 from garage2usd.site.portals import free_squares_connected, outer_squares
 from garage2usd.structure.grid import (
     NEIGHBOUR_STEPS,

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from garage2usd.common.errors import GenerationError
+from garage2usd.common.randomness import Step, generator
 from garage2usd.config import SiteConfig
-from garage2usd.errors import GenerationError
-from garage2usd.randomness import Step, generator
 from garage2usd.site.portals import free_squares_connected
 from garage2usd.structure.grid import Cell, CellArray, Mask
 

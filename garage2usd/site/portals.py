@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from garage2usd.common.errors import GenerationError
+from garage2usd.common.randomness import Step, generator
 from garage2usd.config import SiteConfig
-from garage2usd.errors import GenerationError
-from garage2usd.randomness import Step, generator
 from garage2usd.site.ramps import are_apart, with_room_for_ramps
 from garage2usd.structure.grid import Cell, CellArray, Mask, edge_neighbour_count, outside_squares
 from garage2usd.structure.pieces import pieces_of

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import BayConfig, FittingsConfig, SiteConfig
-from garage2usd.errors import ConfigError
 from garage2usd.structure.doors import door_edges
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, CellArray, Mask, outside_squares
 

@@ -1,7 +1,7 @@
 """Whether the squares of a site have room for a stall, before anything is planned on them."""
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import BayConfig
-from garage2usd.errors import ConfigError
 from garage2usd.structure.grid import Cell, Structure
 from garage2usd.structure.stalls import capacity_table
 

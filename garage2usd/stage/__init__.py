@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from garage2usd.assets import Finish
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.json_text import json_text
+from garage2usd.common.output import store
+from garage2usd.common.progress import Progress, silent
 from garage2usd.config.stage import AssetPlace, StageConfig, StageForm
-from garage2usd.errors import ConfigError
-from garage2usd.json_text import json_text
 from garage2usd.layout import Layout
 from garage2usd.look import finishes_of
 from garage2usd.objects import Spec
-from garage2usd.output import store
-from garage2usd.progress import Progress, silent
 from garage2usd.stage.arrangement import Arrangement, arrange
 from garage2usd.stage.asset_files import AssetFile, asset_file
 from garage2usd.stage.cameras import DRIVE_NAME, write_drive

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from garage2usd.assets import Finish, pascal_case
+from garage2usd.common.output import HIDDEN_PREFIX
 from garage2usd.config.stage import TextureQuality
 from garage2usd.objects import Spec
-from garage2usd.output import HIDDEN_PREFIX
 from garage2usd.stage.prototype_layer import write_prototype
 from garage2usd.stage.prototypes import asset_of
 from garage2usd.stage.texture_files import NamedFile, content_name, textures_of

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Tf, UsdGeom, UsdPhysics, Vt
 
-from garage2usd.errors import OutputError
+from garage2usd.common.errors import OutputError
 from garage2usd.reading.taxonomy import LABELS_SCHEMA, OBJECT_TAXONOMY, labels_name
 
 __all__ = [

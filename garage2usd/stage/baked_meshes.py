@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
 from garage2usd.assets import Asset, Collider, Part
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.objects import Spec
 
 __all__ = ["MESH_FILE", "bake_meshes", "baked_asset", "baked_shapes"]

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
+from garage2usd.common.processes import without_collector
 from garage2usd.layout import Layout
 from garage2usd.objects import Spec
-from garage2usd.processes import without_collector
 from garage2usd.stage.arrangement import ROOT_NAME, Arrangement, row_name, tile_name
 from garage2usd.stage.authoring import define, save, set_units
 from garage2usd.stage.cameras import author_cameras, set_frames

@@ -10,7 +10,7 @@ from pxr import Gf, Sdf, UsdLux
 from garage2usd.assets import Asset, Rgb
 from garage2usd.assets.cars import lamps_of
 from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.reading.lights import luminance_of
 from garage2usd.stage.authoring import apply_schemas, attribute, define, operation, order_operations
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY

@@ -9,7 +9,7 @@ from pxr import Kind, Sdf, UsdGeom, Vt
 
 from garage2usd.garage import LaneGraph
 from garage2usd.layout import Layout, StallTable
-from garage2usd.layout.stall_table import EDGES, STALL_TYPES, STALL_USES
+from garage2usd.layout.parking.stall_table import EDGES, STALL_TYPES, STALL_USES
 from garage2usd.reading.lanes import GUIDE_LIFT_M
 from garage2usd.stage.authoring import attribute, define, new_layer, numbers, words
 from garage2usd.stage.curves import author_curves

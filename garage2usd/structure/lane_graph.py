@@ -9,8 +9,8 @@ from functools import cached_property
 import networkx as nx
 import numpy as np
 
+from garage2usd.common.errors import UnreachableStallError
 from garage2usd.config import BayConfig
-from garage2usd.errors import UnreachableStallError
 from garage2usd.garage import LaneEdge, LaneGraph, LaneKind, LaneNode
 from garage2usd.structure.border import bordered
 from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell, Structure

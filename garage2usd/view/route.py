@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.spelling import called
 from garage2usd.garage import LaneKind
 from garage2usd.layout import Layout, PlacedStall
-from garage2usd.spelling import called
 from garage2usd.structure.lane_graph import LaneSquares, Square
 
 __all__ = ["Route", "find_stall", "route_of"]

@@ -19,7 +19,7 @@ from garage2usd.recordings import record
 from garage2usd.render.cameras import View
 from garage2usd.render.pictures import Picture
 from garage2usd.render.slot_labels import SlotFormat
-from garage2usd.sensors.rig import read_rig
+from garage2usd.sensors.rig.rig import read_rig
 
 pytestmark = [
     pytest.mark.client,

@@ -10,7 +10,7 @@ from support.sample_files import REPOSITORY
 from garage2usd.recordings import record
 from garage2usd.render import Picture
 from garage2usd.render.pictures import read_ids
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 
 pytest.importorskip("bpy", reason="extra: blender")
 TRUTH = Picture.DEPTH, Picture.INSTANCE, Picture.SEMANTIC

@@ -15,20 +15,20 @@ import garage2usd
 from garage2usd.as_built.plan_reader import garage_of_plan
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
+from garage2usd.common.progress import silent
 from garage2usd.objects import KINDS
 from garage2usd.objects.car import OpenCarSpec
-from garage2usd.progress import silent
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.render.birds_eye_views import birds_eye_view, looked_through
 from garage2usd.render.drawing import Drawing
 from garage2usd.render.free_camera import free_view
 from garage2usd.render.pictures import Picture, read_ids
-from garage2usd.sensors.birds_eye import FREE_CLASSES, BirdsEye
-from garage2usd.sensors.coco import coco_panoptic, panoptic_segments
-from garage2usd.sensors.lidar import scan, spinning_beams
-from garage2usd.sensors.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
-from garage2usd.sensors.ray_scene import read_ray_scene
+from garage2usd.sensors.formats.coco import coco_panoptic, panoptic_segments
+from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, categories_of_classes
+from garage2usd.sensors.rays.birds_eye import FREE_CLASSES, BirdsEye
+from garage2usd.sensors.rays.lidar import scan, spinning_beams
+from garage2usd.sensors.rays.ray_scene import read_ray_scene
 
 pytestmark = pytest.mark.client
 needs_blender = pytest.mark.skipif(

@@ -7,9 +7,9 @@ import pytest
 from PIL import Image
 
 from garage2usd import contact_sheet
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.contact_sheet import SheetGarage, draw_contact_sheet
-from garage2usd.errors import ConfigError
 
 pytestmark = [
     pytest.mark.client,

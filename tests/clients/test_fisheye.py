@@ -12,7 +12,7 @@ import pytest
 from support.sensor_axes import blender_world
 
 from garage2usd.render.cameras import View
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 
 pytestmark = [
     pytest.mark.client,

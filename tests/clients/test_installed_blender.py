@@ -12,9 +12,9 @@ from click.testing import CliRunner
 from PIL import Image
 from support.sample_files import REPOSITORY
 
-from garage2usd import extras, system
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError, MissingExtraError
+from garage2usd.common import extras, system
+from garage2usd.common.errors import ConfigError, MissingExtraError
 from garage2usd.render import Picture, blender_process, render_stage
 from garage2usd.render.blender_process import BLENDER_MODULE, Blender, find_blender
 
@@ -123,7 +123,7 @@ def test_the_usual_places_of_a_system_are_looked_at_newest_first(tmp_path, monke
     for place in made:
         place.parent.mkdir(parents=True)
         place.touch()
-    monkeypatch.setattr("garage2usd.system.sys.platform", platform)
+    monkeypatch.setattr("garage2usd.common.system.sys.platform", platform)
     found = system.blender_places({name: value.format(tmp_path) for name, value in environment.items()})
     monkeypatch.undo()
     assert [path for path in found if path.is_relative_to(tmp_path)] == [made[1], made[2], made[0]]

@@ -11,7 +11,7 @@ import pytest
 from support.sample_files import SAMPLES
 
 from garage2usd.config import GarageConfig, load_config
-from garage2usd.layout.lighting import MAINTENANCE, direct_lux
+from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux
 from garage2usd.pipeline import build
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY
 from garage2usd.structure.grid import Cell

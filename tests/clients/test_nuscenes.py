@@ -13,11 +13,11 @@ from support.sample_files import REPOSITORY
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
 
 from garage2usd.checks import read_garage
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.maps.parked_cars import parked_cars
-from garage2usd.sensors.nuscenes import NUSCENES_VERSION, write_nuscenes
-from garage2usd.sensors.recording import Recording
-from garage2usd.sensors.rig import read_rig
+from garage2usd.sensors.formats.nuscenes import NUSCENES_VERSION, write_nuscenes
+from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.rig.rig import read_rig
 
 pytestmark = [
     pytest.mark.client,

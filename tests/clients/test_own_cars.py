@@ -31,8 +31,8 @@ from garage2usd.objects import CAR_LABELS
 from garage2usd.objects.car import OwnCarSpec
 from garage2usd.recordings import CloudFormat, Sequence, record
 from garage2usd.render import Picture
-from garage2usd.sensors.nuscenes import NUSCENES_VERSION, write_nuscenes
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.formats.nuscenes import NUSCENES_VERSION, write_nuscenes
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 from garage2usd.stage.arrangement import arrange
 from garage2usd.view.drawing import Region
 from garage2usd.view.plan_picture import draw_plan

@@ -21,10 +21,10 @@ from support.sample_files import REPOSITORY
 from support.slot_corners import judge_corners
 
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.recordings import record
 from garage2usd.render import Picture, SlotFormat
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 
 pytestmark = [
     pytest.mark.client,
@@ -331,7 +331,7 @@ def test_what_was_finished_before_a_kill_is_not_drawn_again_and_gives_the_same_b
     out = tmp_path / "drive"
     program = (
         "import sys; from garage2usd.recordings import record; from garage2usd.render import Picture; "
-        "from garage2usd.sensors.rig import Rig; "
+        "from garage2usd.sensors.rig.rig import Rig; "
         f"record({str(drive.stage)!r}, {str(out)!r}, rig=Rig.model_validate_json(open({str(rig)!r}).read()), "
         f"along={drive.along!r}, every_m=40.0, scale={SCALE}, samples=2, "
         f"pictures={[kind.value for kind in KINDS]!r} and [Picture(k) for k in {[kind.value for kind in KINDS]!r}])"

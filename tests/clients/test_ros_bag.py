@@ -12,10 +12,10 @@ from support.recordings import Recorded
 from support.sample_files import REPOSITORY
 from support.sensor_judges import HAS_SENSOR_JUDGES, run_judge
 
-from garage2usd.errors import ConfigError
-from garage2usd.sensors.recording import Recording
-from garage2usd.sensors.rig import read_rig
-from garage2usd.sensors.ros_bag import write_ros_bag
+from garage2usd.common.errors import ConfigError
+from garage2usd.sensors.formats.recording import Recording
+from garage2usd.sensors.formats.ros_bag import write_ros_bag
+from garage2usd.sensors.rig.rig import read_rig
 
 pytestmark = [pytest.mark.client, pytest.mark.skipif(not HAS_SENSOR_JUDGES, reason="no environment with mcap")]
 

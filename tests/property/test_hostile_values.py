@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garage2usd.checks import read_garage
+from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import GarageConfig, config_from_mapping
-from garage2usd.errors import Garage2UsdError
 from garage2usd.planning import play
 from garage2usd.profiles import DEFAULT_PROFILE, load_profile, read_profile
 from garage2usd.structure.grid import Cell, Structure, cells_from_text

@@ -20,10 +20,10 @@ import shapely
 from shapely import affinity
 
 from garage2usd.checks.swept_path import design_car
+from garage2usd.common.errors import Garage2UsdError
 from garage2usd.config import GarageConfig
 from garage2usd.driving import DesignCar
 from garage2usd.driving.layout_garage import prove_stalls
-from garage2usd.errors import Garage2UsdError
 from garage2usd.layout import ObjectTable
 from garage2usd.objects.car import CarSpec, OpenCarSpec
 from garage2usd.pipeline import generate

@@ -23,7 +23,7 @@ from garage2usd.config import config_from_mapping
 from garage2usd.datasets import Recipe
 from garage2usd.datasets.drives import check_drives
 from garage2usd.profiles import read_profile
-from garage2usd.sensors.rig import rig_from_mapping
+from garage2usd.sensors.rig.rig import rig_from_mapping
 
 REPOSITORY = Path(__file__).parents[2]  # test_wheel.py loads this module alone, without other helpers
 

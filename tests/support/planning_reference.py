@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from garage2usd.common.errors import GenerationError
 from garage2usd.config import BayConfig, SiteConfig
 from garage2usd.config.site import DEFAULT_SIDE_M
-from garage2usd.errors import GenerationError
 from garage2usd.planning.board import new_board
 from garage2usd.planning.ground import ground_of
 from garage2usd.site import make_site

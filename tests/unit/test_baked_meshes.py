@@ -11,9 +11,9 @@ import pytest
 from support.object_specs import SPECS
 
 from garage2usd.assets import Asset
+from garage2usd.common.errors import StageError
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.errors import StageError
 from garage2usd.objects.car import CarSpec
 from garage2usd.pipeline import generate
 from garage2usd.stage import baked_meshes

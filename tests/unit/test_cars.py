@@ -9,9 +9,9 @@ from garage2usd.assets.car_shapes import SHAPES, Grille, Head, Rim, TailLamp
 from garage2usd.assets.car_shell import Shell
 from garage2usd.assets.car_wheels import MOST_STEER_DEG, steered_box
 from garage2usd.assets.cars import car
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.stage import TextureQuality
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_BODIES, PAINTS
-from garage2usd.errors import ConfigError
 from garage2usd.objects.car import CarSpec
 from garage2usd.stage.prototype_layer import write_prototype
 

@@ -15,10 +15,10 @@ from support.sample_files import REPOSITORY
 import garage2usd
 from garage2usd.cli import bars, main
 from garage2usd.cli.termination import Termination
+from garage2usd.common.limits import ONE_THREAD
+from garage2usd.common.progress import time_in_words
 from garage2usd.config import config_schema
-from garage2usd.limits import ONE_THREAD
 from garage2usd.profiles import PROFILE_NAMES
-from garage2usd.progress import time_in_words
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.stage.baked_meshes import MESH_FILE
 

@@ -11,13 +11,13 @@ from shapely import affinity
 from support import clutter_judge
 
 from garage2usd.checks import check_layout
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.config.clutter import ClutterConfig
 from garage2usd.driving.layout_garage import prove_stalls
-from garage2usd.errors import ConfigError
 from garage2usd.layout import ObjectTable
-from garage2usd.layout.building import ground_inside
 from garage2usd.layout.placement import placed
+from garage2usd.layout.shell.building import ground_inside
 from garage2usd.objects.car import OpenCarSpec
 from garage2usd.objects.person import PersonSpec
 from garage2usd.pipeline import generate

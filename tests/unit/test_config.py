@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from support.sample_files import each_sample
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, config_from_mapping, config_schema, load_config
-from garage2usd.errors import ConfigError
 from garage2usd.pipeline import generate
 
 

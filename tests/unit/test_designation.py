@@ -6,8 +6,8 @@ from support.footprints import footprint
 from garage2usd.config import GarageConfig
 from garage2usd.garage import StallUse
 from garage2usd.layout import lay_out
-from garage2usd.layout.designation import use_symbol
-from garage2usd.layout.markings import zebra
+from garage2usd.layout.floor.markings import zebra
+from garage2usd.layout.parking.designation import use_symbol
 from garage2usd.objects.stall_number import NumberSpec
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import build_lane_graph

@@ -3,8 +3,8 @@ import os
 
 import pytest
 
-from garage2usd.documents import read_json, read_text, read_toml
-from garage2usd.errors import ConfigError
+from garage2usd.common.documents import read_json, read_text, read_toml
+from garage2usd.common.errors import ConfigError
 
 
 def refused(read, path, **options):

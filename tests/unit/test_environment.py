@@ -11,9 +11,9 @@ from gymnasium.utils.env_checker import check_env
 from support.sample_files import REPOSITORY
 
 import garage2usd
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.environment import ENVIRONMENT_ID, LanesEnvironment
-from garage2usd.errors import ConfigError
 from garage2usd.planning import evaluate, is_feasible
 from garage2usd.planning.decision import Action, initial, observe, reward, terminal, transition
 from garage2usd.structure.grid import Cell, cells_from_text

@@ -15,7 +15,7 @@ from support.map_reader import read_map
 
 import garage2usd
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError, MissingExtraError, ReportError, StageError
+from garage2usd.common.errors import ConfigError, MissingExtraError, ReportError, StageError
 
 QUICK = "[plan]\nepisodes = 200\n"
 GRID_FILES = tuple(f"g{mask}.{suffix}" for mask in ("", "_keepout", "_speed") for suffix in ("yaml", "pgm"))
@@ -60,7 +60,7 @@ def test_the_command_takes_the_maps_of_a_configuration(made, tmp_path):
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are copied on Linux only")
 def test_the_command_writes_files_at_a_time_and_the_same(made, tmp_path):
     files = ["g.yaml", "g.xodr", "g.xosc", "g.osm", "g.glb"]
-    said = "import sys, garage2usd.processes as p; p.ProcessPoolExecutor = lambda *_, **__: sys.exit('copied')\n"
+    said = "import sys, garage2usd.common.processes as p; p.ProcessPoolExecutor = lambda *_, **__: sys.exit('copied')\n"
     for workers, code, status in (("3", "", 0), ("1", said, 0), ("2", said, 1)):
         outputs = [part for file in files for part in ("-o", tmp_path / workers / file)]
         command = [sys.executable, "-c", f"{code}from garage2usd.cli import run; run()", "export", made / "g.usdc"]

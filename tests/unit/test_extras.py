@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner
 from support.sample_files import REPOSITORY
 
-from garage2usd import extras
 from garage2usd.cli import main
+from garage2usd.common import extras
 
 MIXED = REPOSITORY / "samples" / "recipes" / "mixed.toml"
 RECIPE = 'name = "small"\ncount = 1\n[garage.site]\nwidth_cells = 5\nheight_cells = 5\n[make]\n'

@@ -7,11 +7,11 @@ import pytest
 from pxr import Usd, UsdGeom
 
 from garage2usd.assets import Asset
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES, body_named
-from garage2usd.errors import ConfigError
 from garage2usd.objects.car import CarSpec
 from garage2usd.reading.lights import light_of
-from garage2usd.sensors.rig import rig_from_mapping
+from garage2usd.sensors.rig.rig import rig_from_mapping
 from garage2usd.stage.ego_car import EGO_PATH, write_stage_with_car
 from garage2usd.stage.lamp_lights import lamp_places
 from garage2usd.stage.prototype_layer import NITS_PER_INTENSITY

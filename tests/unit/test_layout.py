@@ -8,9 +8,9 @@ from support.footprints import footprint
 from support.overlaps import Solids
 from support.sample_files import each_sample
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, SEGMENTS
-from garage2usd.errors import ConfigError
 from garage2usd.garage import StallUse
 from garage2usd.layout import lay_out
 from garage2usd.objects import KINDS

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from garage2usd.config import GarageConfig
-from garage2usd.layout.lighting import MAINTENANCE, direct_lux
+from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.pipeline import generate

@@ -13,7 +13,8 @@ from support.small_garage import PLAN as SMALL
 
 from garage2usd.config import GarageConfig
 from garage2usd.config.site import SiteConfig
-from garage2usd.layout import lay_out, mounts
+from garage2usd.layout import lay_out
+from garage2usd.layout.shell import mounts
 from garage2usd.objects import MOUNTED, Mounted
 from garage2usd.objects.kind import Spec
 from garage2usd.objects.mirror import KIND

@@ -14,8 +14,8 @@ from click.testing import CliRunner
 
 import garage2usd
 from garage2usd.cli import main
-from garage2usd.documents import is_file
-from garage2usd.errors import StageError
+from garage2usd.common.documents import is_file
+from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage
 from garage2usd.view.viewer import read_scene
 

@@ -16,7 +16,7 @@ from garage2usd.assets.plate_texture import BAND, CHARACTERS, SPACE, cell_corner
 from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
 from garage2usd.config.vehicles import CAR_BODIES, DRIVEN_PLATE, PAINTS
-from garage2usd.layout.number_plates import number_plates
+from garage2usd.layout.parking.number_plates import number_plates
 from garage2usd.maps.glb import write_glb
 from garage2usd.objects.car import CarSpec
 from garage2usd.objects.number_plate import NumberPlateSpec

@@ -9,8 +9,8 @@ import shapely
 from pxr import Usd, UsdGeom
 from support.label_tables import labelled_objects
 
+from garage2usd.common.errors import StageError
 from garage2usd.config import GarageConfig
-from garage2usd.errors import StageError
 from garage2usd.pipeline import build
 from garage2usd.reading.label_table import LabelTable, read_label_table
 from garage2usd.reading.lanes import read_lanes

@@ -13,8 +13,8 @@ from support.sample_files import REPOSITORY
 
 from garage2usd import native
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError
-from garage2usd.output import check_file, check_name
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.output import check_file, check_name
 
 PACKAGE = REPOSITORY / "garage2usd"
 OTHERS = ("win32", "darwin")
@@ -115,7 +115,7 @@ def test_a_stage_that_another_program_holds_open_is_tried_again(tmp_path):
     code = """
 import threading, time
 from pathlib import Path
-from garage2usd.output import publish_at
+from garage2usd.common.output import publish_at
 Path("new").write_text("new")
 Path("old").write_text("old")
 {hold}
@@ -136,7 +136,7 @@ publish_at({{Path("new"): Path("old")}})
 )
 def test_names_that_windows_refuses_are_refused_there_alone(name, tmp_path, monkeypatch):
     check_name(tmp_path / name)
-    monkeypatch.setattr("garage2usd.system.sys.platform", "win32")
+    monkeypatch.setattr("garage2usd.common.system.sys.platform", "win32")
     with pytest.raises(ConfigError, match="a file name that Windows takes"):
         check_name(tmp_path / name)
     check_name(tmp_path / "console.usdz")
@@ -145,7 +145,7 @@ def test_names_that_windows_refuses_are_refused_there_alone(name, tmp_path, monk
 def test_long_paths_are_refused_where_there_is_a_limit(tmp_path, monkeypatch):
     place = tmp_path / ("a" * 200) / "garage.usdz"
     check_file(place)
-    monkeypatch.setattr("garage2usd.output.LONGEST_PATH", 200)
+    monkeypatch.setattr("garage2usd.common.output.LONGEST_PATH", 200)
     with pytest.raises(ConfigError, match="a path of at most 200 characters"):
         check_file(place)
 

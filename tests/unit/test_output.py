@@ -5,8 +5,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from garage2usd.errors import ConfigError, OutputError
-from garage2usd.output import check_file, check_writable, only_run, publish, publish_at, staging_folder, store
+from garage2usd.common.errors import ConfigError, OutputError
+from garage2usd.common.output import check_file, check_writable, only_run, publish, publish_at, staging_folder, store
 
 
 def make(staging, name, text):

@@ -13,12 +13,12 @@ import garage2usd
 from garage2usd.assets import MATERIALS
 from garage2usd.assets.cars import lit
 from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.foreign_models import read_model
 from garage2usd.config import GarageConfig
 from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
-from garage2usd.errors import ConfigError
-from garage2usd.foreign_models import read_model
-from garage2usd.sensors.ego_mask import ego_triangles_m
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.ego_mask import ego_triangles_m
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 from garage2usd.stage.driving_car import CAR_NAME, driven_asset
 from garage2usd.stage.lamp_lights import lamp_places
 

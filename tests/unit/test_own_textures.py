@@ -8,10 +8,10 @@ from PIL import Image
 from pxr import Usd, UsdShade
 
 import garage2usd
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, load_config
 from garage2usd.config.map_names import Channel, channels_of
 from garage2usd.config.texture_sets import TextureFolder, read_texture_sets
-from garage2usd.errors import ConfigError
 
 GREY, RED, GREEN, BLUE = (
     np.full((32, 64), 90, np.uint8),

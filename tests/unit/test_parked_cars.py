@@ -13,15 +13,15 @@ from support.overlaps import Solids
 
 from garage2usd.assets import MATERIALS
 from garage2usd.checks import check_layout
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, config_from_mapping
 from garage2usd.config.markets import MARKET_NAMES, load_market, market_of
 from garage2usd.config.vehicles import CAR_BODIES, PAINTS, SEGMENTS, body_named
 from garage2usd.driving import prove_stalls
-from garage2usd.errors import ConfigError
 from garage2usd.layout import lay_out
 from garage2usd.layout.draws import SquareDraws
-from garage2usd.layout.parked_cars import fitting, park_cars
-from garage2usd.layout.parking import stalls_of
+from garage2usd.layout.parking.parked_cars import fitting, park_cars
+from garage2usd.layout.parking.stalls import stalls_of
 from garage2usd.layout.tiles import TileGrid
 from garage2usd.maps.stall_facts import StallFacts
 from garage2usd.objects.car import CarSpec

@@ -16,8 +16,8 @@ from support.footprints import footprint
 from support.sample_files import REPOSITORY
 
 from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig
-from garage2usd.errors import ConfigError
 from garage2usd.garage import LaneKind, StallUse
 from garage2usd.pipeline import build, generate
 from garage2usd.planning import measured_circulation

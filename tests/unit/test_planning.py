@@ -5,11 +5,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from garage2usd.common.errors import GenerationError
+from garage2usd.common.randomness import Step
 from garage2usd.config import BayConfig, GarageConfig, PlanConfig
-from garage2usd.errors import GenerationError
 from garage2usd.pipeline import build, generate
 from garage2usd.planning import evaluate, given_plan, plan_lanes
-from garage2usd.randomness import Step
 from garage2usd.site import make_site
 from garage2usd.structure.grid import Cell, Structure, cells_from_text
 

@@ -6,12 +6,12 @@ import sys
 
 import pytest
 
-from garage2usd.processes import without_collector
+from garage2usd.common.processes import without_collector
 
 TASKS = """
 import os, threading
 from functools import partial
-from garage2usd.processes import each_in_a_copy
+from garage2usd.common.processes import each_in_a_copy
 own = os.getpid()
 here = [number for number in range({tasks})]
 def task(number):

@@ -12,10 +12,10 @@ from pxr import Gf, Usd, UsdGeom
 from support.label_tables import labelled_objects
 from support.sample_files import REPOSITORY
 
-from garage2usd import extras
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError, StageError
-from garage2usd.progress import silent
+from garage2usd.common import extras
+from garage2usd.common.errors import ConfigError, StageError
+from garage2usd.common.progress import silent
 from garage2usd.reading.labels import read_labels
 from garage2usd.render import Picture, blender_process, devices, drawing
 from garage2usd.render.cameras import find_views

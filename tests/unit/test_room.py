@@ -7,9 +7,9 @@ from garage2usd import GarageConfig, build
 from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import RULES, check, check_layout
 from garage2usd.cli import main
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.layout.garage_stalls import clear_aisle_m
-from garage2usd.layout.tight import tight_stalls
+from garage2usd.layout.parking.tight import tight_stalls
 from garage2usd.pipeline import generate
 
 QUICK = {"episodes": 30, "starts": 1}

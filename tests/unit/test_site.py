@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.config import BayConfig, SiteConfig
-from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.site import make_site
 from garage2usd.site.obstacles import inner_squares
 from garage2usd.site.portals import straight_frontier

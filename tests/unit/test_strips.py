@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from PIL import Image
 from support.benchmarks import benchmark
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import config_from_mapping
 from garage2usd.datasets import load_recipe
-from garage2usd.errors import ConfigError
 from garage2usd.pipeline import build, generate
 from garage2usd.reading.files import open_stage
 

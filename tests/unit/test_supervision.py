@@ -35,7 +35,7 @@ def test_memory_is_limited():
 
 
 def test_time_is_limited_where_it_is_asked_for_and_lifted_where_not():
-    body = "from garage2usd.limits import allow_seconds, lift; allow_seconds(0.1); {}sum(range(10**10))"
+    body = "from garage2usd.common.limits import allow_seconds, lift; allow_seconds(0.1); {}sum(range(10**10))"
     ended = supervised(body.format(""))
     assert (ended.returncode, ended.stderr.count("\n")) == (1, 1)
     assert "does not seem to end" in ended.stderr

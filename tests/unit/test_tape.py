@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import BayConfig, PlanConfig, SiteConfig
-from garage2usd.errors import ConfigError
 from garage2usd.planning import plan_lanes, play, rank_of, tape_at, tape_of
 from garage2usd.site import make_site
 from garage2usd.structure.grid import Cell, Structure, cells_from_text

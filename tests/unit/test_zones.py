@@ -7,7 +7,7 @@ from support.sample_files import each_sample
 from garage2usd.config import GarageConfig
 from garage2usd.config.site import SiteConfig
 from garage2usd.layout import lay_out
-from garage2usd.layout.zones import Zones
+from garage2usd.layout.parking.zones import Zones
 from garage2usd.objects import MOUNTED
 from garage2usd.objects.zone_plate import ZONE_PLATE_HEIGHT_M
 from garage2usd.pipeline import generate

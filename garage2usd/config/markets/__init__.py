@@ -8,8 +8,8 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, Field
 
+from garage2usd.common.settings import Settings, validated
 from garage2usd.config.vehicles import PAINTS, SEGMENTS
-from garage2usd.settings import Settings, validated
 
 __all__ = ["MARKET_NAMES", "Market", "MarketName", "PaintShares", "SegmentShares", "load_market", "market_of"]
 

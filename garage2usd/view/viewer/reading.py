@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd
 
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.reading.label_table import read_label_table
 from garage2usd.reading.lanes import read_lanes
 from garage2usd.reading.values import metres_y_up

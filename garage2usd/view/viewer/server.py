@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Self
 from urllib.parse import urlsplit
 
-from garage2usd.errors import OutputError
+from garage2usd.common.errors import OutputError
 from garage2usd.view.viewer.scene import Scene
 from garage2usd.view.viewer.wire import encode_colliders, encode_scene
 

@@ -131,7 +131,7 @@ def _install():
             if name in views:
                 return views[name]
         found = real(name, globals, locals, fromlist, level)
-        if name == "garage2usd.system":  # whose library of loops is compiled for the system that is there
+        if name == "garage2usd.common.system":  # whose library of loops is compiled for the system that is there
             sys.modules[name].LIBRARY_SUFFIX = ".so"
         return found
 

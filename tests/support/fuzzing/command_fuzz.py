@@ -91,9 +91,9 @@ def _become_command(case: Case, work: Path, temporary: Path) -> None:
         os.chdir(work)
         os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
         resource.setrlimit(resource.RLIMIT_CPU, (_HARD_S, _HARD_S))
-        from garage2usd import limits
         from garage2usd.cli import main
         from garage2usd.cli.supervision import SUPERVISED
+        from garage2usd.common import limits
 
         if case.arguments[0] in SUPERVISED:
             limits.enforce()
@@ -161,8 +161,8 @@ def _load_commands() -> None:
     import garage2usd.cli
     import garage2usd.pipeline
     import garage2usd.render
+    from garage2usd.common.errors import RenderError
     from garage2usd.driving import prove_stalls
-    from garage2usd.errors import RenderError
     from garage2usd.render import drawing
     from garage2usd.view import viewer
 

@@ -9,7 +9,7 @@ from support.small_garage import PLAN, SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_file
-from garage2usd.errors import ConfigError, StageError
+from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.layout import lay_out
 from garage2usd.profiles import load_profile, read_profile
 from garage2usd.structure.grid import Structure, cells_from_text

@@ -9,8 +9,8 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.checks import check
+from garage2usd.common.errors import StageError
 from garage2usd.driving import way_search
-from garage2usd.errors import StageError
 from garage2usd.profiles import load_profile
 
 PROFILE = load_profile("cn-jgj100")

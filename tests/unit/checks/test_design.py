@@ -7,8 +7,8 @@ import pytest
 
 from garage2usd.as_built.layout_reader import garage_of_layout
 from garage2usd.checks import Severity, check, check_layout
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import GarageConfig, SiteConfig, load_config
-from garage2usd.errors import ConfigError
 from garage2usd.pipeline import generate
 from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.profiles import PROFILE_NAMES, load_profile

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from support.sample_files import REPOSITORY
 
 from garage2usd import GarageConfig, generate
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.json_text import json_text
 from garage2usd.config.plan import UnreachableStalls
 from garage2usd.datasets.difficulty import (
     REFERENCE_FILE,
@@ -23,8 +25,6 @@ from garage2usd.datasets.difficulty import (
 from garage2usd.datasets.reference import make_reference, reference_settings, reference_stalls
 from garage2usd.datasets.stall_features import StallFeatures, measured_stalls
 from garage2usd.driving import prove_stalls
-from garage2usd.errors import ConfigError
-from garage2usd.json_text import json_text
 
 QUICK = {"episodes": 100, "climb_top": 2}
 STALL = StallFeatures("Stall_r00_c00_1", 1, 1, 0.12, True, 6.0, 1, 50.0)

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.datasets.distribution import distribution_of
-from garage2usd.errors import ConfigError
 
 DRAWS = 20_000
 LEAST_P = 1e-4  # the seeds are fixed, so that these tests give the same each time

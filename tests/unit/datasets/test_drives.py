@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from support.data_sets import small_recipe, tree_of
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import load_recipe, make_dataset
 from garage2usd.datasets.plans import planned
 from garage2usd.datasets.shards import make_shard, shards_of
-from garage2usd.errors import ConfigError
 
 SCANNER = {
     "kind": "solid_state_lidar",

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.data_sets import small_recipe
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.datasets.plans import DrawnPlan, PlanDraw, plan_table, planned, plans_of, proportional, replanned
-from garage2usd.errors import ConfigError
 from garage2usd.pipeline import generate
 from garage2usd.structure.symmetry import plan_digest
 

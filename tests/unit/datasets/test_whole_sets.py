@@ -11,8 +11,8 @@ from click.testing import CliRunner
 from support.data_sets import SMALL, small_recipe, tree_of
 
 from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError
 from garage2usd.datasets import cluster, make_dataset, verify_dataset
-from garage2usd.errors import ConfigError
 
 ALL = ["glb", "osm", "xodr", "xosc", "yaml"]
 MASKS = {"maps": {"grid": {"resolution_m": 0.5, "keepout": True, "speed": True}}}

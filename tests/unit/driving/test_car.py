@@ -2,8 +2,8 @@ import math
 
 import pytest
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Pose
-from garage2usd.errors import ConfigError
 
 
 def test_the_outer_front_tyre_rolls_a_circle_of_the_turning_radius():

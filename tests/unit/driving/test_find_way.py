@@ -9,8 +9,8 @@ import shapely
 from support.driving_flood import has_way_out
 from support.driving_simulation import outlines, simulate
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.driving import DesignCar, Gear, LanePose, Limits, Manoeuvre, Obstacles, Pose, find_way
-from garage2usd.errors import ConfigError
 
 CAR = DesignCar()
 NOSE_IN, NOSE_OUT = 0.0, math.pi

@@ -15,13 +15,13 @@ from support.trajectory_judge import OpenWorld, faults
 
 import garage2usd
 from garage2usd.as_built.layout_reader import garage_of_layout
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.maps import DriveConfig, Leg
 from garage2usd.driving import DesignCar, Gear, Pose
 from garage2usd.driving.path import Path, Piece
 from garage2usd.driving.timing import timed
 from garage2usd.driving.trajectory import write_trajectory_csv, write_trajectory_json
 from garage2usd.driving.turns import Steering, joining_pieces
-from garage2usd.errors import ConfigError
 from garage2usd.maps.drives import DrivePlanner
 
 DEFAULTS = DriveConfig().model_dump()

@@ -18,7 +18,7 @@ from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig, LookConfig
 from garage2usd.config.look import Dirt, Drains
 from garage2usd.config.stage import TextureQuality
-from garage2usd.layout.drains import drains
+from garage2usd.layout.floor.drains import drains
 from garage2usd.look import drawn_look, finishes_of
 from garage2usd.objects.floor_stain import DirtSpec, PuddleSpec, StainMark, StainSpec
 from garage2usd.pipeline import build, generate

@@ -12,7 +12,7 @@ from garage2usd.assets.lamp_colour import USUAL_LAMP_RGB, USUAL_TEMPERATURE_K, l
 from garage2usd.checks import check_file
 from garage2usd.config import GarageConfig
 from garage2usd.config.look import LampKind
-from garage2usd.layout.lighting import MAINTENANCE, direct_lux
+from garage2usd.layout.ceiling.lighting import MAINTENANCE, direct_lux
 from garage2usd.layout.placement import Placement
 from garage2usd.objects.lamp import LampSpec
 from garage2usd.pipeline import build, generate

@@ -19,7 +19,7 @@ from support.sample_files import each_sample
 from support.small_garage import SETTINGS
 
 from garage2usd import GarageConfig, build
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.maps.glb import write_glb
 from garage2usd.maps.glb_meshes import are_rigid, by_facets, rigid_inverses
 from garage2usd.objects import PIECE_LABELS

@@ -17,10 +17,10 @@ from support.small_garage import SETTINGS
 from garage2usd import GarageConfig, build
 from garage2usd.as_built.driven_ground import driven_garage
 from garage2usd.checks import read_garage
+from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.config.look import ColumnSection
 from garage2usd.config.maps import GridConfig
 from garage2usd.driving import DesignCar, prove_garage
-from garage2usd.errors import ConfigError, StageError
 from garage2usd.maps.occupancy import _Raster, write_grid
 
 SLACK_M = 0.02

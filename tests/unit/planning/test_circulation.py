@@ -4,8 +4,8 @@ import networkx as nx
 import numpy as np
 import pytest
 
+from garage2usd.common.errors import GenerationError
 from garage2usd.config import GarageConfig, PlanConfig
-from garage2usd.errors import GenerationError
 from garage2usd.planning import plan_lanes
 from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.site import make_site

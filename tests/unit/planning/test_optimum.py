@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from support.planning_reference import BAY, G1, G2, G3, OPTIMUM, drawn, feasible
 
+from garage2usd.common.errors import ConfigError, GenerationError
 from garage2usd.config import BayConfig, PlanConfig
 from garage2usd.config.site import DEFAULT_SIDE_M
-from garage2usd.errors import ConfigError, GenerationError
 from garage2usd.planning import evaluate, find_optimum, optimum
 from garage2usd.planning.circulation import circulation, rules_of
 from garage2usd.structure.grid import Structure

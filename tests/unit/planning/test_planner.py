@@ -21,8 +21,8 @@ from support.planning_reference import (
     score,
 )
 
+from garage2usd.common.errors import GenerationError
 from garage2usd.config import PlanConfig
-from garage2usd.errors import GenerationError
 from garage2usd.planning import evaluate, given_plan, plan_lanes
 from garage2usd.structure.grid import Cell
 

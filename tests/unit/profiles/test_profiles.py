@@ -6,7 +6,7 @@ import tomllib
 import pytest
 from support.sample_files import REPOSITORY
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.profiles import PROFILE_NAMES, Confidence, Length, Profile, load_profile, read_profile
 
 GUIDANCE = {"dead_end_depth": "warning", "loops": "warning", "lane_field_width": "warning"}

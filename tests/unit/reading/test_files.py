@@ -7,7 +7,7 @@ from click.testing import CliRunner
 from pxr import Sdf, Usd
 
 from garage2usd.cli.commands import Commands
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage, usd_text
 from garage2usd.reading.taxonomy import label_of, labels_of
 from garage2usd.reading.values import number_of, numbers_of

@@ -13,11 +13,11 @@ from support.small_garage import SETTINGS
 
 import garage2usd
 from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError
 from garage2usd.config import config_from_mapping
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.errors import ConfigError
 from garage2usd.recordings import CloudFormat, Sequence, record
-from garage2usd.sensors.rig import rig_from_mapping
+from garage2usd.sensors.rig.rig import rig_from_mapping
 
 MILLIMETRE = 0.001
 TAKEN = "Stall_r00_c01_1"

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from garage2usd.errors import ConfigError, StageError
+from garage2usd.common.errors import ConfigError, StageError
 from garage2usd.recordings import record
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
 
 CAMERA = {
     "kind": "kannala_brandt",

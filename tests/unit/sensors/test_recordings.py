@@ -14,18 +14,18 @@ from support.sample_files import REPOSITORY
 
 from garage2usd.as_built.stage_reader import garage_of_stage
 from garage2usd.cli import main
+from garage2usd.common.errors import ConfigError, OutputError
+from garage2usd.common.output import unfinished_folder
 from garage2usd.config.maps import DriveConfig
-from garage2usd.errors import ConfigError, OutputError
-from garage2usd.output import unfinished_folder
 from garage2usd.reading.files import open_stage
 from garage2usd.reading.labels import read_labels
 from garage2usd.recordings import record
 from garage2usd.recordings.scene import Scene
 from garage2usd.recordings.way import Way
 from garage2usd.render import Picture
-from garage2usd.sensors.columns import column_to_y_up
-from garage2usd.sensors.rig import read_rig, rig_from_mapping
-from garage2usd.sensors.twist import Twist
+from garage2usd.sensors.rig.columns import column_to_y_up
+from garage2usd.sensors.rig.rig import read_rig, rig_from_mapping
+from garage2usd.sensors.rig.twist import Twist
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +164,7 @@ def test_unfinished_work_stays_only_if_there_is_some(tmp_path):
 HOLDS = """
 import sys, time
 from pathlib import Path
-from garage2usd.output import unfinished_folder
+from garage2usd.common.output import unfinished_folder
 with unfinished_folder(Path(sys.argv[1]), "a") as folder:
     (folder / "frame").write_text("x")
     print("at work", flush=True)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from garage2usd.common.errors import ConfigError
 from garage2usd.config.vehicles import CAR_BODIES
-from garage2usd.errors import ConfigError
 from garage2usd.objects.car import CarSpec
-from garage2usd.sensors.rig import (
+from garage2usd.sensors.rig.rig import (
     RIG_NAMES,
     AroundViewCamera,
     KannalaBrandtCamera,

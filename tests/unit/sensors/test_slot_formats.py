@@ -15,10 +15,10 @@ from support.slot_frames import equidistant, from_above, shot_from
 
 from garage2usd.objects import CLASSES
 from garage2usd.reading.labels import read_labels
-from garage2usd.sensors.coco import STUFF, CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
-from garage2usd.sensors.dmpr_ps import dmpr_ps
+from garage2usd.sensors.formats.coco import STUFF, CocoImage, coco_keypoints, coco_panoptic, panoptic_segments
+from garage2usd.sensors.formats.dmpr_ps import dmpr_ps
+from garage2usd.sensors.formats.slots_file import slots_document
 from garage2usd.sensors.slots import read_slots
-from garage2usd.sensors.slots_file import slots_document
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"
 SIZE = 240, 180

@@ -11,11 +11,11 @@ from support.rays import Rays
 from support.sample_files import REPOSITORY
 from support.slot_frames import equidistant, pinhole, shot_from
 
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.garage import StallKind
 from garage2usd.reading.labels import read_labels
-from garage2usd.sensors.outline import outline_in_picture
-from garage2usd.sensors.rig import read_rig
+from garage2usd.sensors.rays.outline import outline_in_picture
+from garage2usd.sensors.rig.rig import read_rig
 from garage2usd.sensors.slots import CORNERS, read_slots
 
 HAND_DRAWN = REPOSITORY / "samples" / "hand_drawn.toml"

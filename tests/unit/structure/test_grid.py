@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from garage2usd.errors import ConfigError
+from garage2usd.common.errors import ConfigError
 from garage2usd.structure.grid import Cell, Structure, cells_from_text, cells_to_text, edge_neighbour_count
 
 PLAN = "#..\nE=X\n..."

@@ -1,7 +1,7 @@
 import pytest
 
+from garage2usd.common.errors import UnreachableStallError
 from garage2usd.config import BayConfig
-from garage2usd.errors import UnreachableStallError
 from garage2usd.garage import LaneKind
 from garage2usd.structure.grid import Structure, cells_from_text
 from garage2usd.structure.lane_graph import StallType, build_lane_graph

@@ -10,7 +10,7 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdShade, Vt
 from support.label_tables import labelled_objects
 
 import garage2usd
-from garage2usd.errors import StageError
+from garage2usd.common.errors import StageError
 from garage2usd.reading.files import open_stage
 from garage2usd.stage.labels import OBJECT_LABELS
 from garage2usd.stage.prototypes import asset_of

@@ -18,7 +18,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from support.signals import heed_all
 
 from garage2usd.cli import main
-from garage2usd.errors import OutputError
+from garage2usd.common.errors import OutputError
 from garage2usd.reading.files import open_stage
 from garage2usd.view.viewer import ViewerServer, read_scene
 

@@ -1,0 +1,1 @@
+"""Tools of every room: errors, output that is whole or absent, limits, progress, random numbers."""

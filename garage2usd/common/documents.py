@@ -1,0 +1,189 @@
+"""Text, TOML, JSON and NumPy files that anybody may have written: read as far as a limit, refused in one error."""
+
+import codecs
+import io
+import json
+import os
+import stat
+import tomllib
+import zipfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.lib import format as npy_format
+from numpy.typing import NDArray
+
+from garage2usd.common.errors import ConfigError
+
+__all__ = [
+    "ARRAY_SUFFIXES",
+    "MAX_REPORT_BYTES",
+    "MAX_SETTINGS_BYTES",
+    "is_file",
+    "read_arrays",
+    "read_bytes",
+    "read_json",
+    "read_text",
+    "read_toml",
+]
+
+ARRAY_SUFFIXES = (".npy", ".npz")
+"""What files of NumPy end in."""
+_HEADERS: dict[tuple[int, int], Callable[[io.BytesIO], tuple[tuple[int, ...], bool, np.dtype[Any]]]] = {
+    (1, 0): npy_format.read_array_header_1_0,
+    (2, 0): npy_format.read_array_header_2_0,
+}
+
+MAX_SETTINGS_BYTES = 16 * 1024 * 1024
+"""Configurations, profiles and structures have at most so many bytes."""
+MAX_REPORT_BYTES = 512 * 1024 * 1024
+"""Reports of builds list each stall."""
+
+
+def is_file(path: Path) -> bool:
+    """Whether a path leads to a regular file; `pathlib` raises for names that no file can have."""
+    return os.path.isfile(path)  # noqa: PTH113
+
+
+def read_bytes(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> bytes:
+    """The bytes of a regular file.
+
+    Parameters
+    ----------
+    path
+        The file; a symbolic link is followed, as everywhere.
+    field
+        What an error calls it: a setting or an argument.
+    max_bytes
+        How large it may be; no more of it is read.
+
+    Raises
+    ------
+    ConfigError
+        If it cannot be read, is not a regular file (a pipe would never end), or is too large.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise ConfigError(field, str(path), "a regular file")
+        with path.open("rb") as file:
+            data = file.read(max_bytes + 1)
+    except (OSError, ValueError) as error:  # a path with a null byte is a ValueError
+        reason = (error.strerror if isinstance(error, OSError) else None) or error
+        raise ConfigError(field, str(path), f"a readable file ({reason})") from None
+    if len(data) > max_bytes:
+        raise ConfigError(field, str(path), f"a file of at most {max_bytes} bytes")
+    return data
+
+
+def read_text(path: Path, *, field: str, max_bytes: int = MAX_SETTINGS_BYTES) -> str:
+    """The text of a file in UTF-8, or in UTF-16 with a byte order mark, which is left out.
+
+    Raises
+    ------
+    ConfigError
+        As `read_bytes`, and for other encodings.
+    """
+    data = read_bytes(path, field=field, max_bytes=max_bytes)
+    try:
+        return data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ConfigError(field, str(path), f"UTF-8 text ({error.reason} at byte {error.start})") from None
+
+
+def read_toml(path: Path, *, field: str) -> dict[str, Any]:
+    """The tables of a TOML file; raises `ConfigError` as `read_text`, and for what is no TOML."""
+    text = read_text(path, field=field)
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # brackets a thousand deep, numbers of 5000 digits
+        raise ConfigError(field, str(path), f"TOML ({error})") from None
+
+
+def read_json(path: Path, *, field: str, max_bytes: int) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """The value of a JSON file; raises `ConfigError` as `read_text`, and for what is no JSON, NaN and infinity too."""
+    text = read_text(path, field=field, max_bytes=max_bytes)
+    try:
+        return json.loads(text, parse_constant=_refuse)
+    except (ValueError, RecursionError) as error:
+        raise ConfigError(field, str(path), f"JSON ({error})") from None
+
+
+def read_arrays(path: Path, *, field: str, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Arrays of numbers from a file of NumPy; nothing in it is run.
+
+    Parameters
+    ----------
+    path
+        An ``.npy`` file, which holds the first of `names`, or an ``.npz`` file.
+    field
+        What an error calls it: a setting or an argument.
+    names
+        Arrays to read from an ``.npz`` file, those of them that it has; where it has none of them and only one array,
+        that is the first.
+
+    Returns
+    -------
+    dict
+        The arrays by their names; the first is always there.
+
+    Raises
+    ------
+    ConfigError
+        As `read_bytes`, and for what is not such a file, lacks the first array, holds something else than numbers, or
+        an array of more than 16 MB.
+    """
+    data = read_bytes(path, field=field)
+    if path.suffix.lower() == ".npy":
+        members = {names[0]: data}
+    else:
+        try:
+            members = _members(data, names)
+        except Exception as error:  # noqa: BLE001 - zipfile and its decompressors raise a dozen kinds for damaged files
+            raise ConfigError(field, str(path), f"an .npz file ({error})") from None
+    if names[0] not in members:
+        raise ConfigError(field, str(path), f"an .npz file with the array {names[0]}, or with one array alone")
+    arrays = {}
+    for name, content in members.items():
+        if len(content) > MAX_SETTINGS_BYTES:
+            raise ConfigError(field, str(path), f"arrays of at most {MAX_SETTINGS_BYTES} bytes")
+        try:
+            arrays[name] = _array(content)
+        except Exception as error:  # noqa: BLE001 - a header is a literal of Python, which fails in many ways
+            raise ConfigError(field, str(path), f"an array of numbers in a file of NumPy ({error})") from None
+    return arrays
+
+
+def _members(data: bytes, names: Sequence[str]) -> dict[str, bytes]:
+    """The first bytes of the arrays of an .npz file, one more than an array may have."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
+        chosen = {name: members[name] for name in names if name in members}
+        if not chosen and len(members) == 1:
+            chosen = {names[0]: next(iter(members.values()))}
+        found = {}
+        for name, member in chosen.items():
+            with archive.open(member) as file:
+                found[name] = file.read(MAX_SETTINGS_BYTES + 1)
+        return found
+
+
+def _array(data: bytes) -> NDArray[Any]:
+    """The array of an .npy file; no memory is taken for more than its bytes, whatever its header says.
+
+    Raises
+    ------
+    ValueError
+        And whatever else a header may lead to, if it is none.
+    """
+    file = io.BytesIO(data)
+    shape, is_by_columns, dtype = _HEADERS[npy_format.read_magic(file)](file)  # type: ignore[no-untyped-call]
+    if dtype.kind not in "iuf":
+        raise ValueError(f"it holds {dtype}")
+    array: NDArray[Any] = np.frombuffer(file.read(), dtype).reshape(shape, order="F" if is_by_columns else "C")
+    return array
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is not a number")

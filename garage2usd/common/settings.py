@@ -1,0 +1,124 @@
+"""What all models of files share."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from garage2usd.common.errors import ConfigError
+
+__all__ = ["Record", "Settings", "config_error", "first_fault", "validated"]
+
+
+class Settings(BaseModel):
+    """A frozen group of values that users write; refuses unknown keys, NaN and infinity."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, use_attribute_docstrings=True, validate_default=True
+    )
+
+
+Model = TypeVar("Model", bound=Settings)
+
+
+class Record(BaseModel):
+    """A frozen part of a file that garage2usd writes and reads again; keys of other versions are left aside."""
+
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+
+
+def validated(model: type[Model], settings: Mapping[str, Any], *, within: str = "") -> Model:
+    """Settings that are given as nested mappings, as TOML reads them.
+
+    Parameters
+    ----------
+    model
+        What they are settings of.
+    settings
+        The mappings.
+    within
+        Name of the setting that holds them, if one does.
+
+    Raises
+    ------
+    ConfigError
+        With the setting, its value and what is allowed.
+    """
+    try:
+        return model(**settings)
+    except ValidationError as error:
+        raise config_error(error, model, within=within) from None
+
+
+def config_error(error: ValidationError, model: type[Settings], *, within: str = "") -> ConfigError:
+    """The error of the first setting that is wrong.
+
+    Parameters
+    ----------
+    error
+        What pydantic found.
+    model
+        The settings that it read.
+    within
+        Name of the setting that holds them, if one does.
+    """
+    finding = error.errors(include_url=False)[0]
+    cause = finding.get("ctx", {}).get("error")
+    if isinstance(cause, ConfigError) and not within:  # of a file that a setting names
+        return cause
+    keys = [within] if within else []
+    holders: list[type[BaseModel]] = []
+    models: list[type[BaseModel]] = [model]
+    for part in finding["loc"]:
+        fields = [group.model_fields[part] for group in models if part in group.model_fields]
+        if fields:
+            holders, models = models, [group for field in fields for group in _models(field.annotation)]
+        elif isinstance(part, str):  # it names a branch of a union, which is no key of the user's
+            models = [group for group in models if part in _kinds(group)] or models
+        if fields or isinstance(part, int):
+            keys.append(str(part))
+    if finding["type"] == "extra_forbidden":
+        known = dict.fromkeys(key for group in models for key in group.model_fields)
+        place = ".".join([*keys, str(finding["loc"][-1])])
+        return ConfigError(place, finding["input"], f"one of the keys {', '.join(known)}")
+    if finding["type"] in {"union_tag_invalid", "union_tag_not_found"}:
+        kinds = dict.fromkeys(tag for group in models for tag in _kinds(group))
+        given = finding["input"].get("kind", "nothing") if isinstance(finding["input"], dict) else finding["input"]
+        return ConfigError(".".join([*keys, "kind"]), given, f"one of {', '.join(kinds)}")
+    place = ".".join(keys) or "configuration"
+    if isinstance(cause, ConfigError):
+        return ConfigError(place, cause.value, cause.allowed)
+    if finding["type"] == "missing":
+        needed = [key for group in holders for key, field in group.model_fields.items() if field.is_required()]
+        is_key = keys[-1] in needed  # and not a number that a row lacks
+        return ConfigError(
+            place, "nothing", f"a value; {'.'.join(keys[:-1])} needs {', '.join(needed)}" if is_key else "a value"
+        )
+    return ConfigError(place, finding["input"], _allowed(finding["msg"]))
+
+
+def first_fault(error: ValidationError) -> str:
+    """The first thing that is wrong with a file: the key and, where it has one, its value and what is allowed."""
+    fault = error.errors(include_url=False)[0]
+    place = ".".join(map(str, fault["loc"]))
+    said = _allowed(fault["msg"])
+    if not place:
+        return said
+    return f"{place}: {said}" if fault["type"] == "missing" else str(ConfigError(place, fault["input"], said))
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:  # noqa: ANN401 - any type
+    """All models that a value of a type may be or hold."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models(part)
+
+
+def _kinds(model: type[BaseModel]) -> tuple[Any, ...]:
+    """What the key ``kind`` of a model may be, by which a union tells its branches apart."""
+    return get_args(model.model_fields["kind"].annotation) if "kind" in model.model_fields else ()
+
+
+def _allowed(message: str) -> str:
+    return message.removeprefix("Value error, ").removeprefix("Input should be ")

@@ -1,0 +1,195 @@
+"""Lines that hang along the aisles: ventilation ducts, sprinkler pipes, cable trays."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config.look import CeilingLook
+from garage2usd.layout.ceiling.beams import (
+    DUCT_HEIGHT_M,
+    DUCT_WIDTH_M,
+    PIPE_RADIUS_M,
+    TRAY_HEIGHT_M,
+    TRAY_WIDTH_M,
+    CeilingLevels,
+)
+from garage2usd.layout.placement import Placement, placed
+from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.cable_tray import CableTraySpec
+from garage2usd.objects.duct import DuctSpec
+from garage2usd.objects.kind import Spec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.sprinkler import SprinklerSpec
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["LINES_REACH_M", "cable_trays", "ducts", "sprinklers"]
+
+_QUARTER_TURN = np.pi / 2
+_LEAST_SQUARE_M = 4.8
+"""Squares smaller than this have no room for all lines beside each other."""
+_HEAD_PITCH_M = 3.3
+_HANGER_FROM_BEAM_M = 0.1
+_FREE_OF_LINES_M = 1.65
+"""Distance from the carriageway's edge beyond which no line of the other direction crosses."""
+_FREE_OF_DUCTS_M = 1.45
+_HANGER_FROM_JOINT_M = 0.4
+_TUBE_GAP_M = 0.12
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line along the aisles.
+
+    Attributes
+    ----------
+    name
+        Of its pieces.
+    side
+        Which side of an aisle along X it hangs over: 1 towards +Z, and towards -X along Z; -1 for the other sides.
+    from_edge_m
+        Its middle from the carriageway's edge.
+    half_width_m
+        Half its width.
+    """
+
+    name: str
+    side: int
+    from_edge_m: float
+    half_width_m: float
+
+
+_DUCT = _Line("Duct", -1, 0.75, DUCT_WIDTH_M / 2)
+_PIPE = _Line("Sprinkler", 1, 0.5, PIPE_RADIUS_M)
+_TRAY = _Line("CableTray", 1, 1.2, TRAY_WIDTH_M / 2)
+LINES_REACH_M = _DUCT.from_edge_m + _DUCT.half_width_m + 0.05
+"""How far from the carriageway's edge ducts with their flanges, and pipes, reach."""
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A straight piece of a line that starts at the border of a square.
+
+    Attributes
+    ----------
+    half_square_m
+        Half the extent along it of the square that it hangs over.
+    step
+        1 where it goes from that border towards +X or +Z, -1 where it goes back.
+    joins
+        Whether it ends at a line along a row; others end at the other border.
+    """
+
+    name: str
+    tile: Tile
+    middle_m: Point
+    length_m: float
+    along_x: bool
+    half_square_m: float
+    step: int
+    joins: bool = False
+
+
+def ducts(grid: TileGrid, ceiling_m: float, levels: CeilingLevels, look: CeilingLook) -> list[Placement]:
+    """Ventilation ducts along the aisles, on the side where no pipe hangs."""
+    if levels.duct_top_m is None:
+        return []
+    lines = []
+    for piece in _pieces(_DUCT, grid):
+        hangers = _hangers_at_m(piece, grid.setback_m)
+        spec = DuctSpec(piece.length_m, DUCT_WIDTH_M, DUCT_HEIGHT_M, levels.duct_top_m, hangers)
+        if look.round_ducts:
+            spec = replace(spec, is_round=True, joint=piece.step if piece.joins else 0)
+        lines.append(_place(piece, spec, ceiling_m - levels.duct_top_m))
+    return lines
+
+
+def sprinklers(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+    """Sprinkler pipes along the aisles, on the side where no duct hangs, over ducts where they cross."""
+    if levels.pipe_drop_m is None:
+        return []
+    lines = []
+    for piece in _pieces(_PIPE, grid):
+        heads = () if piece.joins else _heads_at_m(piece.length_m, grid.setback_m)
+        rods = _hangers_at_m(piece, grid.setback_m)
+        spec = SprinklerSpec(piece.length_m, PIPE_RADIUS_M, levels.pipe_drop_m, rods, heads)
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
+
+
+def cable_trays(grid: TileGrid, ceiling_m: float, levels: CeilingLevels) -> list[Placement]:
+    """Cable trays along the aisles, beside the pipes and over them and the ducts where they cross."""
+    if levels.tray_drop_m is None:
+        return []
+    lines = []
+    for piece in _pieces(_TRAY, grid):
+        rods = _hangers_at_m(piece, grid.setback_m)
+        spec = CableTraySpec(piece.length_m, TRAY_WIDTH_M, TRAY_HEIGHT_M, levels.tray_drop_m, rods)
+        lines.append(_place(piece, spec, ceiling_m))
+    return lines
+
+
+def _place(piece: _Piece, spec: Spec, height_m: float) -> Placement:
+    yaw, square = _QUARTER_TURN if piece.along_x else 0.0, piece.tile.square
+    return placed(piece.name, spec, piece.middle_m, height_m=round(height_m, 6), yaw_rad=yaw, square=square)
+
+
+def _pieces(line: _Line, grid: TileGrid) -> Iterator[_Piece]:
+    """A piece over each lane square: along X beside other lanes of its row, along Z elsewhere.
+
+    A line along a column of squares leads on to those along the rows above and below it.
+    """
+    in_row = _in_runs(grid.structure.cells == Cell.LANE)
+
+    def from_middle_m(half_m: float) -> float:
+        return max(half_m - grid.setback_m - line.from_edge_m, 0.0)
+
+    for tile in grid:
+        if tile.cell is not Cell.LANE or not _has_room(tile):
+            continue
+        if in_row[tile.square]:
+            z = tile.z_m + line.side * from_middle_m(tile.half_z_m)
+            yield _Piece(line.name, tile, (tile.x_m, z), round(tile.width_m, 6), True, tile.half_x_m, 1)
+            continue
+        x = tile.x_m - line.side * from_middle_m(tile.half_x_m)
+        yield _Piece(line.name, tile, (x, tile.z_m), round(tile.depth_m, 6), False, tile.half_z_m, 1)
+        for name, edge, step in (("Up", Edge.UP, -1), ("Down", Edge.DOWN, 1)):
+            other = grid.neighbour(tile, edge)
+            if other is None or not in_row[other.square] or not _has_room(other):
+                continue
+            start = tile.z_m + step * tile.half_z_m
+            end = other.z_m + line.side * from_middle_m(other.half_z_m) - step * line.half_width_m
+            middle = (x, (start + end) / 2)
+            length = round(abs(end - start), 6)
+            yield _Piece(f"{line.name}{name}", tile, middle, length, False, other.half_z_m, step, joins=True)
+
+
+def _in_runs(lane: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Lane squares with a lane beside them in their own row."""
+    padded = np.pad(lane, ((0, 0), (1, 1)))
+    run: NDArray[np.bool_] = lane & (padded[:, :-2] | padded[:, 2:])
+    return run
+
+
+def _has_room(tile: Tile) -> bool:
+    return min(tile.width_m, tile.depth_m) >= _LEAST_SQUARE_M
+
+
+def _hangers_at_m(piece: _Piece, setback_m: float) -> tuple[float, ...]:
+    """Places of hangers along a piece: beside its beams, and where no line and no tube light crosses."""
+    near, free = setback_m + _HANGER_FROM_BEAM_M, setback_m + _FREE_OF_LINES_M
+    length = piece.length_m
+    wanted = (near, free, length - _HANGER_FROM_JOINT_M) if piece.joins else (near, free, length - free, length - near)
+    places = sorted({round(at, 6) for at in wanted if near <= at < length - _HANGER_FROM_BEAM_M})
+    places = [at for at in places if abs(at - piece.half_square_m) > _TUBE_GAP_M]
+    return tuple(round(piece.step * (at - length / 2), 6) for at in places)
+
+
+def _heads_at_m(length_m: float, setback_m: float) -> tuple[float, ...]:
+    """Places of heads along a pipe over a square, evenly but not over the ducts that cross it."""
+    count = max(1, round(length_m / _HEAD_PITCH_M))
+    most = max(length_m / 2 - setback_m - _FREE_OF_DUCTS_M, 0.0)
+    even = ((index + 0.5) * length_m / count - length_m / 2 for index in range(count))
+    return tuple(round(min(max(at, -most), most), 6) for at in even)

@@ -1,0 +1,146 @@
+"""Exit signs over the aisles, and mirrors at junctions."""
+
+import math
+from collections.abc import Iterable, Mapping
+
+import networkx as nx
+
+from garage2usd.config import FittingsConfig
+from garage2usd.garage import LaneKind
+from garage2usd.layout.ceiling.beams import CeilingLevels
+from garage2usd.layout.fittings import TUBE_DEPTH_M
+from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed
+from garage2usd.layout.tiles import Tile, TileGrid, lane_edges
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.exit_sign import ExitSignSpec, Turn
+from garage2usd.objects.mirror import MirrorSpec
+from garage2usd.objects.outline import Point
+from garage2usd.structure.grid import NEIGHBOUR_STEPS, Cell
+from garage2usd.structure.lane_graph import LaneSquares
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["exit_signs", "mirrors"]
+
+_SIGN_HEIGHT_M = 0.2
+_SIGN_FROM_EDGE_M = 0.45
+_MIRROR_RADIUS_M = 0.25
+_MIRROR_GAP_M = 0.05
+_MIRROR_FROM_COLUMN_M, _MIRROR_FROM_WALL_M = 0.07, 0.22
+_ARM_TO_COLUMN_M, _ARM_TO_EDGE_M, _ARM_TO_WALL_M = 0.12, 0.099, 0.29
+"""Along the diagonal: to a column's bevelled edge, to the sharp edge of a core, to where its sides touch walls."""
+_INTO_COLUMN_M = 0.025
+"""How far an arm goes into a column whose surface it does not meet squarely."""
+_CORNERS = tuple((vertical, side) for vertical in (Edge.DOWN, Edge.UP) for side in (Edge.LEFT, Edge.RIGHT))
+_JUNCTIONS = {LaneKind.CROSSROADS, LaneKind.T_JUNCTION}
+
+
+def exit_signs(grid: TileGrid, graph: LaneSquares, fittings: FittingsConfig, levels: CeilingLevels) -> list[Placement]:
+    """Lit signs over the lanes into each junction, which point along the shortest route to an exit.
+
+    A ceiling without room over the clear height has no signs.
+    """
+    foot = fittings.ceiling_height_m - levels.sign_top_m - _SIGN_HEIGHT_M
+    if not fittings.exit_signs or foot < fittings.clear_height_m:
+        return []
+    exits = {square for square, kind in graph.graph.nodes(data="kind") if kind is LaneKind.EXIT}
+    distance = nx.multi_source_dijkstra_path_length(graph.graph, exits, weight="length_m")
+    signs: list[Placement] = []
+    for tile in grid:
+        if tile.cell is not Cell.LANE or graph.kind(tile.square) not in _JUNCTIONS or tile.square not in distance:
+            continue
+        ways = {edge: distance.get(edge.beyond(tile.square), math.inf) for edge in lane_edges(tile)}
+        out = min(ways, key=lambda edge: (round(ways[edge], 6), edge))
+        signs += [
+            _exit_sign(tile, edge, out, fittings.ceiling_height_m, levels.sign_top_m)
+            for edge in ways
+            if edge is not out and graph.kind(edge.beyond(tile.square)) is not LaneKind.EXIT
+        ]
+    return signs
+
+
+def _exit_sign(tile: Tile, edge: Edge, out: Edge, ceiling_m: float, top_m: float) -> Placement:
+    """The sign over one edge of a junction, which faces the drivers who enter there."""
+    (dr, dc), (out_r, out_c) = NEIGHBOUR_STEPS[edge], NEIGHBOUR_STEPS[out]
+    # the driver comes along (-dr, -dc); a right turn leads to (-dc, dr) in rows and columns
+    turn = Turn.AHEAD if (out_r, out_c) == (-dr, -dc) else Turn.RIGHT if (out_r, out_c) == (-dc, dr) else Turn.LEFT
+    x = tile.x_m + dc * (tile.half_x_m - _SIGN_FROM_EDGE_M)
+    z = tile.z_m + dr * (tile.half_z_m - _SIGN_FROM_EDGE_M)
+    spec = ExitSignSpec(turn, top_m, _SIGN_HEIGHT_M)
+    name = f"ExitSign_{edge.name.capitalize()}"
+    return placed(name, spec, (x, z), height_m=ceiling_m, yaw_rad=edge_yaw_rad(edge), square=tile.square)
+
+
+def mirrors(
+    grid: TileGrid,
+    columns: Iterable[Placement],
+    fittings: FittingsConfig,
+    levels: CeilingLevels,
+) -> list[Placement]:
+    """Convex mirrors on columns and walls at the blind corners of junctions and bends, looking across the square.
+
+    Notes
+    -----
+    A driver who enters over an edge cannot see into another lane if no lane lies in the corner between the two. A
+    mirror shows that lane to drivers from either of the edges opposite its corner. Corners are chosen greedily, so that
+    few mirrors serve all edges. A ceiling without room over the clear height has no mirrors.
+    """
+    highest = fittings.ceiling_height_m - max(levels.beam_depth_m, TUBE_DEPTH_M) - _MIRROR_GAP_M - _MIRROR_RADIUS_M
+    if not fittings.mirrors or highest - _MIRROR_RADIUS_M < fittings.clear_height_m:
+        return []
+    feet = {
+        (round(place.position_m[0], 4), round(place.position_m[2], 4)): spec
+        for place, spec in of_spec(columns, ColumnSpec)
+    }
+    height = round(min(fittings.clear_height_m + _MIRROR_RADIUS_M + _MIRROR_GAP_M, highest), 6)
+    found: list[Placement] = []
+    for tile in grid:
+        if tile.cell is not Cell.LANE or tile.axis_is_x is not None:
+            continue
+        unserved = {edge for edge in lane_edges(tile) if _is_blind(edge, tile, grid)}
+        mounts = {corner: mount for corner in _CORNERS if (mount := _mount_m(corner, tile, grid, feet))}
+        while mounts:
+            corner = max(mounts, key=lambda corner: len(unserved.intersection(_served(corner))))
+            inset, arm = mounts.pop(corner)
+            if not unserved.intersection(_served(corner)):
+                break
+            unserved.difference_update(_served(corner))
+            side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+            x = tile.x_m + side_x * (tile.half_x_m - inset)
+            z = tile.z_m + side_z * (tile.half_z_m - inset)
+            name = "Mirror_" + "".join(edge.name.capitalize() for edge in corner)
+            yaw = round(math.atan2(-side_x, -side_z), 6)
+            spec = MirrorSpec(_MIRROR_RADIUS_M, arm)
+            found.append(placed(name, spec, (x, z), height_m=height, yaw_rad=yaw, square=tile.square))
+    return found
+
+
+def _is_blind(edge: Edge, tile: Tile, grid: TileGrid) -> bool:
+    """Whether a driver who enters over an edge sees a lane to the side only from inside the square."""
+    between = (grid.neighbour(tile, edge, side) for side in edge.ends if tile.drivable[side])
+    return any(other is None or other.cell is Cell.FREE for other in between)
+
+
+def _served(corner: tuple[Edge, Edge]) -> set[Edge]:
+    """The edges from which a driver faces a corner."""
+    return set(Edge) - set(corner)
+
+
+def _mount_m(
+    corner: tuple[Edge, Edge], tile: Tile, grid: TileGrid, feet: Mapping[Point, ColumnSpec]
+) -> tuple[float, float] | None:
+    """How far a mirror's middle is from both sides of a corner, and how long its arm; None if nothing holds it."""
+    side_z, side_x = (sum(NEIGHBOUR_STEPS[edge]) for edge in corner)
+    point = (round(tile.x_m + side_x * tile.half_x_m, 4), round(tile.z_m + side_z * tile.half_z_m, 4))
+    column = feet.get(point)
+    if column is not None:
+        # the mirrors around one column hang side by side: around a thin one farther out, on longer arms
+        nearest = column.size_m / 2 + _MIRROR_FROM_COLUMN_M
+        inset = max(nearest, _MIRROR_RADIUS_M)
+        usual_m = ColumnSpec(column.size_m, column.height_m).diagonal_m
+        beyond = 0.0 if column.fills_square else usual_m - column.diagonal_m + _INTO_COLUMN_M
+        return round(inset, 6), round(_ARM_TO_COLUMN_M + (inset - nearest) * math.sqrt(2) + beyond, 6)
+    if any(grid.neighbour(tile, edge) is None for edge in corner):
+        return _MIRROR_FROM_WALL_M, _ARM_TO_WALL_M
+    if grid.neighbour(tile, *corner) is None:
+        return _MIRROR_FROM_COLUMN_M, _ARM_TO_EDGE_M
+    return None

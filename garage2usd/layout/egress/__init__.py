@@ -1,0 +1,1 @@
+"""Egress on foot: stair cores, exits and fire compartments."""

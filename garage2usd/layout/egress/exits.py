@@ -1,0 +1,199 @@
+"""Which cores a garage gets: enough exits on foot in each fire compartment, and none too far from a stall."""
+
+from collections import defaultdict
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.config import GarageConfig
+from garage2usd.layout.egress.compartments import compartments_of
+from garage2usd.layout.egress.cores import Core, core_candidates, obstacle_cores
+from garage2usd.layout.placement import box_inside
+from garage2usd.profiles import Length
+from garage2usd.structure.grid import Structure
+from garage2usd.structure.lane_graph import LaneSquares, Square
+from garage2usd.structure.stalls import Edge, StallRow
+
+__all__ = ["Egress", "plan_egress"]
+
+Points = NDArray[np.float64]
+
+_EXITS = 2
+"""Exits of a compartment where the profile asks for no number."""
+_STALLS_FOR_ONE = 10
+"""Cores take at most one stall in this many, so that a small garage is not all stairs."""
+_STALL_WORTH_M = 12.0
+"""How far from the best place a core stands to save a stall."""
+_OFF_STRAIGHT_M = 8.0
+"""How far to find a straight lane, where a crossing leads to the door."""
+_SLACK_M = 1.0
+_ROUNDS = 6
+
+
+class Egress(NamedTuple):
+    """How people get out.
+
+    Attributes
+    ----------
+    compartments
+        Number of each square's fire compartment; see `garage2usd.layout.egress.compartments.compartments_of`.
+    cores
+        The stair cores: obstacles with doors first.
+    """
+
+    compartments: NDArray[np.int32]
+    cores: list[Core]
+
+
+class _Places(NamedTuple):
+    """Candidates of one compartment, with the places of their doors and their price in metres."""
+
+    cores: list[Core]
+    doors: Points
+    price_m: NDArray[np.float64]
+
+
+def plan_egress(structure: Structure, graph: LaneSquares, config: GarageConfig, *, sprinklered: bool) -> Egress:
+    """Divide the floor into fire compartments, and place as many stair cores as each needs.
+
+    Parameters
+    ----------
+    structure, graph
+        The plan.
+    config
+        Its profile, and whether there are stair cores.
+    sprinklered
+        Whether the clauses for sprinklers count.
+
+    Notes
+    -----
+    Obstacles beside lanes are cores already. For one more core after another, places are spread over the stalls of a
+    compartment by Lloyd's algorithm (1982) from farthest-first seeds (Gonzalez 1985). Each place goes to the nearest
+    candidate, where every stall that it costs counts as twelve metres. The first number of cores with which all stalls
+    have a door in reach is kept.
+    """
+    profile = config.standard
+    compartments = compartments_of(structure, profile.compartment_area(sprinklered=sprinklered))
+    cores = obstacle_cores(structure)
+    if not config.fittings.stair_cores:
+        return Egress(compartments, cores)
+    exits = profile.personnel_exits.amount if profile.personnel_exits else _EXITS
+    reach = profile.way_out(sprinklered=sprinklered)
+    stalls = _stalls_by_compartment(structure, graph, config, compartments)
+    places = _places_by_compartment(structure, graph, config, compartments)
+    budget = sum(len(points) for points in stalls.values()) // _STALLS_FOR_ONE
+    for number, points in sorted(stalls.items()):
+        fixed = np.array([core.door_m for core in cores if compartments[core.lane] == number]).reshape(-1, 2)
+        for core in _chosen(points, places.get(number), fixed, int(exits), _reach_m(reach)):
+            if len(core.stalls) <= budget:
+                budget -= len(core.stalls)
+                cores.append(core)
+    return Egress(compartments, cores)
+
+
+def _chosen(points: Points, places: _Places | None, fixed: Points, exits: int, reach_m: float) -> list[Core]:
+    """The fewest cores of a compartment with which it has its exits and each stall one in reach."""
+    chosen: list[int] = []
+    if places is None:
+        return []
+    for count in range(max(exits - len(fixed), 0), len(places.cores) + 1):
+        chosen = _snapped(places, _spread(points, fixed, count))
+        doors = np.concatenate([fixed, places.doors[chosen]])
+        if len(doors) and float(_distances(points, doors).min(axis=1).max()) <= reach_m:
+            break
+    return [places.cores[index] for index in chosen]
+
+
+def _spread(points: Points, fixed: Points, count: int) -> Points:
+    """Spread `count` places over points, given some places that are fixed."""
+    centres = fixed
+    for _ in range(count):
+        if len(centres):
+            nearest = _distances(points, centres).min(axis=1)
+            centres = np.concatenate([centres, points[[int(np.argmax(nearest.round(6)))]]])
+        else:
+            centres = points[[int(np.argmin(points.sum(axis=1).round(6)))]]
+    moving = centres[len(fixed) :].copy()
+    for _ in range(_ROUNDS):
+        owner = _distances(points, np.concatenate([fixed, moving])).round(6).argmin(axis=1) - len(fixed)
+        for index in range(count):
+            own = points[owner == index]
+            if len(own):
+                moving[index] = (own.min(axis=0) + own.max(axis=0)) / 2
+    return moving
+
+
+def _snapped(places: _Places, centres: Points) -> list[int]:
+    """Numbers of the candidates nearest to the places, no two on one square."""
+    chosen: list[int] = []
+    for centre in centres:
+        taken = {square for index in chosen for square in (places.cores[index].square, places.cores[index].lane)}
+        far = np.array([core.square in taken or core.lane in taken for core in places.cores])
+        if far.all():
+            break
+        price = _distances(places.doors, centre[None])[:, 0] + places.price_m
+        chosen.append(int(np.argmin(np.where(far, np.inf, price.round(6)))))
+    return chosen
+
+
+def _distances(points: Points, others: Points) -> Points:
+    off = points[:, None] - others[None]
+    distances: Points = np.hypot(off[..., 0], off[..., 1])
+    return distances
+
+
+def _reach_m(clause: Length | None) -> float:
+    return np.inf if clause is None else clause.amount - _SLACK_M
+
+
+def _stalls_by_compartment(
+    structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
+) -> dict[int, Points]:
+    """Middles of the stalls in each compartment."""
+    points: dict[int, list[tuple[float, float]]] = defaultdict(list)
+    for row in graph.stall_rows:
+        points[int(compartments[row.square])] += _middles(structure, row, config)
+    return {number: np.array(middles) for number, middles in points.items()}
+
+
+def _middles(structure: Structure, row: StallRow, config: GarageConfig) -> list[tuple[float, float]]:
+    x, z = structure.column_edges_m, structure.row_edges_m
+    left, top, right, bottom = (float(v) for v in (x[row.col], z[row.row], x[row.col + 1], z[row.row + 1]))
+    half, deep = ((right - left) / 2, (bottom - top) / 2), config.bay.stall_length_m / 2
+    middles = []
+    for slot in range(row.count):
+        along = (slot - (row.count - 1) / 2) * config.bay.stall_width_m
+        off_x, off_z, *_ = box_inside(row.edge, half, (along, along), (deep, deep))
+        middles.append(((left + right) / 2 + off_x, (top + bottom) / 2 + off_z))
+    return middles
+
+
+def _places_by_compartment(
+    structure: Structure, graph: LaneSquares, config: GarageConfig, compartments: NDArray[np.int32]
+) -> dict[int, _Places]:
+    """The candidates whose doors open onto each compartment."""
+    found: dict[int, list[Core]] = defaultdict(list)
+    for core in core_candidates(structure, graph, config):
+        if compartments[core.square] == compartments[core.lane]:
+            found[int(compartments[core.lane])].append(core)
+    return {
+        number: _Places(
+            cores,
+            np.array([core.door_m for core in cores]),
+            np.array(
+                [
+                    _STALL_WORTH_M * len(core.stalls)
+                    + _OFF_STRAIGHT_M * (not _is_straight(graph, core.lane, core.edge))
+                    for core in cores
+                ]
+            ),
+        )
+        for number, cores in found.items()
+    }
+
+
+def _is_straight(graph: LaneSquares, lane: Square, edge: Edge) -> bool:
+    """Whether cars drive over a lane square along an edge of it, and not across that edge."""
+    joined = set(graph.graph[lane])
+    return bool(joined) and joined <= {end.beyond(lane) for end in edge.ends}

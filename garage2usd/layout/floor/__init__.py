@@ -1,0 +1,1 @@
+"""The floor: its panels, painted markings, drains and wear."""

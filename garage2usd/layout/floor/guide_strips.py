@@ -1,0 +1,217 @@
+"""What runs along the borders of aisles: a line or a coloured strip, from square to square and around corners."""
+
+from functools import lru_cache
+from itertools import product
+from typing import NamedTuple
+
+import shapely
+from shapely import affinity
+
+from garage2usd.config.look import BandForm, MarkingsLook
+from garage2usd.layout.floor.pictograms import chevron, pictogram
+from garage2usd.layout.placement import edge_yaw_rad
+from garage2usd.objects.outline import Polygon
+from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["Around", "guide_strips", "strip_depth_m"]
+
+_BEYOND_M = 6.0
+"""How far the ground of open squares around counts."""
+_INNER_RADIUS_M = 0.3
+_LEAST_MM2 = 1e-6
+_ROUND_STEPS = 4
+"""Segments of a quarter of a circle."""
+_MOST_SIGN_M, _SIGN_SHARE = 0.8, 0.72
+"""Of a pictogram: its greatest size, and its size as a share of its strip."""
+_LEAST_SIGN_M = 0.3
+_COLOURED = (Edge.UP, Edge.LEFT)
+"""The sides of aisles that have the strip where one has."""
+
+
+class Around(NamedTuple):
+    """What closes a square of a lane or a portal.
+
+    Attributes
+    ----------
+    edges
+        The edges that nobody drives across.
+    corners
+        The corners, each by its edges along X and along Z, between two open edges that closed ground fills.
+    """
+
+    edges: frozenset[Edge]
+    corners: frozenset[tuple[Edge, Edge]]
+
+
+def strip_depth_m(look: MarkingsLook) -> float:
+    """From the border of a lane to the inner side of what runs along it; 0 where nothing does."""
+    if look.band is BandForm.NONE:
+        return 0.0
+    width = look.line_width_m + look.band_width_m if look.band is BandForm.BAND else 0.0
+    return look.band_gap_m + width + look.line_width_m
+
+
+@lru_cache(maxsize=1024)
+def guide_strips(
+    around: Around, half_x: float, half_z: float, look: MarkingsLook, *, has_pictogram: bool
+) -> tuple[Marking, ...]:
+    """The strips of a square: parallel to its closed edges, around columns, and into the next square.
+
+    Parameters
+    ----------
+    around
+        What closes the square.
+    half_x, half_z
+        Half its extent along X and Z, metres.
+    look
+        What runs along the borders.
+    has_pictogram
+        Whether its straight coloured strips have a pictogram in their middle, or else chevrons.
+    """
+    if look.band is BandForm.NONE:
+        return ()
+    gap, line = look.band_gap_m, look.line_width_m
+    inside = _Inside(around, half_x, half_z, gap, strip_depth_m(look), is_round=look.band is BandForm.BAND)
+    if look.band is BandForm.LINE:
+        return _markings(inside.between(gap, gap + line), Surface.PAINT_EDGE)
+    first, second = gap + line, gap + line + look.band_width_m
+    coloured = shapely.union_all(_coloured_ground(around, half_x, half_z, second + line + inside.radius_m, look))
+    strip = shapely.intersection(inside.between(first, second), coloured)
+    inner = shapely.intersection(inside.between(second, second + line), coloured)
+    signs = [
+        sign
+        for edge in sorted(around.edges.intersection(_coloured(look)))
+        for sign in _signs(edge, around, half_x, half_z, (first, second), look, has_pictogram=has_pictogram)
+    ]
+    return (
+        *(Marking(shape, Surface.PAINT_WHITE, Paint.LANE_ARROW) for shape in signs),
+        *_markings(inside.between(gap, first), Surface.PAINT_EDGE),
+        *_markings(inner, Surface.PAINT_EDGE),
+        *_markings(strip, Surface.PAINT_BAND, None),
+    )
+
+
+class _Inside:
+    """The ground of a square's lane, and what of it lies a distance from its borders at least."""
+
+    def __init__(
+        self, around: Around, half_x: float, half_z: float, gap_m: float, depth_m: float, *, is_round: bool
+    ) -> None:
+        self._square = shapely.box(-half_x, -half_z, half_x, half_z)
+        open_edges = [edge for edge in Edge if edge not in around.edges]
+        grounds = [self._square, *(_beyond(half_x, half_z, edge) for edge in open_edges)]
+        grounds += [
+            _beyond(half_x, half_z, *corner)
+            for corner in product((Edge.UP, Edge.DOWN), (Edge.LEFT, Edge.RIGHT))
+            if around.edges.isdisjoint(corner) and corner not in around.corners
+        ]
+        self._ground = shapely.union_all(grounds)
+        self._join = "round" if is_round else "mitre"
+        wanted = depth_m - gap_m + _INNER_RADIUS_M if is_round else 0.0
+        self.radius_m = max(min(wanted, min(half_x, half_z) - gap_m - _INNER_RADIUS_M), 0.0)
+        self._deep_m = gap_m + self.radius_m
+
+    def between(self, near_m: float, far_m: float) -> shapely.Geometry:
+        """What of the square lies between two distances from the border."""
+        ring = shapely.difference(self._from(near_m), self._from(far_m))
+        return shapely.intersection(ring, self._square)
+
+    def _from(self, distance_m: float) -> shapely.Geometry:
+        """The ground from a distance on; its inner corners are arcs around the same point."""
+        deep = max(self._deep_m, distance_m)
+        core = self._ground.buffer(-deep, quad_segs=_ROUND_STEPS, join_style=self._join)
+        return core.buffer(deep - distance_m, quad_segs=_ROUND_STEPS, join_style=self._join)
+
+
+def _beyond(half_x: float, half_z: float, *edges: Edge) -> shapely.Polygon:
+    """Ground beyond one edge of a square, or beyond the corner of two."""
+    left, top, right, bottom = -half_x, -half_z, half_x, half_z
+    for edge in edges:
+        if edge is Edge.UP:
+            top, bottom = -half_z - _BEYOND_M, -half_z
+        elif edge is Edge.DOWN:
+            top, bottom = half_z, half_z + _BEYOND_M
+        elif edge is Edge.LEFT:
+            left, right = -half_x - _BEYOND_M, -half_x
+        else:
+            left, right = half_x, half_x + _BEYOND_M
+    return shapely.box(left, top, right, bottom)
+
+
+def _coloured(look: MarkingsLook) -> tuple[Edge, ...]:
+    return tuple(Edge) if look.band_both_sides else _COLOURED
+
+
+def _coloured_ground(
+    around: Around, half_x: float, half_z: float, depth_m: float, look: MarkingsLook
+) -> list[shapely.Polygon]:
+    """What of a square lies along its closed edges with a coloured strip, and at corners between two of such."""
+    edges = _coloured(look)
+    along = {edge: _along(edge, half_x, half_z, depth_m) for edge in edges}
+    corners = [(first, second) for first, second in around.corners if first in along and second in along]
+    return [
+        *(along[edge] for edge in edges if edge in around.edges),
+        *(shapely.intersection(along[first], along[second]) for first, second in sorted(corners)),
+    ]
+
+
+def _along(edge: Edge, half_x: float, half_z: float, depth_m: float) -> shapely.Polygon:
+    """What of a square lies along one edge of it."""
+    left, top, right, bottom = -half_x, -half_z, half_x, half_z
+    if edge is Edge.UP:
+        bottom = min(depth_m - half_z, half_z)
+    elif edge is Edge.DOWN:
+        top = max(half_z - depth_m, -half_z)
+    elif edge is Edge.LEFT:
+        right = min(depth_m - half_x, half_x)
+    else:
+        left = max(half_x - depth_m, -half_x)
+    return shapely.box(left, top, right, bottom)
+
+
+def _signs(
+    edge: Edge,
+    around: Around,
+    half_x: float,
+    half_z: float,
+    strip_m: tuple[float, float],
+    look: MarkingsLook,
+    *,
+    has_pictogram: bool,
+) -> list[Polygon]:
+    """The pictogram or the chevrons on the strip along one edge, where that runs straight through the square."""
+    size = min(_SIGN_SHARE * look.band_width_m, _MOST_SIGN_M)
+    if size < _LEAST_SIGN_M or around.edges.intersection(edge.ends):
+        return []
+    half, across = (half_x, half_z) if edge.along_x else (half_z, half_x)
+    shapes = pictogram(look.pictogram, size) if has_pictogram else chevron(size)
+    depth = sum(strip_m) / 2
+    placed = []
+    for along in (0.0,) if has_pictogram else (-half / 2, half / 2):
+        for shape in shapes:
+            # drawn for somebody who walks along the strip with the border to the left
+            turned = affinity.rotate(shapely.Polygon(shape), 90, origin=(0, 0))
+            moved = affinity.translate(turned, along, across - depth)
+            whole = affinity.rotate(moved, -edge_yaw_rad(edge), origin=(0, 0), use_radians=True)
+            placed.append(_polygon(whole))
+    return placed
+
+
+def _markings(area: shapely.Geometry, surface: Surface, paint: Paint | None = Paint.LANE_LINE) -> tuple[Marking, ...]:
+    """The polygons of an area, without holes."""
+    parts = [part for part in shapely.get_parts(area) if part.geom_type == "Polygon" and part.area > _LEAST_MM2]
+    whole = []
+    for part in parts:
+        if not part.interiors:
+            whole.append(part)
+            continue
+        left, top, right, bottom = part.bounds
+        middle = (left + right) / 2
+        for side in (shapely.box(left, top, middle, bottom), shapely.box(middle, top, right, bottom)):
+            whole += list(shapely.get_parts(part.intersection(side)))
+    return tuple(Marking(_polygon(part), surface, paint) for part in sorted(whole, key=lambda part: part.bounds))
+
+
+def _polygon(shape: shapely.Polygon) -> Polygon:
+    return tuple((round(x, 6), round(z, 6)) for x, z in shapely.get_coordinates(shape.exterior)[:-1].tolist())

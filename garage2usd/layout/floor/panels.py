@@ -1,0 +1,230 @@
+"""The floors of squares with their markings: lanes, portals, and what lies around stalls."""
+
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from garage2usd.common.randomness import Step
+from garage2usd.config import BayConfig
+from garage2usd.config.look import BandForm, MarkingsLook, Wear
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.egress.cores import Core
+from garage2usd.layout.floor.ghost_lines import GHOST_ROWS, ghosts_on_lane
+from garage2usd.layout.floor.guide_strips import Around, guide_strips, strip_depth_m
+from garage2usd.layout.floor.markings import (
+    LINE_WIDTH_M,
+    arrow,
+    corner_lines,
+    dashes,
+    edge_line,
+    hatching,
+    stripes,
+    two_way_arrows,
+    zebra,
+)
+from garage2usd.layout.floor.row_ends import row_end_hatching
+from garage2usd.layout.floor.stall_lines import outer_spans
+from garage2usd.layout.placement import Placement
+from garage2usd.layout.tiles import (
+    StallPlace,
+    Tile,
+    TileGrid,
+    lane_edges,
+    row_rectangle,
+    row_start_m,
+    stall_rectangle,
+)
+from garage2usd.objects.floor import FloorSpec
+from garage2usd.objects.outline import Polygon
+from garage2usd.objects.panel import Marking, Paint, Surface
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["DrawnMarkings", "drawn_markings_of", "floor_panels"]
+
+_WORN = {Surface.PAINT_WHITE: Surface.PAINT_WHITE_WORN}
+_DRIVEN = {Cell.LANE, Cell.ENTRANCE, Cell.EXIT}
+_DRAWS = 3
+"""Of each square: whether older lines show, which ones, and whether a lane has a crossing."""
+
+
+class DrawnMarkings(NamedTuple):
+    """What the seed draws of markings.
+
+    Attributes
+    ----------
+    ghosts
+        Number of the older row that shows before each square of stalls, of those that have one.
+    zebras
+        Straight lane squares with a crossing that leads to no door.
+    """
+
+    ghosts: dict[Square, int]
+    zebras: frozenset[Square]
+
+
+def drawn_markings_of(grid: TileGrid, look: MarkingsLook, draws: SquareDraws) -> DrawnMarkings:
+    """Draw them from numbers that each square has of its own, so that a share moves no other square's."""
+    if not look.ghosts and not look.zebra:
+        return DrawnMarkings({}, frozenset())
+    numbers = draws.of_step(Step.FLOOR_MARKINGS, _DRAWS)
+    ghosts, zebras = {}, []
+    for tile in grid:
+        shows, row, crosses = numbers[tile.square].tolist()
+        if tile.square in grid.stall_places and shows < look.ghosts:
+            ghosts[tile.square] = int(row * GHOST_ROWS)
+        elif tile.cell is Cell.LANE and tile.axis_is_x is not None and crosses < look.zebra:
+            zebras.append(tile.square)
+    return DrawnMarkings(ghosts, frozenset(zebras))
+
+
+@dataclass(frozen=True)
+class _Panels:
+    """What all floors of a garage are made from."""
+
+    grid: TileGrid
+    bay: BayConfig
+    look: MarkingsLook
+    drawn: DrawnMarkings
+
+    def markings(
+        self, tile: Tile, *, has_bump: bool, crossing_m: float | None, core: Core | None
+    ) -> tuple[Marking, ...]:
+        """What is painted on one square's floor."""
+        if tile.cell is Cell.LANE:
+            return tuple(self._lane(tile, has_bump=has_bump, crossing_m=crossing_m))
+        if tile.cell is not Cell.FREE:
+            return (*self._strips(tile), *self._portal(tile))
+        places = self.grid.stall_places.get(tile.square, [])
+        if core is not None:
+            return (*self._row_ends(tile, places), *stripes(*core.landing(tile)))
+        if not places:
+            return hatching(tile.half_x_m, tile.half_z_m)
+        hatched = row_end_hatching(tile, places, self.bay, self.look) if self.look.hatching else ()
+        return (*self._row_ends(tile, places), *hatched)
+
+    def openings(self, tile: Tile) -> tuple[Polygon, ...]:
+        """Where stalls lie on a square."""
+        places = self.grid.stall_places.get(tile.square, []) if tile.cell is Cell.FREE else []
+        return tuple(stall_rectangle(tile, place.row, place.slot, self.bay) for place in places)
+
+    def _row_ends(self, tile: Tile, places: list[StallPlace]) -> Iterator[Marking]:
+        """The outer half of the lines beside stalls that have no other one there."""
+        half_line, spans = self.look.line_width_m / 2, outer_spans(self.bay.stall_length_m, self.look)
+        for place in places:
+            start = row_start_m(place.row, self.bay) + place.slot * self.bay.stall_width_m
+            ends = [start - half_line] * place.is_first + [start + self.bay.stall_width_m] * place.is_last
+            for end, span in itertools.product(ends, spans):
+                shape = row_rectangle(tile, place.row.edge, end, end + half_line, span)
+                yield Marking(shape, Surface.PAINT_STALL, Paint.STALL_LINE)
+
+    def _lane(self, tile: Tile, *, has_bump: bool, crossing_m: float | None) -> Iterator[Marking]:
+        half_x, half_z = tile.half_x_m, tile.half_z_m
+        if self.look.band is BandForm.NONE:
+            yield from self._edge_lines(tile)
+        else:
+            yield from self._strips(tile)
+        along_x, setback = tile.axis_is_x, max(self.grid.setback_m, strip_depth_m(self.look) - LINE_WIDTH_M)
+        if crossing_m is None and tile.square in self.drawn.zebras and not has_bump:
+            crossing_m = 0.0
+        if along_x is not None and crossing_m is not None:
+            yield from zebra(half_x, half_z, setback, along_x=along_x, offset_m=crossing_m)
+        elif along_x is not None and not has_bump:
+            yield from map(self._driven, dashes(half_x, half_z, along_x=along_x))
+            if sum(tile.square) % 2 == 0:
+                arrows = two_way_arrows(half_x, half_z, self.grid.setback_m, along_x=along_x)
+                yield from map(self._driven, arrows)
+        yield from self._ghosts(tile)
+
+    def _driven(self, marking: Marking) -> Marking:
+        """Paint in the middle of a lane, which is more worn than that beside it."""
+        worn = _WORN.get(marking.surface) if self.look.wear is Wear.WORN else None
+        return replace(marking, surface=worn) if worn else marking
+
+    def _edge_lines(self, tile: Tile) -> Iterator[Marking]:
+        """The yellow lines along closed edges without stalls, and around columns."""
+        half_x, half_z, setback = tile.half_x_m, tile.half_z_m, self.grid.setback_m
+        for edge in Edge:
+            if not tile.drivable[edge] and not tile.stall_mouths[edge]:
+                low, high = (_trim(tile, edge, side, setback) for side in edge.ends)
+                yield edge_line(edge, half_x, half_z, setback, (low, high))
+        for vertical, horizontal in sorted(self._around(tile).corners):
+            yield from corner_lines(vertical, horizontal, half_x, half_z, setback)
+
+    def _strips(self, tile: Tile) -> tuple[Marking, ...]:
+        return guide_strips(
+            self._around(tile), tile.half_x_m, tile.half_z_m, self.look, has_pictogram=sum(tile.square) % 2 == 0
+        )
+
+    def _around(self, tile: Tile) -> Around:
+        """What closes a square; a door does not."""
+        is_open = {edge for edge in Edge if tile.drivable[edge] or self.grid.doors.get(tile.square) is edge}
+        corners = set()
+        for corner in itertools.product((Edge.UP, Edge.DOWN), (Edge.LEFT, Edge.RIGHT)):
+            beyond = self.grid.neighbour(tile, *corner)
+            if is_open.issuperset(corner) and (beyond is None or beyond.cell not in _DRIVEN):
+                corners.add(corner)
+        return Around(frozenset(Edge) - is_open, frozenset(corners))
+
+    def _portal(self, tile: Tile) -> Iterator[Marking]:
+        """Arrows on a portal: into the garage on an entrance, out of it on an exit."""
+        inwards = lane_edges(tile)[0]
+        yield self._driven(arrow(0.0, 0.0, inwards if tile.cell is Cell.ENTRANCE else inwards.opposite))
+
+    def _ghosts(self, tile: Tile) -> Iterator[Marking]:
+        """The older lines before the stalls at a lane square's edges."""
+        for edge in Edge:
+            beyond = edge.beyond(tile.square)
+            if not tile.stall_mouths[edge] or beyond not in self.drawn.ghosts:
+                continue
+            count = max(place.row.count for place in self.grid.stall_places[beyond])
+            bay, half = self.bay, (tile.half_x_m, tile.half_z_m)
+            stall = bay.stall_width_m, bay.stall_length_m
+            row_half = count * bay.stall_width_m / 2
+            yield from ghosts_on_lane(self.drawn.ghosts[beyond], edge, half, row_half, stall, self.look.line_width_m)
+
+
+def floor_panels(
+    grid: TileGrid,
+    look: MarkingsLook,
+    drawn: DrawnMarkings,
+    *,
+    bumps: Iterable[Placement],
+    crossings: Mapping[Square, float],
+    cores: Mapping[Square, Core],
+) -> list[Placement]:
+    """The floor of each square with its markings, open where stalls lie.
+
+    Parameters
+    ----------
+    grid
+        The squares.
+    look, drawn
+        What is painted on them.
+    bumps
+        The speed bumps.
+    crossings
+        Where on lanes crossings to the doors of cores lie, in metres along them from their middles.
+    cores
+        The cores that stand among stalls, by their squares, whose landings are kept free.
+    """
+    panels = _Panels(grid, grid.bay, look, drawn)
+    placements, with_bump = [], {bump.square for bump in bumps}
+    for tile in grid:
+        square = tile.square
+        markings = panels.markings(
+            tile, has_bump=square in with_bump, crossing_m=crossings.get(square), core=cores.get(square)
+        )
+        spec = FloorSpec(tile.width_m, tile.depth_m, Surface.LANE, markings, panels.openings(tile))
+        placements.append(Placement("Floor", spec, (tile.x_m, 0.0, tile.z_m), square=square))
+    return placements
+
+
+def _trim(tile: Tile, edge: Edge, side: Edge, setback: float) -> float:
+    """How much an edge line is cut at the end on `side`, so that lines meet in a corner without overlap."""
+    if tile.drivable[side]:
+        return 0.0
+    runs_behind = not edge.along_x and not tile.stall_mouths[side]
+    return setback + (LINE_WIDTH_M if runs_behind else 0.0)

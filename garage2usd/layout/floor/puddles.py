@@ -1,0 +1,107 @@
+"""Puddles on lanes: where there are drains and before ramps more often than elsewhere."""
+
+import math
+from collections.abc import Iterable, Mapping
+
+from garage2usd.common.randomness import Step
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.placement import Placement, of_spec, placed, to_world
+from garage2usd.layout.tiles import Tile, TileGrid
+from garage2usd.objects.drain import DrainSpec
+from garage2usd.objects.floor_stain import PuddleSpec
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["puddles"]
+
+_LIFT_M = 0.0024
+"""Over the floor: above all stains, which show through the water."""
+_SIZES_M = ((3.0, 2.0), (2.2, 1.4), (1.5, 1.1), (0.9, 0.7))
+_VARIANTS, _YAWS = 12, 16
+_LOW_WEIGHT = 3.0
+"""How many times as likely as elsewhere a puddle is in a low place: at a drain or before a ramp."""
+_NUMBERS = 6
+"""Draws for each square: whether there is one, its variant, its size, its turn, and its place across and along."""
+_AROUND_DRAIN_M = 0.7
+_LEAST_DRAW = 1e-12
+
+
+def puddles(
+    grid: TileGrid,
+    wet: float,
+    drains: Iterable[Placement],
+    bumps: Iterable[Placement],
+    draws: SquareDraws,
+) -> list[Placement]:
+    """The puddles of a share of the lane squares without a bump, clear of columns and stalls.
+
+    A larger share has the puddles of a smaller one, and more.
+
+    Parameters
+    ----------
+    grid
+        The squares.
+    wet
+        The share, 0 to 1; rounded to whole squares.
+    drains
+        All drains.
+    bumps
+        The speed bumps, which water runs off.
+    draws
+        Random numbers for each square.
+    """
+    if not wet:
+        return []
+    drain_on = {drain.square: (drain, spec) for drain, spec in of_spec(drains, DrainSpec)}
+    numbers = draws.of_step(Step.PUDDLES, _NUMBERS)
+    with_bump = {bump.square for bump in bumps}
+    lanes = [tile for tile in grid if tile.cell is Cell.LANE and tile.square not in with_bump]
+
+    def dryness(tile: Tile) -> float:
+        """The least ones of all squares are a sample by weight."""
+        is_low = tile.square in drain_on or _is_before_ramp(tile, grid)
+        return -math.log(max(1.0 - float(numbers[tile.square][0]), _LEAST_DRAW)) / (_LOW_WEIGHT if is_low else 1.0)
+
+    count = round(wet * len(lanes))
+    wettest = {tile.square for tile in sorted(lanes, key=dryness)[:count]}
+    return [_puddle(tile, drain_on, grid, numbers[tile.square].tolist()) for tile in lanes if tile.square in wettest]
+
+
+def _is_before_ramp(tile: Tile, grid: TileGrid) -> bool:
+    around = (grid.neighbour(tile, edge) for edge in Edge if tile.drivable[edge])
+    return any(other is not None and other.cell in {Cell.ENTRANCE, Cell.EXIT} for other in around)
+
+
+def _puddle(
+    tile: Tile, drain_on: Mapping[Square | None, tuple[Placement, DrainSpec]], grid: TileGrid, drawn: list[float]
+) -> Placement:
+    """The puddle of one square: as large as is drawn, or as there is room for."""
+    _, shape, size, turn, across, along = drawn
+    yaw = int(turn * _YAWS) * (math.tau / _YAWS) - math.pi
+    variant = int(shape * _VARIANTS)
+    half_x, half_z = tile.half_x_m - grid.setback_m, tile.half_z_m - grid.setback_m
+    for width, depth in _SIZES_M[int(size * len(_SIZES_M)) :]:
+        reach_x, reach_z = _reach(width, depth, yaw)
+        if reach_x <= half_x and reach_z <= half_z:
+            break
+    room_x, room_z = max(half_x - reach_x, 0.0), max(half_z - reach_z, 0.0)
+    x, z = (2 * across - 1) * room_x, (2 * along - 1) * room_z
+    if tile.square in drain_on:
+        drain, grating = drain_on[tile.square]
+        # water stands around a gully, and somewhere along a channel
+        drain_x, drain_z = drain.position_m[0] - tile.x_m, drain.position_m[2] - tile.z_m
+        aside_x, aside_z = (2 * across - 1) * _AROUND_DRAIN_M, (2 * along - 1) * _AROUND_DRAIN_M
+        if not (grating.is_channel and drain.yaw_rad):
+            x = min(max(drain_x + aside_x, -room_x), room_x)
+        if not grating.is_channel or drain.yaw_rad:
+            z = min(max(drain_z + aside_z, -room_z), room_z)
+    spec = PuddleSpec(variant, width, depth)
+    point = tile.x_m + x, tile.z_m + z
+    return placed("Puddle", spec, point, height_m=_LIFT_M, yaw_rad=yaw, square=tile.square)
+
+
+def _reach(width_m: float, depth_m: float, yaw_rad: float) -> tuple[float, float]:
+    """How far a turned rectangle reaches from its middle along X and Z."""
+    corners = [to_world((side * width_m / 2, depth_m / 2), (0.0, 0.0), yaw_rad) for side in (-1, 1)]
+    return max(abs(x) for x, _ in corners), max(abs(z) for _, z in corners)

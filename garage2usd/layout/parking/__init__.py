@@ -1,0 +1,1 @@
+"""Parking: stalls and their use, parked cars, and what stands beside them."""

@@ -1,0 +1,81 @@
+"""No-parking signs where a car would be in the way: on hatched squares, before cores, beside vehicle doors."""
+
+from collections.abc import Collection, Iterable
+
+import numpy as np
+
+from garage2usd.common.randomness import Step, generator
+from garage2usd.config import FittingsConfig
+from garage2usd.layout.egress.cores import Core
+from garage2usd.layout.placement import Placement, edge_yaw_rad, of_spec, placed, to_world
+from garage2usd.layout.shell.building import DOOR_FRAME_M
+from garage2usd.layout.tiles import TileGrid
+from garage2usd.objects.no_parking_sign import NoParkingSignSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.structure.doors import door_edges
+from garage2usd.structure.grid import Cell
+from garage2usd.structure.lane_graph import Square
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["no_parking_signs"]
+
+_QUARTER_TURN = np.pi / 2
+_FROM_END_M = 0.35
+_FROM_JAMB_M, _FROM_WALL_M = 0.3, 0.4
+
+
+def no_parking_signs(
+    grid: TileGrid, walls: Iterable[Placement], cores: Collection[Core], fittings: FittingsConfig, *, seed: int
+) -> list[Placement]:
+    """A sign in the middle of some of the free squares that hold nothing, before each core, and beside each door.
+
+    A garage whose share of such squares is 0 has no signs.
+    """
+    rng = generator(seed, Step.SIGNS)
+    built_on = {core.square for core in cores}
+    signs = []
+    for tile in grid:
+        if tile.cell is not Cell.FREE or tile.square in grid.stall_places or tile.square in built_on:
+            continue
+        if rng.random() < fittings.no_parking_sign_rate:
+            signs.append(_sign(tile.middle_m, float(rng.integers(4)) * _QUARTER_TURN, tile.square))
+    if fittings.no_parking_sign_rate > 0:
+        signs += [_before_core(core) for core in cores if core.recess_m]
+        signs += _beside_doors(grid, walls)
+    return signs
+
+
+def _before_core(core: Core) -> Placement:
+    """At the end of the landing that is not beside a stall, looking at the lane."""
+    away = -1 if core.along_m <= 0 else 1
+    # a core's own +X runs against its edge where it looks up or right
+    turned = -1 if core.edge.name in {"UP", "RIGHT"} else 1
+    across = turned * away * (core.width_m / 2 - _FROM_END_M)
+    yaw = edge_yaw_rad(core.edge)
+    return _sign(to_world((across, core.depth_m / 2 + core.recess_m / 2), core.centre_m, yaw), yaw, core.square)
+
+
+def _beside_doors(grid: TileGrid, walls: Iterable[Placement]) -> list[Placement]:
+    """Inside each vehicle door, on the side without a gate, unless cars turn to that side."""
+    doors = {f"Portal_r{row:02d}_c{col:02d}_": (row, col) for row, col in door_edges(grid.structure.cells)}
+    signs = []
+    for wall, door in of_spec(walls, PortalSpec):
+        side = -1 if door.is_entrance else 1
+        place = wall.to_world((side * (door.door_width_m / 2 - DOOR_FRAME_M + _FROM_JAMB_M), _FROM_WALL_M))
+        square = next(square for start, square in doors.items() if wall.name.startswith(start))
+        if not grid.tiles[square].drivable[_beside(wall, place)]:
+            signs.append(_sign(place, wall.yaw_rad, square))
+    return signs
+
+
+def _beside(wall: Placement, place: Point) -> Edge:
+    """The edge of a door's square that a place lies towards from the door's middle."""
+    across_x, across_z = to_world((1.0, 0.0), (0.0, 0.0), wall.yaw_rad)
+    off = (place[0] - wall.position_m[0]) * abs(across_x) + (place[1] - wall.position_m[2]) * abs(across_z)
+    low, high = (Edge.LEFT, Edge.RIGHT) if abs(across_x) > abs(across_z) else (Edge.UP, Edge.DOWN)
+    return low if off < 0 else high
+
+
+def _sign(place: Point, yaw_rad: float, square: Square) -> Placement:
+    return placed("NoParkingSign", NoParkingSignSpec(), place, yaw_rad=yaw_rad, square=square)

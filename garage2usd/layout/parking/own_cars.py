@@ -1,0 +1,77 @@
+"""Parked cars that are models of one's own, in the places of cars of the catalogue."""
+
+import math
+from dataclasses import replace
+
+from garage2usd.common.randomness import Step
+from garage2usd.config.own_cars import OwnCar, VehiclesConfig, read_own_cars
+from garage2usd.config.vehicles import PAINTS, CarBody
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parking.parked_cars import ParkedCars
+from garage2usd.layout.placement import PlacedStall, Placement, rounded
+from garage2usd.objects.car import CarSpec, car_spec
+
+__all__ = ["with_own_cars"]
+
+_CLEARANCE_M = 0.1
+"""From the lines and the entry of a stall."""
+
+
+def with_own_cars(
+    parked: ParkedCars, stalls: tuple[PlacedStall, ...], vehicles: VehiclesConfig, draws: SquareDraws
+) -> ParkedCars:
+    """The parked cars, of which a share are models of one's own.
+
+    Such a car stands as the one in whose place it is did: with the same yaw, and its rear or its nose as far from the
+    stall's rear. A car stays where no model fits between the lines there, and where it stands over a line itself. What
+    is drawn here moves no other car.
+
+    Raises
+    ------
+    ConfigError
+        If the models are not those that the settings were read with.
+    """
+    if vehicles.models is None:
+        return parked
+    _, models = read_own_cars(vehicles.models)
+    by_name = {stall.name: stall for stall in stalls}
+    most = max((stall.ordinal for stall in stalls), default=0)
+    numbers = draws.of_part(Step.CARS, "own_models", most, 2)
+    result = []
+    for car in parked.cars:
+        stall = by_name.get(car.stall or "")
+        stays = car.stall in parked.reaching or car.stall in parked.misparked
+        if stays or stall is None or car.ordinal is None or not isinstance(car.spec, CarSpec):
+            result.append(car)
+            continue
+        is_own, which = numbers[stall.square][car.ordinal - 1].tolist()
+        asked = models if is_own < vehicles.share else ()
+        fitting = [placed for model in asked if (placed := _in_place_of(car, car.spec, model, stall)) is not None]
+        result.append(fitting[int(which * len(fitting))] if fitting else car)
+    return parked._replace(cars=result)
+
+
+def _in_place_of(car: Placement, spec: CarSpec, model: OwnCar, stall: PlacedStall) -> Placement | None:
+    """The car as a model, moved so that it is within its stall; None where the stall is too small."""
+    turn = car.yaw_rad - stall.yaw_rad
+    is_reversed = math.cos(turn) < 0
+    # the place around the stall's middle, the mouth at +Z
+    dx, dz = car.position_m[0] - stall.centre_m[0], car.position_m[2] - stall.centre_m[1]
+    cos, sin = math.cos(stall.yaw_rad), math.sin(stall.yaw_rad)
+    x, z = dx * cos - dz * sin, dx * sin + dz * cos
+    half_x, half_z = model.half_extents_m(turn)
+    side = stall.width_m / 2 - _CLEARANCE_M - half_x
+    # the wheels at the rear stand where those of the other car did, before the wheel stop
+    rear = z - _behind_wheels(spec.measures, is_reversed=is_reversed)
+    z = rear + _behind_wheels(model, is_reversed=is_reversed)
+    mouth = stall.length_m / 2 - _CLEARANCE_M - half_z
+    if side < 0 or z > mouth or z < half_z - stall.length_m / 2 + _CLEARANCE_M:
+        return None
+    point = rounded(stall.to_world((min(max(x, -side), side), z)))
+    return replace(car, spec=car_spec(model, PAINTS[0]), position_m=(point[0], car.position_m[1], point[1]))
+
+
+def _behind_wheels(body: CarBody, *, is_reversed: bool) -> float:
+    """From the tyres nearest to the stall's rear to the middle of a car."""
+    axle_m = body.rear_axle_m if is_reversed else body.length_m / 2 - body.front_overhang_m
+    return axle_m + body.wheel_radius_m

@@ -1,0 +1,401 @@
+"""The cars parked in stalls: which stand there, and how people leave them."""
+# Over 300 lines: which car it is and where it stands depend on each other and on the cars beside it.
+
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from statistics import NormalDist
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.randomness import Step
+from garage2usd.config import GarageConfig, ParkingConfig
+from garage2usd.config.vehicles import CAR_BODIES, CarBody
+from garage2usd.layout.draws import SquareDraws
+from garage2usd.layout.parking.fleet import Fleet
+from garage2usd.layout.parking.stalls import WHEEL_STOP_FROM_REAR_M
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse
+from garage2usd.objects.car import CarSpec
+from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WHEEL_STOP_WIDTH_M
+from garage2usd.structure.lane_graph import Square
+
+__all__ = ["ParkedCars", "fitting", "park_cars"]
+
+_END_CLEARANCE_M = 0.1
+"""Between a car and the mouth of its stall."""
+_REAR_CLEARANCE_M = 0.12
+_LINE_M = 0.05
+"""Half the width of a line: bodies of cars between their lines keep off it."""
+_ROW_END_M = 0.03
+"""What mirrors keep inside the line at the end of a row, where columns and walls stand."""
+_GAP_M = 0.1
+"""Between what stands out of two cars beside each other, mirrors included."""
+_OVER_M = (0.01, 0.08)
+"""How far the body of a car reaches over the middle of a line that it stands over."""
+_FAR_OVER_M = (0.25, 0.75)
+"""The same of a car that is misparked: its body is less than half in the next stall."""
+_SLANT_DEG = (4.0, 12.0)
+_SLANTED_SHARE = 0.4
+"""Assumption: of the misparked cars, as far as the length of their stalls leaves room for it."""
+_DRAWS_A_CAR, _HABITS, _STATES = 7, 4, 3
+_STEER_DEG = (-20.0, -10.0, 10.0, 20.0)
+"""How far wheels are left turned: few angles, so that cars share assets. Assumption."""
+_TOUCH_M, _ROUNDING_M = 1e-3, 1e-9
+_USUAL = NormalDist()
+
+
+class ParkedCars(NamedTuple):
+    """The parked cars.
+
+    Attributes
+    ----------
+    cars
+        The cars, in the order of their stalls.
+    reaching
+        Name of the stall of each car whose body stands over a line, and of the one beside that it reaches into.
+    misparked
+        Names of the stalls of those that are misparked.
+    """
+
+    cars: list[Placement]
+    reaching: dict[str, str]
+    misparked: frozenset[str]
+
+    @property
+    def touched(self) -> set[str]:
+        """Names of the stalls that cars stand in or reach into."""
+        return {car.stall for car in self.cars if car.stall}.union(self.reaching.values())
+
+
+@dataclass(frozen=True, slots=True)
+class _Car:
+    """A car before it has its place across the stall; lengths in metres, angles in radians."""
+
+    stall: PlacedStall
+    body: CarBody
+    paint: str
+    is_reversed: bool
+    yaw: float
+    room_m: float
+    side_share: float
+    along_share: float
+    steer_deg: float
+    is_dusty: bool
+    is_lit: bool
+
+    def half_x(self, *, mirrors: bool = True) -> float:
+        """Half its extent across the stall."""
+        # the arches of the wheels stand out of the body
+        width_m = None if mirrors else self.body.width_m + 0.02
+        return self.body.half_extents_m(self.yaw, width_m=width_m)[0]
+
+    @property
+    def half_z(self) -> float:
+        """Half its extent along the stall."""
+        return self.body.half_extents_m(self.yaw)[1]
+
+    def placement(self, side_m: float) -> Placement:
+        """The car at a distance beside the middle of its stall."""
+        rear_most = self.stall.length_m / 2 - _END_CLEARANCE_M - self.room_m + self.half_z
+        along = rear_most + self.along_share * max(self.room_m - 2 * self.half_z, 0.0)
+        turned = self.stall.yaw_rad + self.yaw + (math.pi if self.is_reversed else 0.0)
+        spec = CarSpec(self.body.name, self.paint, self.steer_deg, self.is_dusty, self.is_lit)
+        return self.stall.placement("Car", spec, (side_m, along), yaw_rad=round(math.remainder(turned, math.tau), 6))
+
+
+class _Row:
+    """The stalls of a square beside each other, from the left as one looks out of their mouths, and their cars."""
+
+    def __init__(self, stalls: Sequence[PlacedStall], cars: Mapping[str, _Car], tight: Collection[str]) -> None:
+        self.stalls = stalls
+        self.width_m = stalls[0].width_m
+        self.numbers = [number for number, stall in enumerate(stalls) if stall.name in cars]
+        self.cars = {number: cars[stalls[number].name] for number in self.numbers}
+        self.is_tight = any(stall.name in tight for stall in stalls)
+        self.limits = {number: self._limits(number) for number in self.numbers}
+        self.reaching: dict[int, int] = {}
+        self.misparked: set[int] = set()
+
+    def is_lent(self, number: int) -> bool:
+        """Whether there is a stall of a number whose cars leave some of its side to the next one's."""
+        inside = 0 <= number < len(self.stalls)
+        return inside and self.stalls[number].use in {StallUse.STANDARD, StallUse.EV} and not self.is_tight
+
+    def free_beside(self, number: int) -> list[int]:
+        """Numbers of the stalls beside one that hold no car and that no car reaches into."""
+        beside = [other for other in (number - 1, number + 1) if self.is_lent(other)]
+        return [other for other in beside if other not in self.cars and other not in self.reaching.values()]
+
+    def _limits(self, number: int) -> tuple[float, float]:
+        """From where to where the middle of a car between its lines lies."""
+        car = self.cars[number]
+        free_m = max(self.width_m / 2 - _LINE_M - car.half_x(mirrors=False), 0.0)
+        walled_m = max(self.width_m / 2 - _ROW_END_M - car.half_x(), 0.0)
+        return -(free_m if self.is_lent(number - 1) else walled_m), free_m if self.is_lent(number + 1) else walled_m
+
+    def _ranges(self) -> dict[int, tuple[float, float]] | None:
+        """The least and the greatest place of each car that leave room for all others; None where there is none."""
+        least: dict[int, float] = {}
+        most: dict[int, float] = {}
+        for numbers, sign, found in ((self.numbers, 1, least), (self.numbers[::-1], -1, most)):
+            before: int | None = None
+            for number in numbers:
+                low, high = self.limits[number]
+                bound = low if sign > 0 else -high
+                if before is not None:
+                    halves_m = self.cars[before].half_x() + self.cars[number].half_x()
+                    bound = max(bound, found[before] * sign + halves_m + _GAP_M - abs(number - before) * self.width_m)
+                found[number] = sign * bound
+                before = number
+        ranges = {number: (least[number], most[number]) for number in self.numbers}
+        return ranges if all(low <= high + _ROUNDING_M for low, high in ranges.values()) else None
+
+    def lean(self, number: int, beside: int, over_m: float, yaw: float | None = None) -> bool:
+        """Let the body of a car reach so far into the stall beside; whether there is room for that.
+
+        One that stands aslant reaches farther, as it keeps off its other line.
+        """
+        before, car, limits = self.cars[number], self.cars[number], self.limits[number]
+        if yaw is not None:
+            car = replace(car, yaw=yaw)
+            self.cars[number] = car
+        over_m = max(over_m, car.half_x() + car.half_x(mirrors=False) - self.width_m + _ROW_END_M)
+        side_m = (self.width_m / 2 + over_m - car.half_x(mirrors=False)) * (beside - number)
+        self.limits[number] = side_m, side_m
+        if self._ranges() is None:
+            self.cars[number], self.limits[number] = before, limits
+            return False
+        self.reaching[number] = beside
+        return True
+
+    def places(self, spread_m: float) -> dict[int, float]:
+        """The place of each car beside the middle of its stall."""
+        placed: dict[int, float] = {}
+        ranges = self._ranges()
+        assert ranges is not None
+        before: int | None = None
+        for number in self.numbers:
+            low, high = ranges[number]
+            car = self.cars[number]
+            if before is not None:
+                halves_m = self.cars[before].half_x() + car.half_x()
+                low = max(low, placed[before] + halves_m + _GAP_M - (number - before) * self.width_m)
+            placed[number] = _cut_normal(car.side_share, spread_m, low, max(low, high))
+            before = number
+        return placed
+
+
+def park_cars(
+    stalls: tuple[PlacedStall, ...],
+    config: GarageConfig,
+    draws: SquareDraws,
+    *,
+    tight: Iterable[PlacedStall] = (),
+    held_back: Collection[str] = (),
+) -> ParkedCars:
+    """Random cars, of which none touches another or leaves the length of its stall.
+
+    Parameters
+    ----------
+    stalls
+        All stalls.
+    config
+        Which cars, how many, and how they stand; its profile's country is whose they are.
+    draws
+        Random numbers.
+    tight
+        Stalls whose cars keep their mirrors between the lines, with those beside them.
+    held_back
+        Names of the stalls whose cars do not stand over a line.
+
+    Notes
+    -----
+    A car is drawn among the bodies that fit, then its yaw, then its place across the stall from what neighbours and
+    lines leave, by a normal distribution that is cut there. Every stall draws the same number of times, so that the
+    occupancy changes no other car. A car stands over a line, or far over, only towards a stall of the same row.
+    """
+    parking = config.parking
+    most = max((stall.ordinal for stall in stalls), default=0)
+    numbers = draws.of_step(Step.CARS, most, _DRAWS_A_CAR)
+    habits = draws.of_part(Step.CARS, "over the line", most, _HABITS)
+    states = draws.of_part(Step.CARS, "wheels and dust", most, _STATES)
+    lamps = draws.of_part(Step.CARS, "lamps", most, 1)
+    fleet = Fleet(parking, config.standard.country)
+    holds_car = _occupancy(stalls, parking)
+    cars: dict[str, _Car] = {}
+    for stall in stalls:
+        drawn = numbers[stall.square][stall.ordinal - 1].tolist()
+        if stall.use.takes_cars and holds_car.get(stall.name, drawn[0] < parking.occupancy):
+            state = [found[stall.square][stall.ordinal - 1] for found in (states, lamps)]
+            car = _car(stall, drawn, np.concatenate(state).tolist(), fleet, parking)
+            if car is not None:
+                cars[stall.name] = car
+            elif holds_car.get(stall.name):
+                least = min(body.length_m for body in CAR_BODIES)
+                raise ConfigError("parking.occupied_stalls", stall.name, f"stalls that a car of {least} m fits into")
+    names = {stall.name for stall in tight}
+    rows = [_Row(row, cars, names) for row in _rows(stalls) if any(stall.name in cars for stall in row)]
+    _lean_over(rows, parking, habits, held_back)
+    placed = {
+        row.stalls[number].name: row.cars[number].placement(side_m)
+        for row in rows
+        for number, side_m in row.places(parking.lateral_spread_m).items()
+    }
+    named = [(row, [stall.name for stall in row.stalls]) for row in rows]
+    return ParkedCars(
+        [placed[name] for name in cars],
+        {names[number]: names[beside] for row, names in named for number, beside in row.reaching.items()},
+        frozenset(names[number] for row, names in named for number in row.misparked),
+    )
+
+
+def _car(
+    stall: PlacedStall, drawn: Sequence[float], state: Sequence[float], fleet: Fleet, parking: ParkingConfig
+) -> _Car | None:
+    """The car of a stall by its draws and those of the state that it was left in; None where no body fits."""
+    _, reverse, yaw_share, side_share, along_share, body_share, paint_share = drawn
+    is_reversed = reverse < fleet.reversed_share
+    bodies = fitting(stall.width_m, stall.length_m, is_reversed=is_reversed)
+    if not bodies:
+        return None
+    body = fleet.body_of(bodies, body_share)
+    room_m = _room_m(stall.length_m, body, is_reversed=is_reversed)
+    # width' <= width + length |sin yaw| and length' <= length + width |sin yaw|
+    side_room, end_room = stall.width_m - 2 * _END_CLEARANCE_M - body.overall_width_m, room_m - body.length_m
+    sin = max(min((side_room + _GAP_M) / body.length_m, end_room / body.overall_width_m), 0.0)
+    most = min(math.radians(parking.max_yaw_deg), math.asin(min(sin, 1.0)))
+    yaw = _cut_normal(yaw_share, math.radians(parking.yaw_spread_deg), -most, most)
+    turned, angle, dust, lamps = state
+    steer_deg = _STEER_DEG[int(angle * len(_STEER_DEG))] if turned < parking.turned_wheels else 0.0
+    return _Car(
+        stall,
+        body,
+        fleet.paint_of(paint_share),
+        is_reversed,
+        yaw,
+        room_m,
+        side_share,
+        along_share,
+        steer_deg,
+        dust < parking.dusty,
+        lamps < parking.lit,
+    )
+
+
+def _rows(stalls: Iterable[PlacedStall]) -> list[list[PlacedStall]]:
+    """The stalls that lie beside each other on a square, each row from the left as one looks out of their mouths."""
+    rows: list[list[PlacedStall]] = []
+    of_side: dict[tuple[object, object], list[PlacedStall]] = {}
+    for stall in stalls:
+        of_side.setdefault((stall.square, stall.edge), []).append(stall)
+    for group in of_side.values():
+        cos, sin = math.cos(group[0].yaw_rad), -math.sin(group[0].yaw_rad)
+        along = sorted(group, key=lambda stall: stall.centre_m[0] * cos + stall.centre_m[1] * sin)
+        row = [along[0]]
+        for stall in along[1:]:
+            if abs(math.dist(stall.centre_m, row[-1].centre_m) - stall.width_m) > _TOUCH_M:
+                rows.append(row)
+                row = []
+            row.append(stall)
+        rows.append(row)
+    return rows
+
+
+def _lean_over(
+    rows: Sequence[_Row],
+    parking: ParkingConfig,
+    habits: Mapping[Square, NDArray[np.float64]],
+    held_back: Collection[str],
+) -> None:
+    """Let some cars stand over their lines, so many of those that can that they are the asked shares of all."""
+    count = sum(len(row.cars) for row in rows)
+
+    def chance(share: float, able: int) -> float:
+        return min(share * count / able, 1.0) if able else 0.0
+
+    def drawn(row: _Row, number: int) -> list[float]:
+        stall = row.stalls[number]
+        found: list[float] = habits[stall.square][stall.ordinal - 1].tolist()
+        return found
+
+    misparking = chance(parking.misparked, sum(bool(row.free_beside(n)) for row in rows for n in row.numbers))
+    able = sum(row.is_lent(n - 1) or row.is_lent(n + 1) for row in rows for n in row.numbers)
+    leaning = chance(parking.over_line, able)
+    for row in rows:
+        for number in row.numbers:
+            is_far, is_over, side, depth = drawn(row, number)
+            if is_far < misparking and (free := row.free_beside(number)):
+                beside = free[int(side * len(free))]
+                low, high = _FAR_OVER_M
+                over_m = low + depth * (high - low)
+                slanted = is_far < misparking * _SLANTED_SHARE
+                yaw = _slant(row.cars[number], depth, beside - number) if slanted else None
+                if row.lean(number, beside, over_m if yaw is None else low, yaw):
+                    row.misparked.add(number)
+            elif is_over < leaning and row.stalls[number].name not in held_back:
+                low, high = _OVER_M
+                sides = (number - 1, number + 1) if side < 0.5 else (number + 1, number - 1)  # noqa: PLR2004
+                for beside in sides:
+                    if row.is_lent(beside) and row.lean(number, beside, low + depth * (high - low)):
+                        break
+
+
+def _slant(car: _Car, share: float, towards: int) -> float:
+    """The yaw of a car that stands aslant, as far as the length of its stall leaves room for."""
+    room_m = max(car.room_m - car.body.length_m, 0.0) / car.body.overall_width_m
+    low, high = map(math.radians, _SLANT_DEG)
+    return math.copysign(min(low + share * (high - low), math.asin(min(room_m, 1.0))), towards)
+
+
+def _occupancy(stalls: tuple[PlacedStall, ...], parking: ParkingConfig) -> dict[str, bool]:
+    """Whether a car stands in each stall that the configuration names."""
+    uses = {stall.name: stall.use for stall in stalls}
+    named = {}
+    for field, holds_car in (("occupied_stalls", True), ("empty_stalls", False)):
+        for name in getattr(parking, field) or ():
+            if name not in uses:
+                raise ConfigError(f"parking.{field}", name, f"ids of stalls of this garage, as {next(iter(uses))}")
+            if holds_car and not uses[name].takes_cars:
+                raise ConfigError(
+                    f"parking.{field}",
+                    name,
+                    "stalls that are not kept free for turning, for wheelchairs or as out of reach",
+                )
+            named[name] = holds_car
+    if parking.occupied_stalls is not None:
+        return dict.fromkeys(uses, False) | named
+    return named
+
+
+@lru_cache
+def fitting(width_m: float, length_m: float, *, is_reversed: bool) -> tuple[CarBody, ...]:
+    """The bodies that fit into a stall of some width and length in metres."""
+    return tuple(
+        body
+        for body in CAR_BODIES
+        if body.fits(width_m - 2 * _END_CLEARANCE_M, _room_m(length_m, body, is_reversed=is_reversed))
+    )
+
+
+def _room_m(length_m: float, body: CarBody, *, is_reversed: bool) -> float:
+    """Length of a stall that a car may take: short of its mouth, and with the tyres before the wheel stop."""
+    overhang_m = body.length_m - body.wheelbase_m - body.front_overhang_m if is_reversed else body.front_overhang_m
+    # half the chord of a tyre at the stop's height
+    tyre_m = math.sqrt((2 * body.wheel_radius_m - WHEEL_STOP_HEIGHT_M) * WHEEL_STOP_HEIGHT_M)
+    axle_m = WHEEL_STOP_FROM_REAR_M + WHEEL_STOP_WIDTH_M / 2 + tyre_m
+    return length_m - _END_CLEARANCE_M - max(_REAR_CLEARANCE_M, axle_m - overhang_m)
+
+
+def _cut_normal(share: float, spread: float, low: float, high: float) -> float:
+    """The value at a share from 0 to 1 of a normal distribution around 0 that is cut at two values."""
+    if spread <= 0 or high - low < _ROUNDING_M:
+        return min(max(0.0, low), high)
+    first, last = _USUAL.cdf(low / spread), _USUAL.cdf(high / spread)
+    at = first + share * (last - first)
+    if not 0 < at < 1:
+        return min(max(0.0, low), high)
+    return min(max(_USUAL.inv_cdf(at) * spread, low), high)

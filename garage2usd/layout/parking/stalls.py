@@ -1,0 +1,151 @@
+"""Stalls on the squares that lanes serve and their wheel stops."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from garage2usd.config import BayConfig, FittingsConfig
+from garage2usd.config.look import MarkingsLook
+from garage2usd.layout.floor.ghost_lines import ghosts_on_stall
+from garage2usd.layout.floor.markings import hatching
+from garage2usd.layout.floor.stall_lines import stall_lines
+from garage2usd.layout.parking.designation import use_symbol
+from garage2usd.layout.placement import PlacedStall, Placement, StallUse, edge_yaw_rad
+from garage2usd.layout.tiles import Tile, TileGrid, stall_rectangle
+from garage2usd.objects.panel import Surface
+from garage2usd.objects.stall import StallSpec
+from garage2usd.objects.wheel_stop import WHEEL_STOP_HEIGHT_M, WheelStopSpec
+from garage2usd.profiles import Profile
+from garage2usd.structure.dead_ends import DeadEnd
+from garage2usd.structure.lane_graph import LaneSquares, Square
+
+__all__ = ["WHEEL_STOP_FROM_REAR_M", "stall_panels", "stalls_of", "wheel_stops", "with_turning_stalls"]
+
+WHEEL_STOP_FROM_REAR_M = 0.55
+"""Middle of a wheel stop from the stall's rear: behind the front wheels of a car parked nose-in."""
+_WHEEL_STOP_LENGTH_M, _LOWEST_WHEEL_STOP_M = 1.65, 0.05
+_WHEEL_STOP_GAP_M = 0.65
+"""Between the two blocks of a pair."""
+_HATCH_MARGIN_M = 0.25
+_NEAR_STALLS = 12
+_COATINGS = {
+    StallUse.EV: Surface.STALL_EV,
+    StallUse.ACCESSIBLE: Surface.STALL_ACCESSIBLE,
+    StallUse.ACCESS_AISLE: Surface.STALL_ACCESSIBLE,
+}
+_HATCHES = {
+    StallUse.TURNING: Surface.PAINT_YELLOW,
+    StallUse.ACCESS_AISLE: Surface.PAINT_WHITE,
+    StallUse.UNREACHABLE: Surface.PAINT_YELLOW,
+}
+
+
+def stalls_of(grid: TileGrid, graph: LaneSquares, bay: BayConfig) -> tuple[PlacedStall, ...]:
+    """All stalls in reading order, numbered from 1 on each square."""
+    return tuple(
+        PlacedStall(
+            square=tile.square,
+            ordinal=place.ordinal,
+            edge=place.row.edge,
+            stall_type=graph.stall_types[tile.square],
+            centre_m=_middle(tile, stall_rectangle(tile, place.row, place.slot, bay)),
+            width_m=bay.stall_width_m,
+            length_m=bay.stall_length_m,
+            yaw_rad=edge_yaw_rad(place.row.edge),
+        )
+        for tile in grid
+        for place in grid.stall_places.get(tile.square, [])
+    )
+
+
+def with_turning_stalls(
+    stalls: tuple[PlacedStall, ...], grid: TileGrid, ends: Sequence[DeadEnd]
+) -> tuple[PlacedStall, ...]:
+    """The same with a stall of each dead-end aisle kept free for turning.
+
+    It is the nearest to the aisle's tip of those that open onto the lane nearest to it, or where none opens onto the
+    aisle, the nearest of all. A stall that cars drive straight on into helps nobody to turn, and is only taken where
+    the aisle has no other.
+    """
+    if not ends:
+        return stalls
+    from scipy.spatial import KDTree  # noqa: PLC0415 - few garages have such ends, all wait for imports
+
+    def is_straight_on(stall: PlacedStall) -> bool:
+        return grid.tiles[stall.access_square].drivable[stall.edge]
+
+    turned = list(stalls)
+    opening_on: dict[Square, list[int]] = {}
+    for index, stall in enumerate(stalls):
+        opening_on.setdefault(stall.access_square, []).append(index)
+    places = KDTree([stall.centre_m for stall in stalls])
+    for end in ends:
+        tile = grid.tiles[end.tip]
+        _, nearest = places.query((tile.x_m, tile.z_m), k=min(len(stalls), _NEAR_STALLS))
+        own = (index for square in end.squares for index in opening_on.get(square, ()))
+        back = {square: squares_back for squares_back, square in enumerate(end.squares)}
+        # a stable sort: the nearest first among those that open onto the same lane
+        for index in sorted(
+            dict.fromkeys((*np.atleast_1d(nearest).tolist(), *own)),
+            key=lambda index: (
+                stalls[index].access_square not in back,
+                is_straight_on(stalls[index]),
+                back.get(stalls[index].access_square, 0),
+            ),
+        ):
+            if turned[index].use is StallUse.STANDARD:
+                turned[index] = replace(turned[index], use=StallUse.TURNING)
+                break
+    return tuple(turned)
+
+
+def stall_panels(
+    stalls: tuple[PlacedStall, ...], look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]
+) -> list[Placement]:
+    """The floor of each stall with its lines, below them those of older rows by the squares that show them."""
+    return [stall.placement("Stall", _with_ghosts(stall, look, grid, ghosts)) for stall in stalls]
+
+
+def _with_ghosts(stall: PlacedStall, look: MarkingsLook, grid: TileGrid, ghosts: Mapping[Square, int]) -> StallSpec:
+    panel = _stall_panel(stall.width_m, stall.length_m, stall.use, look)
+    number = ghosts.get(stall.square)
+    if number is None or stall.use in _COATINGS:
+        return panel
+    count = max(place.row.count for place in grid.stall_places[stall.square])
+    middle = grid.tiles[stall.square].middle_m
+    older = ghosts_on_stall(number, stall, middle, count * stall.width_m / 2, look.line_width_m)
+    return replace(panel, markings=(*panel.markings, *older))
+
+
+@lru_cache
+def _stall_panel(width_m: float, length_m: float, use: StallUse, look: MarkingsLook) -> StallSpec:
+    lines = stall_lines(width_m, length_m, look)
+    if not use.takes_cars:
+        lines += hatching(width_m / 2, length_m / 2, margin_m=_HATCH_MARGIN_M, surface=_HATCHES[use])
+    return StallSpec(width_m, length_m, _COATINGS.get(use, Surface.STALL), (*lines, *use_symbol(use)))
+
+
+def wheel_stops(stalls: tuple[PlacedStall, ...], fittings: FittingsConfig, profile: Profile) -> list[Placement]:
+    """A wheel stop near the rear of each stall that cars park in, unless that would be too low to stop a wheel."""
+    clause = profile.wheel_stop_height
+    height_m = min(WHEEL_STOP_HEIGHT_M, clause.amount if clause else math.inf)
+    if not fittings.wheel_stops or height_m < _LOWEST_WHEEL_STOP_M:
+        return []
+    gap_m = _WHEEL_STOP_GAP_M if fittings.wheel_stops == "pairs" else 0.0
+    return [
+        stall.placement(
+            "WheelStop",
+            WheelStopSpec(min(_WHEEL_STOP_LENGTH_M, round(stall.width_m - 0.6, 3)), height_m, gap_m),
+            (0.0, -stall.length_m / 2 + WHEEL_STOP_FROM_REAR_M),
+        )
+        for stall in stalls
+        if stall.use.takes_cars
+    ]
+
+
+def _middle(tile: Tile, corners: tuple[tuple[float, float], ...]) -> tuple[float, float]:
+    xs, zs = zip(*corners, strict=True)
+    return round(tile.x_m + (min(xs) + max(xs)) / 2, 6), round(tile.z_m + (min(zs) + max(zs)) / 2, 6)

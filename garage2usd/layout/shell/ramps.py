@@ -1,0 +1,153 @@
+"""Ramps from the ground outside to the portals, and the barrier gates in them."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from garage2usd.config import FittingsConfig
+from garage2usd.config.look import WallsLook
+from garage2usd.layout.ceiling.lamps import TUBE
+from garage2usd.layout.fittings import TUBE_DEPTH_M
+from garage2usd.layout.placement import Placement, of_spec, placed
+from garage2usd.layout.shell.building import DOOR_FRAME_M
+from garage2usd.objects.barrier import BarrierSpec
+from garage2usd.objects.portal import PortalSpec
+from garage2usd.objects.ramp import RampSpec
+from garage2usd.objects.sky import SkySpec
+
+__all__ = ["barriers", "ramp_lights", "with_ramps"]
+
+_PARAPET_M = 1.3
+_SKY_M = 3.0
+_KERB_ROOM_M = 0.1
+_BARRIER_GAP_M = 0.32
+_BARRIER_NEAR_M, _BARRIER_FAR_M = 0.9, 2.6
+_ELBOW_MAX_M = 2.75
+_ELBOW_BELOW_CEILING_M = 0.35
+_LIGHTS_AT = (0.25, 0.6)
+"""Places of the lights, as shares of the covered part's length."""
+_ARM_HALF_M, _ARM_GAP_M = 0.04, 0.01
+
+
+def with_ramps(
+    walls: list[Placement], inside: shapely.Geometry, fittings: FittingsConfig, look: WallsLook
+) -> list[Placement]:
+    """The outer walls with every door opened behind which a ramp finds room, and the ramps with their sky.
+
+    Parameters
+    ----------
+    walls
+        The outer walls with a closed door in each portal.
+    inside
+        The garage's squares, (x, z) in metres.
+    fittings
+        Heights, and whether there are ramps.
+    look
+        Of walls.
+
+    Notes
+    -----
+    A ramp needs its whole footprint free of the garage, of its walls and of the ramps before it.
+    """
+    if not fittings.ramps:
+        return walls
+    taken = inside.buffer(fittings.wall_thickness_m, join_style="mitre")
+    opened: list[Placement] = []
+    ramps: list[Placement] = []
+    for wall in walls:
+        if not isinstance(wall.spec, PortalSpec):
+            opened.append(wall)
+            continue
+        spec = _ramp(wall.spec, fittings, look)
+        ground = _ground(spec, wall)
+        if ground.intersection(taken).area > 1e-6:  # noqa: PLR2004 - they may touch
+            opened.append(wall)
+            continue
+        taken = taken.union(ground)
+        opened.append(replace(wall, spec=replace(wall.spec, is_open=True)))
+        for kind, shape in (("Ramp", spec), ("Sky", _sky(spec))):
+            name = wall.name.replace("Portal", kind)
+            ramps.append(Placement(name, shape, wall.position_m, wall.yaw_rad))
+    return [*opened, *ramps]
+
+
+def _ramp(portal: PortalSpec, fittings: FittingsConfig, look: WallsLook) -> RampSpec:
+    """The ramp behind a door."""
+    runs, heights = zip(*fittings.ramp_profile, strict=True)
+    rise, transition = heights[-1], heights[2]
+    # the slab over the foot ends where the floor comes within the clear height of it
+    room = max(portal.height_m - fittings.clear_height_m, transition / 2)
+    cover_end = float(np.interp(room, heights[1:-1], runs[1:-1]))
+    return RampSpec(
+        width_m=round(portal.door_width_m + 2 * _KERB_ROOM_M, 6),
+        wall_m=portal.thickness_m,
+        threshold_width_m=round(portal.door_width_m - 2 * DOOR_FRAME_M, 6),
+        profile=fittings.ramp_profile,
+        cover_end_m=round(cover_end, 6),
+        cover_height_m=portal.height_m,
+        wall_top_m=round(rise + _PARAPET_M, 6),
+        dado_m=look.dado_m,
+        has_stripe=look.has_stripe,
+    )
+
+
+def _sky(ramp: RampSpec) -> SkySpec:
+    end, ground = ramp.profile[-1]
+    return SkySpec(
+        width_m=round(ramp.width_m + 2 * ramp.wall_m, 6),
+        start_m=ramp.cover_end_m,
+        end_m=round(end + 0.01, 6),
+        ground_m=round(ground - 0.05, 6),
+        low_m=ramp.wall_top_m,
+        high_m=round(ramp.wall_top_m + _SKY_M, 6),
+    )
+
+
+def _ground(ramp: RampSpec, wall: Placement) -> shapely.Polygon:
+    """The (x, z) footprint of a ramp with its side walls, from the back of the door's wall on."""
+    half, near, far = ramp.width_m / 2 + ramp.wall_m, -ramp.profile[0][0], -ramp.profile[-1][0]
+    corners = ((-half, near), (half, near), (half, far), (-half, far))
+    return shapely.Polygon([wall.to_world(corner) for corner in corners])
+
+
+def ramp_lights(walls: Iterable[Placement], fittings: FittingsConfig) -> list[Placement]:
+    """Tubes across each ramp's covered part, where they hang over the clear height."""
+    lights: list[Placement] = []
+    for ramp, spec in of_spec(walls, RampSpec):
+        runs, heights = zip(*spec.profile, strict=True)
+        for number, share in enumerate(_LIGHTS_AT, start=1):
+            run = runs[0] + share * (spec.cover_end_m - runs[0])
+            floor = float(np.interp(run, runs, heights))
+            if spec.cover_height_m - TUBE.drop_m - floor < fittings.clear_height_m:
+                continue
+            name, height = f"{ramp.name.replace('Ramp', 'Tube')}_{number}", spec.cover_height_m
+            lights.append(placed(name, TUBE, ramp.to_world((0.0, -run)), height_m=height, yaw_rad=ramp.yaw_rad))
+    return lights
+
+
+def barriers(walls: list[Placement], fittings: FittingsConfig) -> list[Placement]:
+    """A barrier gate inside each open door, beside the opening on the driver's left; every other one is raised.
+
+    None is where an arm finds no room between the clear height and the lights.
+    """
+    if not fittings.barriers:
+        return []
+    gates: list[Placement] = []
+    for wall, portal in of_spec(walls, PortalSpec):
+        if not portal.is_open:
+            continue
+        half = portal.door_width_m / 2 - DOOR_FRAME_M
+        elbow = max(
+            fittings.clear_height_m + _ARM_HALF_M + _ARM_GAP_M,
+            min(portal.height_m - _ELBOW_BELOW_CEILING_M, _ELBOW_MAX_M),
+        )
+        has_room = elbow + _ARM_HALF_M <= portal.height_m - TUBE_DEPTH_M
+        is_raised = has_room and len(gates) % 2 == 0
+        spec = BarrierSpec(round(2 * half + _BARRIER_GAP_M, 3), is_raised=is_raised, elbow_m=round(elbow, 3))
+        left, along, turn = (1, _BARRIER_FAR_M, 0.0) if portal.is_entrance else (-1, _BARRIER_NEAR_M, np.pi)
+        place = wall.to_world((left * (half + _BARRIER_GAP_M), along))
+        yaw = round(float(np.remainder(wall.yaw_rad + turn + np.pi, 2 * np.pi) - np.pi), 6)
+        gates.append(placed(wall.name.replace("Portal", "Barrier"), spec, place, yaw_rad=yaw))
+    return gates

@@ -1,0 +1,227 @@
+"""Plates with the names of zones, on the sides of columns and on walls."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import starmap
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.layout.grounds import Grounds, grounds_of
+from garage2usd.layout.nearness import distances_m
+from garage2usd.layout.parking.zones import Zones
+from garage2usd.layout.placement import PlacedStall, Placement, cos_sin, edge_yaw_rad, of_spec, placed, to_world
+from garage2usd.objects.column import ColumnSpec
+from garage2usd.objects.outline import Point
+from garage2usd.objects.wall import WallSpec
+from garage2usd.objects.zone_plate import ColumnPlatesSpec, ZonePlateSpec
+from garage2usd.structure.stalls import Edge
+
+__all__ = ["zone_plates"]
+
+_AROUND = (Edge.DOWN, Edge.RIGHT, Edge.UP, Edge.LEFT)
+"""Where the sides of a column look, as `ColumnPlatesSpec` has them."""
+_FOOT_M = 1.70
+"""Height of lower edges: over what hangs on columns and walls."""
+_HALF = 0.225
+"""From the middle of a column's side to that of its halves, as a share of its width."""
+_ON_WALL_M, _FROM_END_M = 0.26, 0.15
+"""Width of a plate on a wall, and from its middle to the wall's end: between two rows of stalls."""
+_SEEN_FROM_M = 0.5
+"""A side is hidden where a block is nearer."""
+_SIGHT_M = 12.0
+"""How far the stalls are that a plate is for: across a lane."""
+_AS_NEAR_M = 1.0
+"""Stalls before the other half of a side count where they are so much farther than the nearest ones at most."""
+_STRAIGHT_M = 0.01
+"""Stalls whose middle is not farther to a side lie before both halves."""
+
+
+class _Side(NamedTuple):
+    """A side of a column or a place on a wall: its name, the middle of its foot, where it looks, and its width."""
+
+    name: str
+    middle: Point
+    yaw_rad: float
+    width_m: float
+
+
+class _Half(NamedTuple):
+    """What lies before half of a side.
+
+    Attributes
+    ----------
+    beside, beside_m
+        Zone of the nearest stall, and how far its ground is; empty and infinitely far if none is in sight.
+    """
+
+    beside: str = ""
+    beside_m: float = np.inf
+
+
+def zone_plates(
+    columns: Iterable[Placement],
+    walls: Iterable[Placement],
+    blocks: Iterable[Placement],
+    stalls: Iterable[PlacedStall],
+    zones: Zones,
+) -> list[Placement]:
+    """Plates on columns and walls, such that the nearest one to each stall is that of its zone.
+
+    Parameters
+    ----------
+    columns, walls, blocks, stalls
+        The garage; blocks are its obstacles and stair cores.
+    zones
+        The zones of the stalls.
+
+    Notes
+    -----
+    Each side of a column shows the zone of the nearest stalls before it. A side that a block hides is bare, as is one
+    without a stall in sight, and one on the border of two zones, before which lie stalls of both; the sides around it
+    show one zone each. Stalls to which a plate of another zone is the nearest, as there is no column about, have one
+    on a wall.
+    """
+    numbered = [stall for stall in stalls if stall.number]
+    if not numbered:
+        return []
+    shown = [str(zones.of(stall.square)) for stall in numbered]
+    grounds = grounds_of([stall.corners_m() for stall in numbered])
+    middles = np.array([stall.centre_m for stall in numbered])
+    columns = list(columns)
+    sides = list(_column_sides(columns))
+    seen = _seen(sides, blocks)
+    zone_on = dict(zip(seen, starmap(_zone_on, _halves_of(seen, grounds, middles, shown)), strict=True))
+    plates: list[Placement] = []
+    for number, column in enumerate(columns):
+        own = sides[number * len(_AROUND) : (number + 1) * len(_AROUND)]
+        plates += _on_column(column, tuple(zone_on.get(side, "") for side in own))
+    return plates + _plates_on_walls(_seen(_wall_sides(walls), blocks), grounds, middles, shown, plates)
+
+
+def _column_sides(columns: Iterable[Placement]) -> Iterator[_Side]:
+    """The four sides of each column."""
+    for column, spec in of_spec(columns, ColumnSpec):
+        at = column.position_m[0], column.position_m[2]
+        for edge in _AROUND:
+            yaw = edge_yaw_rad(edge)
+            yield _Side(column.name, to_world((0.0, spec.size_m / 2), at, yaw), yaw, spec.size_m)
+
+
+def _on_column(column: Placement, sides: tuple[str, ...]) -> list[Placement]:
+    """The plates on a column, turned so that columns with the same ones share a shape; none if it is bare."""
+    if not any(sides) or not isinstance(column.spec, ColumnSpec):
+        return []
+    turned = [(*sides[turn:], *sides[:turn]) for turn in range(len(sides))]
+    turn = min(range(len(sides)), key=turned.__getitem__)
+    spec = ColumnPlatesSpec(turned[turn], column.spec.size_m)
+    if not column.spec.fills_square:
+        far_m = tuple(column.spec.side_m(side + turn) for side in range(len(sides)))
+        spec = replace(spec, sides_m=far_m, is_round=column.spec.is_round)
+    x, _, z = column.position_m
+    name = column.name.replace("Column", "ZonePlates")
+    return [placed(name, spec, (x, z), height_m=_FOOT_M, yaw_rad=edge_yaw_rad(_AROUND[turn]))]
+
+
+def _wall_sides(walls: Iterable[Placement]) -> Iterator[_Side]:
+    """Room for a plate at both ends of each wall, beside the stalls before it."""
+    for wall, spec in of_spec(walls, WallSpec):
+        most = spec.length_m / 2 - _FROM_END_M
+        for number, across in enumerate((-most, most), start=1):
+            name = f"{wall.name.replace('Wall', 'ZonePlate')}_{number}"
+            yield _Side(name, wall.to_world((across, 0.0)), wall.yaw_rad, _ON_WALL_M)
+
+
+def _seen(sides: Iterable[_Side], blocks: Iterable[Placement]) -> list[_Side]:
+    """The sides that no block hides."""
+    sides = list(sides)
+    if not sides:
+        return []
+    before = shapely.points(np.array([to_world((0.0, _SEEN_FROM_M), side.middle, side.yaw_rad) for side in sides]))
+    hiding = shapely.STRtree(grounds_of([outline for block in blocks for outline in block.outlines()]))
+    hidden = set(hiding.query(before, predicate="intersects")[0].tolist())
+    return [side for number, side in enumerate(sides) if number not in hidden]
+
+
+def _zone_on(left: _Half, right: _Half) -> str:
+    """The zone on the plate of a side; empty where none is in sight, or stalls of two are about as near."""
+    near_m = min(left.beside_m, right.beside_m) + _AS_NEAR_M
+    beside = {half.beside for half in (left, right) if half.beside and half.beside_m <= near_m}
+    return beside.pop() if len(beside) == 1 else ""
+
+
+def _halves_of(
+    sides: Sequence[_Side], grounds: Grounds, middles: NDArray[np.float64], shown: Sequence[str]
+) -> list[tuple[_Half, _Half]]:
+    """What lies before the left and the right half of each side; of the stalls grounds, middles and zones."""
+    if not sides:
+        return []
+    at = np.array([side.middle for side in sides])
+    ahead = np.array([cos_sin(side.yaw_rad)[::-1] for side in sides])
+    right = ahead[:, ::-1] * (1, -1)
+    off_m = np.array([[_HALF * side.width_m] for side in sides])
+    reach = np.stack([at - _SIGHT_M * right, at + _SIGHT_M * (right + ahead)])
+    side, stall = shapely.STRtree(grounds).query(shapely.box(*reach.min(axis=0).T, *reach.max(axis=0).T))
+    is_before = ((middles[stall] - at[side]) * ahead[side]).sum(axis=1) > 0
+    side, stall = side[is_before], stall[is_before]
+    to_right_m = ((middles[stall] - at[side]) * right[side]).sum(axis=1)
+    halves: list[list[_Half]] = []
+    for turn in (-1, 1):
+        place = at + turn * off_m * right
+        far_m = shapely.distance(shapely.points(place[side]), grounds[stall]).round(6)
+        order = np.lexsort((stall, distances_m(place[side], middles[stall]).round(6), far_m, side))
+        order = order[far_m[order] <= _SIGHT_M]
+        found = [_Half()] * len(sides)
+        for row in _first_of_each(order[turn * to_right_m[order] > -_STRAIGHT_M], side):
+            found[side[row]] = _Half(shown[stall[row]], float(far_m[row]))
+        halves.append(found)
+    return list(zip(*halves, strict=True))
+
+
+def _first_of_each(rows: NDArray[np.intp], owner: NDArray[np.intp]) -> list[int]:
+    """The first of the rows of each owner."""
+    return [int(row) for row in rows[np.unique(owner[rows], return_index=True)[1]]]
+
+
+def _plates_on_walls(
+    sides: Sequence[_Side],
+    grounds: Grounds,
+    middles: NDArray[np.float64],
+    shown: Sequence[str],
+    plates: Sequence[Placement],
+) -> list[Placement]:
+    """A plate on a wall for each stall to which that of another zone is the nearest, if its zone lies at a wall."""
+    if not sides:
+        return []
+    zones = np.array(shown)
+    on_columns = [
+        (plate.text, place.to_world(plate.middle))
+        for place, spec in of_spec(plates, ColumnPlatesSpec)
+        for plate in spec.plates()
+    ]
+    text = np.array([zone for zone, _ in on_columns], dtype=zones.dtype)
+    nearest, nearest_m = np.full(len(zones), "", dtype=zones.dtype), np.full(len(zones), np.inf)
+    if len(text):
+        at = shapely.points([middle for _, middle in on_columns])
+        (_, number), nearest_m = shapely.STRtree(at).query_nearest(
+            shapely.points(middles), all_matches=False, return_distance=True
+        )
+        nearest = text[number]
+    missing = {*shown}.difference(text.tolist())
+    places = np.array([side.middle for side in sides])
+    _, beside = shapely.STRtree(grounds).query_nearest(shapely.points(places), all_matches=False)
+    found: list[Placement] = []
+    for stall in np.flatnonzero(nearest != zones).tolist():
+        far_m = np.where(zones[beside] == zones[stall], distances_m(middles[stall], places), np.inf)
+        side = sides[int(far_m.argmin())]
+        is_nearer = nearest[stall] != zones[stall] and far_m.min() < nearest_m[stall]
+        if is_nearer or (shown[stall] in missing and far_m.min() < np.inf):
+            spec = ZonePlateSpec(shown[stall], side.width_m)
+            found.append(placed(side.name, spec, side.middle, height_m=_FOOT_M, yaw_rad=side.yaw_rad))
+            missing.discard(shown[stall])
+            to_it_m = distances_m(middles, np.array(side.middle))
+            nearest = np.where(to_it_m < nearest_m, zones[stall], nearest)
+            nearest_m = np.minimum(nearest_m, to_it_m)
+    return found

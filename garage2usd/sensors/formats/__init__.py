@@ -1,0 +1,1 @@
+"""Formats of recordings and labels that other programs read."""

@@ -1,0 +1,222 @@
+"""Slots as keypoints, and all that a picture shows as panoptic segments, in the formats of COCO.
+
+Lin et al., *Microsoft COCO: Common Objects in Context* (2014); Kirillov et al., *Panoptic Segmentation* (2019); the
+data formats of cocodataset.org.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.common.version import VERSION
+from garage2usd.reading.labels import Labels
+from garage2usd.sensors.slots import CORNERS, PLACES_PX, SlotRecord, Visibility
+
+__all__ = ["STUFF", "CocoImage", "coco_keypoints", "coco_panoptic", "panoptic_segments"]
+
+STUFF = frozenset(
+    {
+        "beam",
+        "cable_tray",
+        "ceiling",
+        "crossing",
+        "duct",
+        "floor",
+        "floor_stain",
+        "hatching",
+        "lane_line",
+        "obstacle",
+        "parking_stall",
+        "ramp",
+        "sky",
+        "stall_line",
+        "wall",
+    }
+)
+"""Classes of which a picture has one segment each; all others have one for each object."""
+
+_LEAST_AREA_PX = 16.0
+_SLOT, _KEPT_FREE = 1, 2
+_CATEGORIES = [
+    {
+        "id": number,
+        "name": name,
+        "supercategory": "slot",
+        "keypoints": list(CORNERS),
+        "skeleton": [[1, 2], [2, 3], [3, 4], [4, 1]],
+    }
+    for number, name in ((_SLOT, "parking_slot"), (_KEPT_FREE, "kept_free"))
+]
+
+
+@dataclass(frozen=True)
+class CocoImage:
+    """A picture of a data set.
+
+    Attributes
+    ----------
+    file_name
+        As the data set names it.
+    size_px
+        Width and height.
+    """
+
+    file_name: str
+    size_px: tuple[int, int]
+
+    def entry(self, number: int) -> dict[str, Any]:
+        """What COCO says of it."""
+        width, height = self.size_px
+        return {"id": number, "file_name": self.file_name, "width": width, "height": height}
+
+
+def coco_keypoints(frames: Iterable[tuple[CocoImage, Iterable[SlotRecord]]], *, description: str) -> dict[str, Any]:
+    """Slots as objects with four keypoints.
+
+    Parameters
+    ----------
+    frames
+        Pictures, and the slots that each shows.
+    description
+        Of the data set.
+
+    Notes
+    -----
+    The category ``parking_slot`` takes cars, ``kept_free`` is hatched or otherwise kept free. `segmentation`, `bbox`
+    and `area` are of the whole ground as far as it lies in the picture, hidden or not. Coordinates count from the
+    picture's left and upper edge, so that the middle of the first pixel is (0.5, 0.5). `attributes` is no part of COCO:
+    name, number, use, type, angle, whether it is occupied, and how many pixels show its ground. Slots of which fewer
+    than 16 square pixels of ground lie in the picture are left out, as masks that COCO draws of such slivers may be
+    empty.
+    """
+    images: list[dict[str, Any]] = []
+    annotations: list[dict[str, Any]] = []
+    for number, (image, records) in enumerate(frames, 1):
+        images.append(image.entry(number))
+        grounds = [(record, _ground(record)) for record in records]
+        found = [(record, ground) for record, ground in grounds if ground.area >= _LEAST_AREA_PX]
+        for record, ground in found:
+            annotations.append({"id": len(annotations) + 1, "image_id": number, **_annotation(record, ground)})
+    return {
+        "info": _info(description),
+        "licenses": [],
+        "images": images,
+        "annotations": annotations,
+        "categories": _CATEGORIES,
+    }
+
+
+def coco_panoptic(
+    pictures: Iterable[tuple[CocoImage, str, list[dict[str, Any]]]], labels: Labels, *, description: str
+) -> dict[str, Any]:
+    """The panoptic segments of pictures.
+
+    Parameters
+    ----------
+    pictures
+        Each picture, name of its PNG of segments, and the segments by `panoptic_segments`.
+    labels
+        What the objects are; its classes are the categories, `STUFF` and things.
+    description
+        Of the data set.
+    """
+    images, annotations = [], []
+    for number, (image, file_name, segments) in enumerate(pictures, 1):
+        images.append(image.entry(number))
+        annotations.append({"image_id": number, "file_name": file_name, "segments_info": segments})
+    categories = [
+        {
+            "id": number,
+            "name": entry.name,
+            "supercategory": entry.cityscapes or entry.name,
+            "isthing": int(entry.name not in STUFF),
+        }
+        for number, entry in sorted(labels.classes.items())
+    ]
+    return {
+        "info": _info(description),
+        "licenses": [],
+        "images": images,
+        "annotations": annotations,
+        "categories": categories,
+    }
+
+
+def panoptic_segments(instance: NDArray[np.int32], labels: Labels) -> tuple[NDArray[np.int32], list[dict[str, Any]]]:
+    """Segments of a picture of instances.
+
+    Parameters
+    ----------
+    instance
+        Id of the object that each pixel shows, 0 for none; shape (rows, columns).
+    labels
+        What the objects are.
+
+    Returns
+    -------
+    tuple
+        Id of each pixel's segment, as `instance`, 0 where nothing labelled is; and the segments as COCO has them, by
+        their ids. An object's segment has the object's id, that of a class of `STUFF` the least id of its objects here.
+    """
+    ids, which = np.unique(instance, return_inverse=True)
+    first_of: dict[int, int] = {}
+    segment_of = np.zeros(len(ids), dtype=np.int32)
+    for place, number in enumerate(ids.tolist()):
+        class_id = labels.class_ids.get(number)
+        if class_id is not None:
+            is_stuff = labels.classes[class_id].name in STUFF
+            segment_of[place] = first_of.setdefault(class_id, number) if is_stuff else number
+    segments: NDArray[np.int32] = segment_of[which].reshape(instance.shape)
+    rows, columns = np.nonzero(segments)
+    numbers, owner, areas = np.unique(segments[rows, columns], return_inverse=True, return_counts=True)
+    low, high = np.full((len(numbers), 2), max(instance.shape)), np.zeros((len(numbers), 2), dtype=np.int64)
+    places = np.stack([columns, rows], axis=1)
+    np.minimum.at(low, owner, places)
+    np.maximum.at(high, owner, places + 1)
+    infos = [
+        {
+            "id": number,
+            "category_id": labels.class_ids[number],
+            "area": area,
+            "bbox": [left, top, right - left, bottom - top],
+            "iscrowd": 0,
+        }
+        for number, area, (left, top), (right, bottom) in zip(
+            numbers.tolist(), areas.tolist(), low.tolist(), high.tolist(), strict=True
+        )
+    ]
+    return segments, infos
+
+
+def _info(description: str) -> dict[str, str]:
+    return {"description": description, "version": VERSION}
+
+
+def _ground(record: SlotRecord) -> shapely.MultiPolygon:
+    return shapely.MultiPolygon([shapely.Polygon(part) for part in record.outline_px])
+
+
+def _annotation(record: SlotRecord, ground: shapely.MultiPolygon) -> dict[str, Any]:
+    slot = record.slot
+    left, top, right, bottom = ground.bounds
+    keypoints: list[float] = []
+    for (column, row), visibility in zip(record.corners_px.tolist(), record.visibility, strict=True):
+        is_there = visibility != Visibility.NOT_IN_PICTURE
+        keypoints += [round(column, PLACES_PX), round(row, PLACES_PX), visibility] if is_there else [0, 0, 0]
+    return {
+        "category_id": _SLOT if slot.stall.use.takes_cars else _KEPT_FREE,
+        "iscrowd": 0,
+        "segmentation": [np.round(part, PLACES_PX).ravel().tolist() for part in record.outline_px],
+        "bbox": [round(value, PLACES_PX) for value in (left, top, right - left, bottom - top)],
+        "area": round(ground.area, PLACES_PX),
+        "keypoints": keypoints,
+        "num_keypoints": sum(visibility != Visibility.NOT_IN_PICTURE for visibility in record.visibility),
+        "attributes": {
+            **slot.facts,
+            "seen_px": record.seen_px,
+        },
+    }

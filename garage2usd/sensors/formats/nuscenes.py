@@ -1,0 +1,259 @@
+"""nuScenes: a recording as the tables of its schema, with boxes of cars, and a class for each point."""
+
+import json
+import shutil
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from pxr import Usd
+
+from garage2usd.common.errors import ConfigError
+from garage2usd.reading.labels import Labels
+from garage2usd.sensors.boxes import object_boxes
+from garage2usd.sensors.formats.nuscenes_boxes import PARKED, VISIBILITY, add_boxes
+from garage2usd.sensors.formats.nuscenes_classes import BOXED, CATEGORIES, FLAT, STANDING, categories_of_classes
+from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
+from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
+from garage2usd.sensors.formats.point_cloud_files import read_npz
+from garage2usd.sensors.formats.recording import Recording, Shot
+from garage2usd.sensors.rays.point_cloud import PointCloud
+from garage2usd.sensors.rays.ray_scene import RayScene
+from garage2usd.sensors.rig.camera import PinholeCamera
+from garage2usd.sensors.rig.lidar_settings import Lidar
+from garage2usd.sensors.rig.mount import Sensor
+
+__all__ = ["NUSCENES_VERSION", "write_nuscenes"]
+
+NUSCENES_VERSION = "v1.0-garage2usd"
+"""Name of the folder of the tables, which nuscenes-devkit calls the version."""
+
+_MICROSECONDS = 1e6
+_DATE = "2000-01-01"
+"""Stands for the day of the recording, which would make two files of the same drive differ."""
+
+
+def write_nuscenes(
+    recording: Recording, folder: Path, *, stage: Usd.Stage, labels: Labels, scene: RayScene
+) -> tuple[Path, ...]:
+    """Write a recording as nuScenes has it.
+
+    Parameters
+    ----------
+    recording
+        Pictures of pinhole cameras and points of LiDARs, as ``npz``; what other cameras recorded is left out, as the
+        tables know no other lens.
+    folder
+        Where the folders ``samples``, ``lidarseg``, ``maps`` and that of the tables go; it is there.
+    stage, labels, scene
+        The stage that was recorded, what its objects are, and its solid surfaces.
+
+    Returns
+    -------
+    tuple of Path
+        What was made in the folder, the tables last.
+
+    Raises
+    ------
+    ConfigError
+        If no sensor recorded what the tables can hold, or sensors are mounted on something else than the vehicle.
+
+    Notes
+    -----
+    Each place of the drive is a sample, all of whose data are key frames. The global frame is the stage turned so that
+    z is up, and moved so that all of it has positive coordinates, as nuScenes' maps have; the record of the map says
+    how (``stage_to_global``). Boxes go around what `nuscenes_classes.BOXED` names of which a point was measured or
+    anything is in line of sight of a sensor; they have a margin of a centimetre, so that rounding puts no point
+    outside. The visibility is the share of an object's directions in which nothing stands before it, whatever the
+    sensor's field of view.
+    """
+    shots = [shot for shot in recording.shots if _is_told(shot)]
+    if not shots:
+        raise ConfigError("rig", recording.rig, "a rig with a LiDAR or a pinhole camera, for nuScenes")
+    for shot in shots:
+        if shot.sensor.mount != "vehicle":
+            raise ConfigError("rig", shot.sensor.name, "sensors on the vehicle, for nuScenes")
+    world = GlobalFrame(stage, scene)
+    tables = Tables()
+    channels = _channels([shot.sensor for shot in shots])
+    _add_map(tables, world, scene, labels, folder, recording)
+    _add_sensors(tables, shots, channels)
+    boxes = object_boxes(stage, scene, [number for number, each in labels.classes.items() if each.name in BOXED])
+    by_pose = [list(group) for _, group in groupby(sorted(shots, key=_pose), key=_pose)]
+    _add_samples(tables, by_pose, channels, recording)
+    clouds = _add_data(tables, by_pose, channels, folder, world, labels)
+    add_boxes(tables, by_pose, boxes, clouds, world, labels, scene)
+    table_folder = folder / NUSCENES_VERSION
+    table_folder.mkdir()
+    for name, records in tables.records.items():
+        if name == "lidarseg" and not records:
+            continue  # nuscenes-devkit would look for their folder
+        text = json.dumps(records, indent=0)
+        (table_folder / f"{name}.json").write_text(text + "\n", encoding="utf-8", newline="\n")
+    return (*(path for path in sorted(folder.iterdir()) if path != table_folder), table_folder)
+
+
+def _is_told(shot: Shot) -> bool:
+    if isinstance(shot.sensor, Lidar):
+        return "npz" in shot.files
+    return isinstance(shot.sensor, PinholeCamera) and "colour" in shot.files
+
+
+def _pose(shot: Shot) -> int:
+    return shot.pose
+
+
+def _channels(sensors: Sequence[Sensor]) -> dict[str, str]:
+    """The channel of each sensor: its name in capitals after that of its modality, as LIDAR_TOP."""
+    found = {}
+    for sensor in sensors:
+        prefix = "LIDAR" if isinstance(sensor, Lidar) else "CAM"
+        name = sensor.name.upper().replace("-", "_")
+        found[sensor.name] = name if name.startswith(f"{prefix}_") else f"{prefix}_{name}"
+    twice = [name for name, channel in found.items() if list(found.values()).count(channel) > 1]
+    if twice:
+        raise ConfigError("rig", twice[0], f"sensors of other names, as {found[twice[0]]} would be two channels")
+    return found
+
+
+def _add_map(
+    tables: Tables, world: GlobalFrame, scene: RayScene, labels: Labels, folder: Path, recording: Recording
+) -> None:
+    """The log, and the mask of the ground that is driven on or parked on: no columns and walls."""
+    log = tables.add(
+        "log",
+        recording.stage.name,
+        logfile=recording.stage.name,
+        vehicle=recording.rig,
+        date_captured=_DATE,
+        location=recording.stage.stem,
+    )
+    ground, standing = (
+        [number for number, each in labels.classes.items() if each.name in names] for names in (FLAT, STANDING)
+    )
+    path = folder / "maps" / f"{recording.stage.stem}.png"
+    path.parent.mkdir()
+    Image.fromarray(world.mask(scene, ground, standing)).save(path)
+    tables.add(
+        "map",
+        recording.stage.name,
+        log_tokens=[log],
+        category="semantic_prior",
+        filename=path.relative_to(folder).as_posix(),
+        stage_to_global=world.matrix.tolist(),
+    )
+    for index, name in enumerate(CATEGORIES):
+        tables.add("category", name, name=name, description="", index=index)
+    for token, level, _ in VISIBILITY:
+        tables.records["visibility"].append({"token": token, "level": level, "description": f"{level} % in sight"})
+    tables.add("attribute", PARKED, name=PARKED, description="stands in a stall")
+
+
+def _add_sensors(tables: Tables, shots: Sequence[Shot], channels: Mapping[str, str]) -> None:
+    for sensor in {shot.sensor.name: shot.sensor for shot in shots}.values():
+        intrinsic: list[list[float]] = []
+        if isinstance(sensor, PinholeCamera):
+            lens = sensor.lens
+            # the origin is the middle of the first pixel there
+            (f_x, f_y), (c_x, c_y) = lens.focal_px, (centre - 0.5 for centre in lens.centre_px)
+            intrinsic = [[f_x, 0.0, c_x], [0.0, f_y, c_y], [0.0, 0.0, 1.0]]
+        modality = "lidar" if isinstance(sensor, Lidar) else "camera"
+        token = tables.add("sensor", sensor.name, channel=channels[sensor.name], modality=modality)
+        tables.add(
+            "calibrated_sensor",
+            sensor.name,
+            sensor_token=token,
+            **place_fields(sensor.sensor_to_vehicle),
+            camera_intrinsic=intrinsic,
+        )
+
+
+def _add_samples(
+    tables: Tables, by_pose: Sequence[Sequence[Shot]], channels: Mapping[str, str], recording: Recording
+) -> None:
+    tokens = [token_of("sample", shots[0].pose) for shots in by_pose]
+    scene = tables.add(
+        "scene",
+        recording.stage.name,
+        log_token=tables.records["log"][0]["token"],
+        nbr_samples=len(tokens),
+        first_sample_token=tokens[0],
+        last_sample_token=tokens[-1],
+        name="scene-0001",
+        description=f"{recording.rig} with {', '.join(channels.values())} in {recording.stage.name}",
+    )
+    for shots, before, after in zip(by_pose, ["", *tokens], [*tokens[1:], ""], strict=False):
+        stamp = _microseconds(shots[0])
+        tables.add("sample", str(shots[0].pose), timestamp=stamp, prev=before, next=after, scene_token=scene)
+
+
+def _microseconds(shot: Shot) -> int:
+    return round(shot.time_s * _MICROSECONDS)
+
+
+def _add_data(
+    tables: Tables,
+    by_pose: Sequence[Sequence[Shot]],
+    channels: Mapping[str, str],
+    folder: Path,
+    world: GlobalFrame,
+    labels: Labels,
+) -> dict[int, list[PointCloud]]:
+    """Copy what was recorded, and give back the points of each pose."""
+    lidarseg = categories_of_classes(labels)
+    clouds: dict[int, list[PointCloud]] = defaultdict(list)
+    last: dict[str, Record] = {}
+    for shot in (shot for shots in by_pose for shot in shots):
+        channel, key = channels[shot.sensor.name], f"{shot.pose} {shot.sensor.name}"
+        token = token_of("sample_data", key)
+        place = folder / "samples" / channel
+        place.mkdir(parents=True, exist_ok=True)
+        width, height = 0, 0
+        if isinstance(shot.sensor, PinholeCamera):
+            width, height = shot.sensor.size_px
+            picture = shot.files["colour"]
+            file, kind = place / f"{shot.name}{picture.suffix}", picture.suffix.removeprefix(".")
+            shutil.copyfile(picture, file)
+        else:
+            file, kind = place / f"{shot.name}.pcd.bin", "pcd"
+            cloud = read_npz(shot.files["npz"])
+            clouds[shot.pose].append(cloud)
+            _write_points(cloud, file)
+            classes = folder / "lidarseg" / NUSCENES_VERSION / f"{token}_lidarseg.bin"
+            classes.parent.mkdir(parents=True, exist_ok=True)
+            classes.write_bytes(lidarseg[cloud.class_id].tobytes())
+            tables.records["lidarseg"].append(
+                {"token": token, "sample_data_token": token, "filename": classes.relative_to(folder).as_posix()}
+            )
+        ego = tables.add(
+            "ego_pose", key, timestamp=_microseconds(shot), **place_fields(world.matrix @ shot.mount_to_world)
+        )
+        before = last.get(shot.sensor.name)
+        tables.add(
+            "sample_data",
+            key,
+            sample_token=token_of("sample", shot.pose),
+            ego_pose_token=ego,
+            calibrated_sensor_token=token_of("calibrated_sensor", shot.sensor.name),
+            timestamp=_microseconds(shot),
+            fileformat=kind,
+            is_key_frame=True,
+            height=height,
+            width=width,
+            filename=file.relative_to(folder).as_posix(),
+            prev=before["token"] if before else "",
+            next="",
+        )
+        if before:
+            before["next"] = token
+        last[shot.sensor.name] = tables.records["sample_data"][-1]
+    return clouds
+
+
+def _write_points(cloud: PointCloud, path: Path) -> None:
+    """Rows of x, y, z, intensity to 255 and ring."""
+    rows = np.column_stack([cloud.points_m, cloud.intensity * 255, cloud.ring])
+    path.write_bytes(rows.astype("<f4").tobytes())

@@ -1,0 +1,100 @@
+"""The boxes of a recording in nuScenes' tables."""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from garage2usd.objects import CAR_LABELS
+from garage2usd.reading.labels import Labels
+from garage2usd.sensors.boxes import ObjectBox, share_in_sight
+from garage2usd.sensors.formats.nuscenes_classes import BOXED
+from garage2usd.sensors.formats.nuscenes_map import GlobalFrame
+from garage2usd.sensors.formats.nuscenes_tables import Record, Tables, place_fields, token_of
+from garage2usd.sensors.formats.recording import Shot
+from garage2usd.sensors.rays.point_cloud import PointCloud
+from garage2usd.sensors.rays.ray_scene import RayScene
+
+__all__ = ["PARKED", "VISIBILITY", "add_boxes"]
+
+PARKED = "vehicle.parked"
+"""What cars are said to be: an attribute."""
+VISIBILITY = (("1", "v0-40", 0.0), ("2", "v40-60", 0.4), ("3", "v60-80", 0.6), ("4", "v80-100", 0.8))
+"""Token and level of each visibility, and the least share in sight that it stands for."""
+_BOX_MARGIN_M = 0.01
+
+
+def add_boxes(
+    tables: Tables,
+    by_pose: Sequence[Sequence[Shot]],
+    boxes: Sequence[ObjectBox],
+    clouds: Mapping[int, Sequence[PointCloud]],
+    world: GlobalFrame,
+    labels: Labels,
+    scene: RayScene,
+) -> None:
+    """Add the boxes of each pose, and the objects that they are of.
+
+    Parameters
+    ----------
+    tables
+        What they are added to.
+    by_pose
+        What was recorded at each pose.
+    boxes
+        Of all objects that may have one.
+    clouds
+        The points of each pose by its number.
+    world, labels, scene
+        The global frame, what the objects are, and what stands in the way.
+    """
+    chains: dict[int, list[Record]] = defaultdict(list)
+    by_id = {box.id: box for box in boxes}
+    for shots in by_pose:
+        pose = shots[0].pose
+        eyes = np.array([(shot.mount_to_world @ shot.sensor.sensor_to_vehicle)[:3, 3] for shot in shots])
+        instances = np.concatenate([cloud.instance for cloud in clouds.get(pose, ())] or [np.zeros(0, np.uint32)])
+        numbers, counts = (each.tolist() for each in np.unique(instances, return_counts=True))
+        measured = dict(zip(numbers, counts, strict=True))
+        for box in boxes:
+            share, points = share_in_sight(scene, box, eyes), measured.get(box.id, 0)
+            if not points and not share:
+                continue
+            name = labels.classes[box.class_id].name
+            tables.add(
+                "sample_annotation",
+                f"{pose} {box.id}",
+                sample_token=token_of("sample", pose),
+                instance_token=token_of("instance", box.id),
+                visibility_token=next(token for token, _, least in reversed(VISIBILITY) if share >= least),
+                attribute_tokens=[token_of("attribute", PARKED)] if name in CAR_LABELS else [],
+                **_box_fields(box, world),
+                prev=chains[box.id][-1]["token"] if chains[box.id] else "",
+                next="",
+                num_lidar_pts=points,
+                num_radar_pts=0,
+            )
+            record = tables.records["sample_annotation"][-1]
+            if chains[box.id]:
+                chains[box.id][-1]["next"] = record["token"]
+            chains[box.id].append(record)
+    paths = {number: path for path, number in labels.ids.items()}
+    for instance, chain in chains.items():
+        if chain:
+            tables.add(
+                "instance",
+                str(instance),
+                category_token=token_of("category", BOXED[labels.classes[by_id[instance].class_id].name]),
+                nbr_annotations=len(chain),
+                first_annotation_token=chain[0]["token"],
+                last_annotation_token=chain[-1]["token"],
+                path=paths[instance],
+                id=instance,
+            )
+
+
+def _box_fields(box: ObjectBox, world: GlobalFrame) -> Record:
+    place = np.eye(4)
+    place[:3, :3], place[:3, 3] = box.axes, box.centre_m
+    length_m, width_m, height_m = (box.size_m + 2 * _BOX_MARGIN_M).tolist()
+    return {**place_fields(world.matrix @ place), "size": [width_m, length_m, height_m]}

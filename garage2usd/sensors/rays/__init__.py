@@ -1,0 +1,1 @@
+"""Rays: where a pixel or a laser looks, and what is hit."""

@@ -1,0 +1,65 @@
+"""The surface that cars drive on: the floor and the floors of ramps, as far as a car finds room over them."""
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from garage2usd.as_built.driven_floor import DrivenFloor
+from garage2usd.as_built.driven_ground import CAR_HEIGHT_M
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.reading.labels import Labels
+from garage2usd.sensors.rays.ray_scene import read_ray_scene
+from garage2usd.sensors.rig.poses import y_up_to_stage
+
+__all__ = ["DrivenSurface"]
+
+_STEP_M = 0.08
+"""How far over the floor a car still drives on what is there: over a speed bump, and not over a kerb."""
+_ROUNDING_M = 0.01
+"""What may lack of the height of a car, as the slab over a ramp comes down to it."""
+
+
+class DrivenSurface:
+    """The surface of a garage that cars drive on.
+
+    Parameters
+    ----------
+    garage
+        The garage, read from a stage.
+    labels
+        What its objects are.
+    without
+        Paths of objects that are left out with all below them.
+    """
+
+    def __init__(self, garage: BuiltGarage, labels: Labels, *, without: Collection[str] = ()) -> None:
+        if garage.stage is None:
+            raise ValueError(garage.kind)
+        self._floor = DrivenFloor.of(garage.lanes, garage.things)
+        self._solids = read_ray_scene(garage.stage, labels, without=without)
+        self._to_stage = y_up_to_stage(garage.stage)
+
+    def is_free(self, points_m: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Whether a car can drive at each of some points: they are of the surface, and nothing is in a car's height.
+
+        Parameters
+        ----------
+        points_m
+            In the stage's axes, in metres; what is not finite is not free; shape (n, 3).
+
+        Returns
+        -------
+        ndarray
+            bool, shape (n,).
+        """
+        places = points_m @ self._to_stage[:3, :3]  # by the inverse of a turn
+        floor_m = self._floor.heights_m(places[:, 0], places[:, 2])
+        with np.errstate(invalid="ignore"):
+            is_free: NDArray[np.bool_] = np.abs(places[:, 1] - floor_m) < _STEP_M
+        begins = places[is_free]
+        begins[:, 1] = floor_m[is_free] + _STEP_M
+        up = np.broadcast_to(self._to_stage[:3, 1], begins.shape)
+        range_m = self._solids.cast(begins @ self._to_stage[:3, :3].T, up).range_m
+        is_free[is_free] = range_m >= CAR_HEIGHT_M - _STEP_M - _ROUNDING_M
+        return is_free

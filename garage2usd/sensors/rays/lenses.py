@@ -1,0 +1,283 @@
+"""Lenses: where in a picture a camera shows a point, and along which ray a place in the picture looks.
+
+Camera axes are OpenCV's: +X to the right, +Y down, +Z along the optical axis. Pixel (column, row) covers
+[column, column + 1) and its middle is column + 0.5; OpenCV and WoodScape count from the middle of the first pixel, so
+that their coordinates are 0.5 less.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from garage2usd.sensors.rays.radius_polynomial import RadiusPolynomial
+
+__all__ = ["Fisheye", "KannalaBrandt", "Lens", "Pinhole", "WoodScape"]
+
+Floats = NDArray[np.float64]
+_ON_AXIS = 1e-300
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lens(ABC):
+    """What a camera sees, without its place.
+
+    Attributes
+    ----------
+    size_px
+        Width and height of the picture.
+    centre_px
+        Where the optical axis meets the picture, from its left and its upper edge.
+    """
+
+    size_px: tuple[int, int]
+    centre_px: tuple[float, float]
+
+    @abstractmethod
+    def project(self, points: ArrayLike) -> Floats:
+        """Where points are shown.
+
+        Parameters
+        ----------
+        points
+            In camera axes, of any unit; shape (n, 3).
+
+        Returns
+        -------
+        ndarray
+            (column, row), float64, shape (n, 2); NaN for what the lens does not see. What it sees may still lie
+            outside of the picture: see `within`.
+        """
+
+    @abstractmethod
+    def rays(self, pixels: ArrayLike) -> Floats:
+        """The directions that places of the picture look to.
+
+        Parameters
+        ----------
+        pixels
+            (column, row), in pixels from the left and upper edge; shape (n, 2).
+
+        Returns
+        -------
+        ndarray
+            Of length 1, in camera axes, float64, shape (n, 3); NaN where the lens sees nothing.
+        """
+
+    def starts(self, pixels: ArrayLike) -> Floats:
+        """Where the rays of places, shape (n, 2), start, in camera axes and metres; float64, shape (n, 3).
+
+        At the camera, but for lenses that say otherwise.
+        """
+        return np.zeros((len(np.asarray(pixels)), 3))
+
+    @abstractmethod
+    def parameters(self) -> Mapping[str, object]:
+        """Its model and all of its parameters as plain values, under the names of its attributes."""
+
+    @abstractmethod
+    def resized(self, size_px: tuple[int, int]) -> Self:
+        """The same lens before a picture of another size, whose edges lie where they did."""
+
+    def middles(self) -> Floats:
+        """The middles of all pixels, row by row; float64, shape (height * width, 2)."""
+        rows, columns = np.mgrid[: self.size_px[1], : self.size_px[0]]
+        return np.stack([columns.ravel() + 0.5, rows.ravel() + 0.5], axis=1)
+
+    def within(self, pixels: ArrayLike) -> NDArray[np.bool_]:
+        """Which places, shape (n, 2), lie in the picture; False for NaN."""
+        places = np.asarray(pixels, dtype=np.float64)
+        inside: NDArray[np.bool_] = ((places >= 0) & (places < self.size_px)).all(axis=1)
+        return inside
+
+    def _ratios(self, size_px: tuple[int, int]) -> tuple[float, float]:
+        return size_px[0] / self.size_px[0], size_px[1] / self.size_px[1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pinhole(Lens):
+    """A lens without distortion: u = fx * X / Z + cx.
+
+    Attributes
+    ----------
+    focal_px
+        Focal lengths (fx, fy) in widths and heights of a pixel.
+    """
+
+    focal_px: tuple[float, float]
+
+    def project(self, points: ArrayLike) -> Floats:
+        """See `Lens.project`; what is not before the camera is not seen."""
+        points = np.asarray(points, dtype=np.float64)
+        depth = np.where(points[:, 2] > 0, points[:, 2], np.nan)[:, None]
+        pixels: Floats = points[:, :2] / depth * self.focal_px + self.centre_px
+        return pixels
+
+    def rays(self, pixels: ArrayLike) -> Floats:
+        """See `Lens.rays`."""
+        flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) / self.focal_px
+        rays = np.concatenate([flat, np.ones((len(flat), 1))], axis=1)
+        unit: Floats = rays / np.linalg.norm(rays, axis=1, keepdims=True)
+        return unit
+
+    def parameters(self) -> Mapping[str, object]:
+        """See `Lens.parameters`."""
+        return {"model": "pinhole", "focal_px": list(self.focal_px), "centre_px": list(self.centre_px)}
+
+    def resized(self, size_px: tuple[int, int]) -> Self:
+        """See `Lens.resized`."""
+        ratios = self._ratios(size_px)
+        return replace(
+            self, size_px=size_px, centre_px=_times(self.centre_px, ratios), focal_px=_times(self.focal_px, ratios)
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fisheye(Lens):
+    """A lens whose picture of a point depends on the angle theta between its ray and the optical axis.
+
+    The point is shown r(theta) away from `centre_px`, in the direction of (X, Y), and stretched by `stretch` along
+    columns and rows. r is a polynomial that grows up to `max_angle_rad`; nothing beyond that is seen.
+
+    Attributes
+    ----------
+    max_angle_rad
+        Half of the field of view.
+    """
+
+    max_angle_rad: float
+
+    @property
+    @abstractmethod
+    def radius(self) -> RadiusPolynomial:
+        """r(theta)."""
+
+    @property
+    @abstractmethod
+    def stretch(self) -> tuple[float, float]:
+        """Pixels for each unit of r, along columns and rows."""
+
+    def project(self, points: ArrayLike) -> Floats:
+        """See `Lens.project`."""
+        points = np.asarray(points, dtype=np.float64)
+        across = np.hypot(points[:, 0], points[:, 1])
+        angle = np.arctan2(across, points[:, 2])
+        seen = (angle <= self.max_angle_rad) & (points != 0).any(axis=1)
+        radius = np.where(seen, self.radius(angle), np.nan)
+        direction = points[:, :2] / np.maximum(across, _ON_AXIS)[:, None]
+        pixels: Floats = radius[:, None] * direction * self.stretch + self.centre_px
+        return pixels
+
+    def rays(self, pixels: ArrayLike) -> Floats:
+        """See `Lens.rays`."""
+        flat = (np.asarray(pixels, dtype=np.float64) - self.centre_px) / self.stretch
+        radius = np.hypot(flat[:, 0], flat[:, 1])
+        angle = self.radius.angles_rad(radius, most_rad=self.max_angle_rad)
+        across = flat / np.maximum(radius, _ON_AXIS)[:, None] * np.sin(angle)[:, None]
+        return np.concatenate([across, np.cos(angle)[:, None]], axis=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class KannalaBrandt(Fisheye):
+    """OpenCV's fisheye: r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8).
+
+    Kannala and Brandt, *A Generic Camera Model and Calibration Method for Conventional, Wide-Angle, and Fish-Eye
+    Lenses* (2006), radially symmetric, as `cv2.fisheye` and ROS ("equidistant") have it; seen beyond 90 degrees from
+    the axis too, where OpenCV's own projection ends.
+
+    Attributes
+    ----------
+    focal_px
+        (fx, fy).
+    coefficients
+        (k1, k2, k3, k4).
+    """
+
+    focal_px: tuple[float, float]
+    coefficients: tuple[float, float, float, float]
+
+    @property
+    def radius(self) -> RadiusPolynomial:
+        """See `Fisheye.radius`."""
+        k1, k2, k3, k4 = self.coefficients
+        return RadiusPolynomial((0.0, 1.0, 0.0, k1, 0.0, k2, 0.0, k3, 0.0, k4))
+
+    @property
+    def stretch(self) -> tuple[float, float]:
+        """See `Fisheye.stretch`."""
+        return self.focal_px
+
+    def parameters(self) -> Mapping[str, object]:
+        """See `Lens.parameters`."""
+        return {
+            "model": "kannala_brandt",
+            "focal_px": list(self.focal_px),
+            "centre_px": list(self.centre_px),
+            "coefficients": list(self.coefficients),
+            "max_angle_rad": self.max_angle_rad,
+        }
+
+    def resized(self, size_px: tuple[int, int]) -> Self:
+        """See `Lens.resized`."""
+        ratios = self._ratios(size_px)
+        return replace(
+            self, size_px=size_px, centre_px=_times(self.centre_px, ratios), focal_px=_times(self.focal_px, ratios)
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class WoodScape(Fisheye):
+    """WoodScape's fisheye: r = k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4, in pixels.
+
+    Yogamani et al., *WoodScape: A multi-task, multi-camera fisheye dataset for autonomous driving* (2019), and the
+    `radial_poly` of its calibration files.
+
+    Attributes
+    ----------
+    coefficients_px
+        (k1, k2, k3, k4).
+    aspect_ratio
+        By which rows are stretched.
+    """
+
+    coefficients_px: tuple[float, float, float, float]
+    aspect_ratio: float
+
+    @property
+    def radius(self) -> RadiusPolynomial:
+        """See `Fisheye.radius`."""
+        return RadiusPolynomial((0.0, *self.coefficients_px))
+
+    @property
+    def stretch(self) -> tuple[float, float]:
+        """See `Fisheye.stretch`."""
+        return 1.0, self.aspect_ratio
+
+    def parameters(self) -> Mapping[str, object]:
+        """See `Lens.parameters`."""
+        return {
+            "model": "woodscape",
+            "coefficients_px": list(self.coefficients_px),
+            "centre_px": list(self.centre_px),
+            "aspect_ratio": self.aspect_ratio,
+            "max_angle_rad": self.max_angle_rad,
+        }
+
+    def resized(self, size_px: tuple[int, int]) -> Self:
+        """See `Lens.resized`."""
+        wider, higher = self._ratios(size_px)
+        k1, k2, k3, k4 = self.coefficients_px
+        return replace(
+            self,
+            size_px=size_px,
+            centre_px=_times(self.centre_px, (wider, higher)),
+            coefficients_px=(k1 * wider, k2 * wider, k3 * wider, k4 * wider),
+            aspect_ratio=self.aspect_ratio * higher / wider,
+        )
+
+
+def _times(pair: tuple[float, float], ratios: tuple[float, float]) -> tuple[float, float]:
+    return pair[0] * ratios[0], pair[1] * ratios[1]

@@ -1,0 +1,297 @@
+"""The solid surfaces of a composed stage as one mesh that rays are cast at, with what each triangle belongs to."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.common.errors import StageError
+from garage2usd.common.extras import of_extra
+from garage2usd.objects.sky import KIND as SKY
+from garage2usd.reading.labels import Labels, owner_of
+from garage2usd.reading.looks import MeshLooks
+from garage2usd.reading.meshes import DRAWN_TYPES
+from garage2usd.reading.objects import DrawnPart, PlacedObject, once_for_each_look
+from garage2usd.reading.pictures import Pictures, sampled
+from garage2usd.reading.surfaces import SurfaceLook
+from garage2usd.reading.textures import Layout
+from garage2usd.reading.values import metres_per_unit
+from garage2usd.reading.walk import placed_objects
+from garage2usd.sensors.rays.ray_caster import RayCaster, ray_caster
+
+with of_extra("LiDAR"):
+    import trimesh
+
+__all__ = ["RayHits", "RayScene", "read_ray_scene"]
+
+_OPAQUE = 0.5
+"""What is less opaque is looked through, as in the path tracer's pictures of depth and instances."""
+_PAST_M = 1e-5
+"""How far behind a surface that is looked through a ray goes on."""
+_MOST_SHEETS = 64
+"""How many such surfaces a ray goes through."""
+
+
+class RayHits(NamedTuple):
+    """What rays meet first.
+
+    Attributes
+    ----------
+    range_m
+        From the origin along the ray, infinite where it meets nothing; float64, shape (n,).
+    triangle
+        Number of the triangle, -1 for none; int64, shape (n,).
+    cos_incidence
+        Of the angle between ray and normal, from whichever side, 0 for none; float64, shape (n,).
+    """
+
+    range_m: NDArray[np.float64]
+    triangle: NDArray[np.int64]
+    cos_incidence: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class RayScene:
+    """The solid surfaces of a stage, in its axes, in metres.
+
+    Attributes
+    ----------
+    vertices_m
+        float64, shape (v, 3).
+    coordinates
+        Of the vertices on the texture that says how opaque they are; float32, shape (v, 2).
+    triangles
+        Vertices of each triangle; int32, shape (t, 3).
+    instance
+        Id of the object that each triangle is a part of, 0 for none; int32, shape (t,).
+    class_id
+        Id of its class, 0 for none; uint8, shape (t,).
+    surface
+        Number of its surface; int32, shape (t,).
+    surfaces
+        What they look like.
+    placed
+        The objects by their ids.
+    pictures
+        What textures show.
+    """
+
+    vertices_m: NDArray[np.float64]
+    coordinates: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    class_id: NDArray[np.uint8]
+    surface: NDArray[np.int32]
+    surfaces: tuple[SurfaceLook, ...]
+    placed: Mapping[int, PlacedObject]
+    pictures: Pictures
+
+    def cast(self, origins_m: NDArray[Any], directions: NDArray[Any]) -> RayHits:
+        """Find what each ray meets first.
+
+        Parameters
+        ----------
+        origins_m
+            Shape (n, 3), or (3,) where all begin in one place.
+        directions
+            Of unit length; shape (n, 3).
+
+        Notes
+        -----
+        Embree finds the triangle in single precision, and what does without it in double precision
+        (`garage2usd.sensors.rays.ray_caster`); where the ray meets its plane is computed in double precision.
+        Where a texture says how opaque a surface is, rays go through what is less than half opaque.
+        """
+        directions = np.asarray(directions, dtype=np.float64).reshape(-1, 3)
+        origins_m = np.broadcast_to(np.asarray(origins_m, dtype=np.float64), directions.shape)
+        count = len(directions)
+        hits = RayHits(np.full(count, np.inf), np.full(count, -1, dtype=np.int64), np.zeros(count))
+        if not count:
+            return hits
+        going, begins_m = np.arange(count), np.zeros(count)
+        for _ in range(_MOST_SHEETS):
+            begins = origins_m[going] + directions[going] * begins_m[going, None]
+            found = self._caster.first(begins, directions[going])
+            going, found = going[found >= 0], found[found >= 0]
+            range_m, cosine = self._meet(found, origins_m[going], directions[going])
+            # single precision may find what lies a hair behind the origin
+            range_m = np.maximum(range_m, begins_m[going])
+            through = self._is_looked_through(found, origins_m[going] + directions[going] * range_m[:, None])
+            stopped = going[~through]
+            hits.range_m[stopped] = range_m[~through]
+            hits.triangle[stopped] = found[~through]
+            hits.cos_incidence[stopped] = cosine[~through]
+            begins_m[going] = range_m + _PAST_M
+            going = going[through]
+            if not len(going):
+                break
+        return hits
+
+    def of_classes(self, class_ids: Collection[int]) -> "RayScene":
+        """The surfaces of objects of some classes alone."""
+        kept = np.isin(self.class_id, list(class_ids))
+        return replace(
+            self,
+            triangles=self.triangles[kept],
+            instance=self.instance[kept],
+            class_id=self.class_id[kept],
+            surface=self.surface[kept],
+        )
+
+    def _meet(
+        self, found: NDArray[np.int64], origins_m: NDArray[np.float64], directions: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Range and cosine of the incidence of rays on the planes of triangles."""
+        first, second, third = (self.vertices_m[self.triangles[found, corner]] for corner in range(3))
+        normal = np.cross(second - first, third - first)
+        along = (directions * normal).sum(axis=1)
+        sizes = np.linalg.norm(normal, axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            range_m = ((first - origins_m) * normal).sum(axis=1) / along
+            cosine = np.abs(along) / sizes
+        return np.nan_to_num(range_m, nan=0.0, posinf=0.0, neginf=0.0), np.nan_to_num(cosine)
+
+    def _is_looked_through(self, found: NDArray[np.int64], places_m: NDArray[np.float64]) -> NDArray[np.bool_]:
+        through = np.zeros(len(found), dtype=np.bool_)
+        surface = self.surface[found]
+        for number, mask in self._masks.items():
+            own = np.flatnonzero(surface == number)
+            if len(own):
+                corners = self.triangles[found[own]]
+                weights = trimesh.triangles.points_to_barycentric(  # type: ignore[no-untyped-call]
+                    self.vertices_m[corners], places_m[own]
+                )
+                at = (self.coordinates[corners] * weights[:, :, None]).sum(axis=1)
+                through[own] = ~_are_opaque(sampled(mask, at), self.surfaces[number])
+        return through
+
+    @cached_property
+    def _caster(self) -> RayCaster:
+        return ray_caster(self.vertices_m, self.triangles)
+
+    @cached_property
+    def _masks(self) -> dict[int, NDArray[np.float64]]:
+        """Opacity of the texture of each surface whose texture has one; 0 to 1, the first row on top."""
+        return {
+            number: self.pictures.plane(look.opacity_texture.band())
+            for number, look in enumerate(self.surfaces)
+            if look.opacity_texture
+        }
+
+
+def read_ray_scene(
+    stage: Usd.Stage, labels: Labels, *, without: Collection[str] = (), only: Collection[str] | None = None
+) -> RayScene:
+    """Read all that is solid in a stage, as it is composed now.
+
+    Parameters
+    ----------
+    stage
+        The stage; instances and point instancers are followed.
+    labels
+        Which object has which id and class.
+    without
+        Paths of objects that are left out with all below them, for example the car that carries the sensor.
+    only
+        Paths of the objects that are read with all below them; left out, all are.
+
+    Raises
+    ------
+    StageError
+        If nothing in it is solid.
+
+    Notes
+    -----
+    That is what the path tracer draws, at the first time sample, less the sky: meshes and simple shapes, seen from both
+    sides, without being subdivided. What is less than half opaque as a whole is left out. Curves, points and volumes
+    have no surface and are left out too.
+    """
+    metres = metres_per_unit(stage)
+    looks = MeshLooks(is_apart_by_name=True)
+
+    remembered = once_for_each_look(partial(_look, looks=looks))
+    owners: dict[str, int] = {}
+    placed_by_id: dict[int, PlacedObject] = {}
+    columns, first = list[tuple[NDArray[Any], ...]](), 0
+    for placed in placed_objects(stage, np.diag([metres, metres, metres, 1.0])):
+        if placed.label == SKY.label or _is_below(placed.path, without):
+            continue
+        if only is not None and not _is_below(placed.path, only):
+            continue
+        for piece in remembered(placed):
+            path = placed.path + piece.path
+            if path not in owners:
+                owners[path] = owner_of(path, labels.ids)
+            owner, instance = owners[path], labels.instance_of(owners[path])
+            if instance == owner:  # what stands there is the car, not its number plates
+                placed_by_id.setdefault(instance, placed)
+            places = piece.positions @ placed.matrix[:3, :3] + placed.matrix[3, :3]
+            count = len(piece.indices)
+            columns.append(
+                (
+                    places,
+                    piece.coordinates,
+                    piece.indices + first,
+                    np.full(count, instance, dtype=np.int32),
+                    np.full(count, labels.class_ids.get(owner, 0), dtype=np.uint8),
+                    np.full(count, piece.surface, dtype=np.int32),
+                )
+            )
+            first += len(places)
+    if not columns:
+        raise StageError(stage.GetRootLayer().realPath, "nothing in it is solid")
+    vertices, coordinates, triangles, instance_of, class_of, surface = map(np.concatenate, zip(*columns, strict=True))
+    placed_by_id.pop(0, None)
+    return RayScene(
+        vertices,
+        coordinates,
+        triangles,
+        instance_of,
+        class_of,
+        surface,
+        tuple(looks.surfaces.values),
+        placed_by_id,
+        looks.pictures,
+    )
+
+
+class _Piece(NamedTuple):
+    """Triangles of one surface, in the space of the object that they are part of."""
+
+    path: str
+    positions: NDArray[np.float64]
+    coordinates: NDArray[np.float32]
+    indices: NDArray[np.int32]
+    surface: int
+
+
+def _look(placed: PlacedObject, looks: MeshLooks) -> list[_Piece]:
+    return [piece for part in placed.parts for piece in _pieces(placed, part, looks)]
+
+
+def _pieces(placed: PlacedObject, part: DrawnPart, looks: MeshLooks) -> list[_Piece]:
+    if part.prim.GetTypeName() not in DRAWN_TYPES:
+        return []
+    found = []
+    for mesh, surface in looks.of_part(placed, part):
+        triangles, look = looks.meshes.values[mesh], looks.surfaces.values[surface]
+        if _are_opaque(np.array(look.opacity), look):
+            places = triangles.positions_m @ part.matrix[:3, :3] + part.matrix[3, :3]
+            layout = look.opacity_texture.layout if look.opacity_texture else Layout(look.sets[0])
+            coordinates = layout.placed(triangles.coordinates[:, look.sets.index(layout.coordinates)])
+            found.append(_Piece(part.path, places, coordinates, triangles.indices.astype(np.int32), surface))
+    return found
+
+
+def _are_opaque(opacity: NDArray[np.float64], look: SurfaceLook) -> NDArray[np.bool_]:
+    """Whether places of a surface stop rays: by its own threshold, if it has one."""
+    opaque: NDArray[np.bool_] = opacity >= look.opacity_threshold if look.opacity_threshold else opacity > _OPAQUE
+    return opaque
+
+
+def _is_below(path: str, roots: Collection[str]) -> bool:
+    return any(path == root or path.startswith((f"{root}/", f"{root}[")) for root in roots)

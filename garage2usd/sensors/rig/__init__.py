@@ -1,0 +1,1 @@
+"""Rigs: which sensors there are, where they are mounted, and how they move."""

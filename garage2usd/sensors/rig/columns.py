@@ -1,0 +1,74 @@
+"""The column of a garage that watches a stall, for sensors that are mounted on one."""
+
+import math
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from garage2usd.as_built.garage import BuiltGarage
+from garage2usd.common.errors import ConfigError
+from garage2usd.garage import Point, Stall
+from garage2usd.objects import CAR_LABELS
+
+__all__ = ["column_to_y_up"]
+
+_COLUMN = "column"
+_HIDES_FROM_M = 1.9
+"""What is lower than that does not hide a stall from a column's camera, nor do cars, which come and go."""
+_NEAREST_M = 2.5
+"""A column that stands nearer to the middle of a stall sees only part of it."""
+
+
+def column_to_y_up(garage: BuiltGarage, stall: Stall) -> NDArray[np.float64]:
+    """The frame of sensors that are mounted on the column which watches a stall.
+
+    It is the nearest one before the stall's mouth from which nothing that is as tall as a wall hides the middle of the
+    stall; where there is none, the nearest of the others. Nearer ones than 2.5 m do not count.
+
+    Returns
+    -------
+    ndarray
+        From x level towards the middle of the stall, y to the left and z up, whose origin is the foot of the column's
+        axis, to metres with Y up; for column vectors, float64, shape (4, 4).
+
+    Raises
+    ------
+    ConfigError
+        If there is no such column.
+    """
+    found: dict[str, tuple[list[shapely.Polygon], float]] = {}
+    for solid in garage.solids.standing(_COLUMN):
+        pieces, low_m = found.get(solid.name, ([], math.inf))
+        found[solid.name] = [*pieces, solid.footprint], min(low_m, solid.bottom_m)
+    candidates: list[tuple[bool, float, str, Point, float]] = []
+    for name, (pieces, low_m) in found.items():
+        centre = shapely.union_all(pieces).envelope.centroid
+        place = (centre.x, centre.y)
+        distance_m = math.dist(place, stall.centre)
+        if distance_m >= _NEAREST_M and not _is_hidden(garage, name, place, stall.centre):
+            candidates.append((not _is_before(stall, place), round(distance_m, 6), name, place, low_m))
+    if not candidates:
+        raise ConfigError("rig", stall.name, "a stall that a column of the garage watches, for sensors on a column")
+    *_, (x_m, z_m), low_m = min(candidates)
+    along = np.array([stall.centre[0] - x_m, 0.0, stall.centre[1] - z_m])
+    along /= np.linalg.norm(along)
+    matrix = np.eye(4)
+    matrix[:3, 0], matrix[:3, 2] = along, (0.0, 1.0, 0.0)
+    matrix[:3, 1] = np.cross(matrix[:3, 2], matrix[:3, 0])
+    matrix[:3, 3] = x_m, low_m, z_m
+    return matrix
+
+
+def _is_before(stall: Stall, place: Point) -> bool:
+    """Whether a place lies on the side of a stall's mouth that cars come from."""
+    ahead = (place[0] - stall.mouth[0]) * stall.outwards[0] + (place[1] - stall.mouth[1]) * stall.outwards[1]
+    return ahead > 0
+
+
+def _is_hidden(garage: BuiltGarage, column: str, place: Point, middle: Point) -> bool:
+    sight = shapely.LineString([place, middle])
+    return any(
+        solid.name != column and solid.label not in CAR_LABELS and solid.top_m >= _HIDES_FROM_M
+        for solid in garage.solids.at(sight)
+    )

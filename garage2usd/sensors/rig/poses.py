@@ -1,0 +1,110 @@
+"""Where a vehicle is when its sensors record: places along a drive, and the axes of what sensors are mounted on."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, partial
+from itertools import repeat
+
+import numpy as np
+from numpy.typing import NDArray
+from pxr import Usd
+
+from garage2usd.driving.timing import Motion
+from garage2usd.driving.trajectory import Trajectory
+from garage2usd.reading.values import metres_y_up
+from garage2usd.sensors.rig.twist import Twist
+
+__all__ = ["CAR_FROM_VEHICLE", "MAP_TO_Y_UP", "VehiclePose", "poses_along", "vehicle_to_y_up", "y_up_to_stage"]
+
+Matrix = NDArray[np.float64]
+
+CAR_FROM_VEHICLE = np.array([[0.0, -1, 0, 0], [0, 0, 1, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
+"""From ISO 8855's axes (x forward, y left, z up) to those of a car that looks to -Z with Y up."""
+MAP_TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""From x = X, y = -Z and z = Y to X, Y and Z."""
+_STEP_S = 0.02
+_HALF_S = 0.005
+"""How long before and after a place the vehicle is looked at, to tell how it moves."""
+_END_M = 1e-3
+"""A last place that is nearer to the end than this is the end."""
+
+
+@dataclass(frozen=True, eq=False)
+class VehiclePose:
+    """A place of a vehicle on its drive.
+
+    Attributes
+    ----------
+    time_s, distance_m
+        Since the drive began, and driven till then, in both gears.
+    vehicle_to_world
+        From ISO 8855's axes, whose origin is the middle of the rear axle on the ground, to the stage's axes, in metres,
+        for column vectors; float64, shape (4, 4).
+    find_twist
+        Finds `twist`, which pictures without motion do without.
+    """
+
+    time_s: float
+    distance_m: float
+    vehicle_to_world: Matrix
+    find_twist: Callable[[], Twist] = Twist.at_rest
+
+    @cached_property
+    def twist(self) -> Twist:
+        """How it moves there, in ISO 8855's axes."""
+        return self.find_twist()
+
+    @property
+    def facts(self) -> dict[str, float]:
+        """When and how far on the way it is, to a microsecond and a micrometre."""
+        return {"time_s": round(self.time_s, 6), "distance_m": round(self.distance_m, 6)}
+
+
+def poses_along(motion: Motion, every_m: float, *, to_stage: Matrix) -> list[VehiclePose]:
+    """The places of a drive from its start in equal steps along the way, and its end.
+
+    Parameters
+    ----------
+    motion
+        When the car is where.
+    every_m
+        More than 0. Where the car stands for a while, the place is that of its arrival.
+    to_stage
+        From metres with Y up to the stage's axes; shape (4, 4), see `y_up_to_stage`.
+    """
+    driven = motion.sampled(_STEP_S)
+    length_m = float(driven.arc_m[-1])
+    steps = np.arange(0.0, length_m - _END_M, every_m)
+    reached, first = np.unique(driven.arc_m, return_index=True)
+    times = np.append(np.interp(steps, reached, driven.time_s[first]), driven.time_s[-1])
+    states = motion.at(times)
+    around = np.clip(times - _HALF_S, 0.0, driven.time_s[-1]), np.clip(times + _HALF_S, 0.0, driven.time_s[-1])
+    before, after = (vehicle_to_y_up(motion.at(each)) for each in around)
+    twists = map(partial, repeat(Twist.between), before, after, (around[1] - around[0]).tolist())
+    placed = zip(times.tolist(), states.arc_m.tolist(), vehicle_to_y_up(states), twists, strict=True)
+    return [VehiclePose(time, arc, to_stage @ matrix, twist) for time, arc, matrix, twist in placed]
+
+
+def vehicle_to_y_up(states: Trajectory) -> Matrix:
+    """From ISO 8855's axes to metres with Y up at each state; float64, shape (n, 4, 4)."""
+    sin_yaw, cos_yaw = np.sin(states.yaw_rad), np.cos(states.yaw_rad)
+    sin_pitch, cos_pitch = np.sin(states.pitch_rad), np.cos(states.pitch_rad)
+    zero = np.zeros_like(sin_yaw)
+    car = np.zeros((len(sin_yaw), 4, 4))
+    # about +Y by the yaw, before that about +X by the pitch
+    car[:, 0, :3] = np.stack([cos_yaw, sin_yaw * sin_pitch, sin_yaw * cos_pitch], axis=1)
+    car[:, 1, :3] = np.stack([zero, cos_pitch, -sin_pitch], axis=1)
+    car[:, 2, :3] = np.stack([-sin_yaw, cos_yaw * sin_pitch, cos_yaw * cos_pitch], axis=1)
+    car[:, :3, 3] = np.stack([states.x_m, states.y_m, states.z_m], axis=1)
+    car[:, 3, 3] = 1.0
+    placed: Matrix = car @ CAR_FROM_VEHICLE
+    return placed
+
+
+def y_up_to_stage(stage: Usd.Stage) -> Matrix:
+    """From metres with Y up to the stage's own axes, still in metres; for column vectors, float64, shape (4, 4)."""
+    turn = np.eye(4)
+    to_metres = metres_y_up(stage)
+    # for row vectors it leads the other way
+    turn[:3, :3] = to_metres[:3, :3] / np.linalg.norm(to_metres[0, :3])
+    return turn

@@ -1,0 +1,186 @@
+"""Rigs: the sensors of a car, or of a column, where they are mounted and what they measure; TOML in, frozen models."""
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from garage2usd.common.documents import read_toml
+from garage2usd.common.errors import ConfigError
+from garage2usd.common.settings import Settings, validated
+from garage2usd.config.own_cars import ModelFolder, cars_by_name, read_own_cars
+from garage2usd.config.vehicles import CarBody
+from garage2usd.sensors.rig.around_view_camera import AroundViewCamera
+from garage2usd.sensors.rig.camera import Camera, KannalaBrandtCamera, PinholeCamera, WoodScapeCamera
+from garage2usd.sensors.rig.lidar_settings import Lidar, SolidStateLidar, SpinningLidar
+from garage2usd.sensors.rig.mount import Sensor
+
+__all__ = [
+    "RIG_NAMES",
+    "AroundViewCamera",
+    "Camera",
+    "KannalaBrandtCamera",
+    "Lidar",
+    "PinholeCamera",
+    "Rig",
+    "Sensor",
+    "SolidStateLidar",
+    "SpinningLidar",
+    "WoodScapeCamera",
+    "read_rig",
+    "rig_from_mapping",
+]
+
+RIG_NAMES = ("avp_around_view", "avp_surround", "column_camera", "lidar_32", "woodscape_like")
+"""The rigs that are shipped."""
+
+_AnySensor = Annotated[
+    PinholeCamera | KannalaBrandtCamera | WoodScapeCamera | AroundViewCamera | SpinningLidar | SolidStateLidar,
+    Field(discriminator="kind"),
+]
+
+
+class Rig(Settings):
+    """Sensors that measure together."""
+
+    name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$")
+    """Short name of the rig."""
+    title: str = Field("", max_length=500)
+    """What it is made after."""
+    models: ModelFolder | None = None
+    """A folder of models of cars of one's own, as USD or GLB, that `car` may name (see the guide of own cars)."""
+    car: str = "hatchback"
+    """The ego car, which masks show: a body of garage2usd's catalogue, such as `"saloon"`, `"suv"` or `"van"`, or a
+    model in `models` by the name of its file without the ending. What is driven is the way of the design car."""
+    ego_visible: bool = False
+    """Whether cameras on the car see its body, where their masks say; around views never do."""
+    lamps: Literal["off", "on"] = "off"
+    """Whether the head and tail lamps of the ego car are on: their light falls before and behind it along a drive."""
+    sensors: Annotated[tuple[_AnySensor, ...], Field(min_length=1, max_length=64)]
+    """The sensors."""
+
+    @field_validator("models", mode="before")
+    @classmethod
+    def _folder(cls, models: object) -> object:
+        return {"folder": models} if isinstance(models, str) else models
+
+    @field_validator("models")
+    @classmethod
+    def _read(cls, models: ModelFolder | None) -> ModelFolder | None:
+        """The folder with the digest of what it holds; refused where that is not what it was given with."""
+        return read_own_cars(models)[0] if models else None
+
+    @field_validator("car")
+    @classmethod
+    def _known_car(cls, car: str, settings: ValidationInfo) -> str:
+        names = cars_by_name(settings.data.get("models"))
+        if car not in names:
+            raise ValueError(f"one of {', '.join(names)}")
+        return car
+
+    @field_validator("sensors")
+    @classmethod
+    def _own_names(cls, sensors: tuple[Sensor, ...]) -> tuple[Sensor, ...]:
+        names = [sensor.name.casefold() for sensor in sensors]  # files of both may lie where case does not count
+        for sensor in sensors:
+            if names.count(sensor.name.casefold()) > 1:
+                raise ValueError(f"sensors of different names; {names.count(sensor.name.casefold())} are {sensor.name}")
+        return sensors
+
+    @field_validator("sensors")
+    @classmethod
+    def _through_its_cameras(cls, sensors: tuple[Sensor, ...], settings: ValidationInfo) -> tuple[Sensor, ...]:
+        if not {"models", "car"} <= settings.data.keys():
+            return sensors
+        if not any(not isinstance(sensor, Camera) or sensor.recorded for sensor in sensors):
+            raise ValueError("one that is recorded at least")
+        return _looking_through(sensors, cars_by_name(settings.data["models"])[settings.data["car"]])
+
+    @property
+    def body(self) -> CarBody:
+        """The ego car."""
+        return cars_by_name(self.models)[self.car]
+
+    @property
+    def cameras(self) -> tuple[Camera, ...]:
+        """Its cameras whose pictures are recorded."""
+        return tuple(sensor for sensor in self.sensors if isinstance(sensor, Camera) and sensor.recorded)
+
+    @property
+    def recorded(self) -> tuple[Sensor, ...]:
+        """Its sensors but for the cameras that are not recorded."""
+        return tuple(sensor for sensor in self.sensors if not isinstance(sensor, Camera) or sensor.recorded)
+
+    def scaled(self, scale: float) -> Self:
+        """The same rig with larger or smaller pictures, where any are recorded.
+
+        Raises
+        ------
+        ConfigError
+            If they would be too small or too large.
+        """
+        sensors = tuple(
+            sensor.scaled(scale) if isinstance(sensor, Camera) and sensor.recorded else sensor
+            for sensor in self.sensors
+        )
+        return self.model_copy(update={"sensors": _looking_through(sensors, self.body)})
+
+    def without_cameras(self) -> Self:
+        """The same rig with its LiDARs alone, of which it needs one."""
+        return self.model_copy(update={"sensors": self.lidars})
+
+    @property
+    def lidars(self) -> tuple[SpinningLidar | SolidStateLidar, ...]:
+        """Its LiDARs."""
+        return tuple(sensor for sensor in self.sensors if isinstance(sensor, SpinningLidar | SolidStateLidar))
+
+
+def _looking_through(sensors: tuple[Sensor, ...], car: CarBody) -> tuple[Sensor, ...]:
+    """Sensors whose around views look through the cameras among them."""
+    cameras = {sensor.name: sensor for sensor in sensors if isinstance(sensor, Camera)}
+    return tuple(sensor.through(cameras, car) if isinstance(sensor, AroundViewCamera) else sensor for sensor in sensors)
+
+
+def read_rig(name_or_path: str | Path) -> Rig:
+    """A shipped rig by its name, or one of a user's own from a TOML file.
+
+    Parameters
+    ----------
+    name_or_path
+        One of `RIG_NAMES`, or a path that ends in ``.toml``.
+
+    Raises
+    ------
+    ConfigError
+        If there is no such rig, the file cannot be read, or it holds what no rig has.
+    """
+    name = str(name_or_path)
+    if name in RIG_NAMES:
+        return _shipped(name)
+    if not name.lower().endswith(".toml"):
+        raise ConfigError("rig", name, f"one of {', '.join(RIG_NAMES)}, or a path that ends in .toml")
+    settings = read_toml(Path(name), field="rig")
+    if isinstance(models := settings.get("models"), str) and models:
+        settings = {**settings, "models": str((Path(name).parent / models).absolute())}
+    return rig_from_mapping(settings)
+
+
+def rig_from_mapping(settings: Mapping[str, Any]) -> Rig:
+    """Validate a rig given as nested mappings, as TOML reads them.
+
+    Raises
+    ------
+    ConfigError
+        With the setting, its value and what is allowed.
+    """
+    return validated(Rig, settings, within="rig")
+
+
+@cache
+def _shipped(name: str) -> Rig:
+    text = (resources.files("garage2usd.sensors") / "rigs" / f"{name}.toml").read_text(encoding="utf-8")
+    return rig_from_mapping(tomllib.loads(text))
